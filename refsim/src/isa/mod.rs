@@ -1,0 +1,17 @@
+//! Shader programs as data: versions, registers, modifiers, instructions, and THE opcode table.
+//!
+//! A [`Program`] is what an assembler front end produces, what the checker judges and what every executor
+//! runs. Nothing in here evaluates anything: values are the business of [`crate::exec`]. The words are
+//! Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`), because the programs are.
+
+mod opcode;
+mod operand;
+mod program;
+mod register;
+mod version;
+
+pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
+pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
+pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Program, Span, Usage};
+pub use register::{Register, RegisterFile, Relative};
+pub use version::{Stage, Version};

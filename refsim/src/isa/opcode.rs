@@ -1,0 +1,260 @@
+//! THE opcode table: the one place that says which operations exist, how they are spelt, what operands they take,
+//! in which versions they are available and how many instruction slots they cost there.
+//!
+//! The assembler, the printer, the checker, the executors and the timing model all read it; none keeps a list of
+//! its own. Sources: the Direct3D 9 shader assembly reference, pages "Instructions ps_1_X", "ps_2_0", "ps_2_x",
+//! "vs_1_1" and "vs_2_0".
+
+use super::Version;
+
+/// What kind of work an operation is, for order, slot and modifier rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OpcodeClass {
+    /// Computes on registers; counts against the arithmetic slots.
+    Arithmetic,
+    /// Reads coordinates or texels, kills, or replaces depth; counts against the texture slots.
+    Texture,
+    /// Branches, loops, calls and what delimits them.
+    Flow,
+    /// `phase` and `nop`-like markers that do nothing at run time.
+    Marker,
+}
+
+/// What an operation does with its first operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DestinationRule {
+    /// No destination operand.
+    None,
+    /// The first operand is written.
+    Write,
+    /// The first operand is written like a destination in the text but is read (`texkill`).
+    Read,
+}
+
+/// Slots that one instruction takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct SlotCost {
+    /// Texture instruction slots.
+    pub texture: u16,
+    /// Arithmetic instruction slots (the only kind that vertex versions have).
+    pub arithmetic: u16,
+}
+
+/// One row of the opcode table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OpInfo {
+    /// The operation.
+    pub opcode: Opcode,
+    /// Its spelling, without modifiers and comparison suffix.
+    pub mnemonic: &'static str,
+    /// Its kind.
+    pub class: OpcodeClass,
+    /// What happens to its first operand.
+    pub destination: DestinationRule,
+    /// Whether the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
+    pub comparison: bool,
+    /// Source operands by version, in the order of [`Version::ALL`]; `None` where the version lacks the operation.
+    sources: [Option<u8>; 9],
+    /// Slots by version, in the order of [`Version::ALL`].
+    slots: [u16; 9],
+}
+
+impl OpInfo {
+    /// Whether `version` has the operation.
+    pub const fn available(&self, version: Version) -> bool {
+        self.sources[version as usize].is_some()
+    }
+
+    /// How many source operands the operation takes in `version`; `None` where the version lacks it.
+    ///
+    /// `texkill`'s operand counts as destination ([`DestinationRule::Read`]), not as source.
+    pub const fn source_count(&self, version: Version) -> Option<u8> {
+        self.sources[version as usize]
+    }
+
+    /// The slots that the operation takes in `version`, leaving aside co-issue, predication and texture type.
+    pub const fn slot_cost(&self, version: Version) -> SlotCost {
+        let n = self.slots[version as usize];
+        match self.class {
+            OpcodeClass::Texture if matches!(self.opcode, Opcode::TexBemL) => SlotCost {
+                texture: n,
+                arithmetic: 1,
+            },
+            OpcodeClass::Texture => SlotCost {
+                texture: n,
+                arithmetic: 0,
+            },
+            _ => SlotCost {
+                texture: 0,
+                arithmetic: n,
+            },
+        }
+    }
+}
+
+/// `-` in the table below: not available.
+const NA: (Option<u8>, u16) = (None, 0);
+/// A cell of the table: so many sources, so many slots.
+const fn c(sources: u8, slots: u16) -> (Option<u8>, u16) {
+    (Some(sources), slots)
+}
+
+const fn split(cells: [(Option<u8>, u16); 9]) -> ([Option<u8>; 9], [u16; 9]) {
+    let mut sources = [None; 9];
+    let mut slots = [0; 9];
+    let mut i = 0;
+    while i < 9 {
+        sources[i] = cells[i].0;
+        slots[i] = cells[i].1;
+        i += 1;
+    }
+    (sources, slots)
+}
+
+macro_rules! opcodes {
+    ($($variant:ident $mnemonic:literal $class:ident $dest:ident $comparison:literal [$($cell:expr),* $(,)?])*) => {
+        /// An operation. The table in this file says everything else about it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[expect(missing_docs, reason = "the variants are the mnemonics")]
+        pub enum Opcode { $($variant),* }
+
+        impl Opcode {
+            /// Every operation, in the order of the table.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// The operation's row of the table.
+            pub const fn info(self) -> &'static OpInfo {
+                match self {
+                    $(Self::$variant => {
+                        const CELLS: ([Option<u8>; 9], [u16; 9]) = split([$($cell),*]);
+                        const INFO: OpInfo = OpInfo {
+                            opcode: Opcode::$variant,
+                            mnemonic: $mnemonic,
+                            class: OpcodeClass::$class,
+                            destination: DestinationRule::$dest,
+                            comparison: $comparison,
+                            sources: CELLS.0,
+                            slots: CELLS.1,
+                        };
+                        &INFO
+                    })*
+                }
+            }
+        }
+    };
+}
+
+#[rustfmt::skip]
+opcodes! {
+//  variant      mnemonic       class      dest  cmp    ps_1_1   ps_1_2   ps_1_3   ps_1_4   ps_2_0   ps_2_a   ps_2_b   vs_1_1    vs_2_0
+    Nop          "nop"          Marker     None  false [c(0,0),  c(0,0),  c(0,0),  c(0,0),  c(0,1),  c(0,1),  c(0,1),  c(0,1),   c(0,1)]
+    Phase        "phase"        Marker     None  false [NA,      NA,      NA,      c(0,0),  NA,      NA,      NA,      NA,       NA]
+    Mov          "mov"          Arithmetic Write false [c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
+    Mova         "mova"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(1,1)]
+    Add          "add"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Sub          "sub"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Mul          "mul"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Mad          "mad"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),   c(3,1)]
+    Lrp          "lrp"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,2),  c(3,2),  c(3,2),  NA,       c(3,2)]
+    Dp3          "dp3"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Dp4          "dp4"          Arithmetic Write false [NA,      c(2,2),  c(2,2),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Dp2Add       "dp2add"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,2),  c(3,2),  c(3,2),  NA,       NA]
+    Cnd          "cnd"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,      NA,      NA,      NA,       NA]
+    Cmp          "cmp"          Arithmetic Write false [NA,      c(3,2),  c(3,2),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,       NA]
+    Bem          "bem"          Arithmetic Write false [NA,      NA,      NA,      c(2,2),  NA,      NA,      NA,      NA,       NA]
+    Abs          "abs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  NA,       c(1,1)]
+    Min          "min"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Max          "max"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
+    Frc          "frc"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,3),   c(1,1)]
+    Rcp          "rcp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
+    Rsq          "rsq"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
+    Exp          "exp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10),  c(1,1)]
+    Log          "log"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10),  c(1,1)]
+    Expp         "expp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,1)]
+    Logp         "logp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,1)]
+    Pow          "pow"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  NA,       c(2,3)]
+    Crs          "crs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  NA,       c(2,2)]
+    Nrm          "nrm"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,3),  c(1,3),  c(1,3),  NA,       c(1,3)]
+    Sgn          "sgn"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(3,3)]
+    SinCos       "sincos"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,8),  c(3,8),  c(3,8),  NA,       c(3,8)]
+    Sge          "sge"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
+    Slt          "slt"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
+    Dst          "dst"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
+    Lit          "lit"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,3)]
+    M3x2         "m3x2"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  c(2,2),   c(2,2)]
+    M3x3         "m3x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),   c(2,3)]
+    M3x4         "m3x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),   c(2,4)]
+    M4x3         "m4x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),   c(2,3)]
+    M4x4         "m4x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),   c(2,4)]
+    Dsx          "dsx"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       NA]
+    Dsy          "dsy"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       NA]
+    Setp         "setp"         Arithmetic Write true  [NA,      NA,      NA,      NA,      NA,      c(2,1),  NA,      NA,       NA]
+    Tex          "tex"          Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexCoord     "texcoord"     Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexKill      "texkill"      Texture    Read  false [c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,2),  c(0,2),  NA,       NA]
+    TexBem       "texbem"       Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexBemL      "texbeml"      Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexReg2Ar    "texreg2ar"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexReg2Gb    "texreg2gb"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexReg2Rgb   "texreg2rgb"   Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x2Pad   "texm3x2pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x2Tex   "texm3x2tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x2Depth "texm3x2depth" Texture    Write false [NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x3Pad   "texm3x3pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x3Tex   "texm3x3tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x3Spec  "texm3x3spec"  Texture    Write false [c(2,1),  c(2,1),  c(2,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x3VSpec "texm3x3vspec" Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexM3x3      "texm3x3"      Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexDp3       "texdp3"       Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexDp3Tex    "texdp3tex"    Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
+    TexLd        "texld"        Texture    Write false [NA,      NA,      NA,      c(1,1),  c(2,1),  c(2,1),  c(2,1),  NA,       NA]
+    TexLdB       "texldb"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,6),  NA,       NA]
+    TexLdP       "texldp"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,3),  NA,       NA]
+    TexLdD       "texldd"       Texture    Write false [NA,      NA,      NA,      NA,      NA,      c(4,3),  NA,      NA,       NA]
+    TexCrd       "texcrd"       Texture    Write false [NA,      NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,       NA]
+    TexDepth     "texdepth"     Texture    Write false [NA,      NA,      NA,      c(0,1),  NA,      NA,      NA,      NA,       NA]
+    If           "if"           Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       c(1,3)]
+    IfC          "if"           Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       NA]
+    Else         "else"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
+    EndIf        "endif"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
+    Rep          "rep"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       c(1,3)]
+    EndRep       "endrep"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,2),  NA,      NA,       c(0,2)]
+    Loop         "loop"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(2,3)]
+    EndLoop      "endloop"      Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(0,2)]
+    Break        "break"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       NA]
+    BreakC       "break"        Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       NA]
+    BreakP       "breakp"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       NA]
+    Call         "call"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       c(1,2)]
+    CallNz       "callnz"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       c(2,3)]
+    Label        "label"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,0),  NA,      NA,       c(1,0)]
+    Ret          "ret"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
+}
+
+/// The comparison of `if_`, `break_` and `setp_`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the variants are the suffixes")]
+pub enum Comparison {
+    Gt,
+    Lt,
+    Ge,
+    Le,
+    Eq,
+    Ne,
+}
+
+impl Comparison {
+    /// Every comparison.
+    pub const ALL: [Self; 6] = [Self::Gt, Self::Lt, Self::Ge, Self::Le, Self::Eq, Self::Ne];
+
+    /// The suffix, without the underscore.
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::Gt => "gt",
+            Self::Lt => "lt",
+            Self::Ge => "ge",
+            Self::Le => "le",
+            Self::Eq => "eq",
+            Self::Ne => "ne",
+        }
+    }
+}

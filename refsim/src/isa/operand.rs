@@ -1,0 +1,119 @@
+//! Sources and destinations: swizzles, masks and modifiers.
+
+use super::{Register, Span};
+
+/// Which register component each of the four lanes reads: entry `i` is the component (0 to 3) that lane `i` sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Swizzle(pub [u8; 4]);
+
+impl Swizzle {
+    /// `.xyzw`: no change; printed as nothing.
+    pub const IDENTITY: Self = Self([0, 1, 2, 3]);
+
+    /// All four lanes read the same component.
+    pub const fn replicate(component: u8) -> Self {
+        Self([component; 4])
+    }
+
+    /// The component that all lanes read, if they read the same one.
+    pub fn replicated(self) -> Option<u8> {
+        let first = self.0[0];
+        self.0.iter().all(|&c| c == first).then_some(first)
+    }
+}
+
+/// A write mask: bit `i` set means that component `i` is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Mask(pub u8);
+
+impl Mask {
+    /// `.xyzw`; printed as nothing.
+    pub const ALL: Self = Self(0b1111);
+    /// `.rgb`
+    pub const RGB: Self = Self(0b0111);
+    /// `.a`
+    pub const ALPHA: Self = Self(0b1000);
+
+    /// Whether component `component` (0 to 3) is written.
+    pub const fn contains(self, component: usize) -> bool {
+        self.0 >> component & 1 == 1
+    }
+
+    /// The written components in rising order.
+    pub fn components(self) -> impl Iterator<Item = usize> {
+        (0..4).filter(move |&c| self.contains(c))
+    }
+}
+
+/// A source modifier. Arithmetic meaning, with `x` the value after the swizzle; each step rounds once into the
+/// register format, and negation comes last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Modifier {
+    /// `x`
+    None,
+    /// `-x`
+    Negate,
+    /// `1-x`: written as a prefix.
+    Invert,
+    /// `x_bias`: `x - 0.5`
+    Bias,
+    /// `-x_bias`
+    BiasNegate,
+    /// `x_bx2`: `2 (x - 0.5)`
+    Bx2,
+    /// `-x_bx2`
+    Bx2Negate,
+    /// `x_x2`: `2 x`
+    X2,
+    /// `-x_x2`
+    X2Negate,
+    /// `x_dz` (also `_db`): x and y divided by z
+    Dz,
+    /// `x_dw` (also `_da`): x and y divided by w
+    Dw,
+    /// `!p0` or `!b0`: logical not
+    Not,
+}
+
+/// One source operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Source {
+    /// The register read.
+    pub register: Register,
+    /// The component that each lane reads.
+    pub swizzle: Swizzle,
+    /// What is done to the value before the operation sees it.
+    pub modifier: Modifier,
+    /// Where the operand stands in the program text.
+    pub span: Span,
+}
+
+/// The destination operand, with the instruction's result modifiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Destination {
+    /// The register written.
+    pub register: Register,
+    /// The components written.
+    pub mask: Mask,
+    /// `_x2 _x4 _x8` as 1, 2, 3 and `_d2 _d4 _d8` as -1, -2, -3: the result is multiplied by two to this power.
+    pub shift: i8,
+    /// `_sat`: the result is clamped to [0, 1], after the shift.
+    pub saturate: bool,
+    /// `_pp`: partial precision is enough.
+    pub partial_precision: bool,
+    /// `_centroid`: on declarations only; kept for printing.
+    pub centroid: bool,
+    /// Where the operand stands in the program text.
+    pub span: Span,
+}
+
+/// `(p0.x)` or `(!p0)` in front of an instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Predicate {
+    /// Whether the predicate is inverted.
+    pub not: bool,
+    /// Which predicate component each lane obeys.
+    pub swizzle: Swizzle,
+    /// Where it stands in the program text.
+    pub span: Span,
+}

@@ -1,0 +1,147 @@
+//! Programs and their parts.
+
+use super::{Comparison, Destination, Opcode, Predicate, Register, Source, Version};
+
+/// A byte range of the program text.
+///
+/// Spans never take part in comparisons: two programs are equal if they mean the same.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Span {
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl PartialEq for Span {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+impl Eq for Span {}
+impl std::hash::Hash for Span {
+    fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
+}
+
+impl Span {
+    /// The span from `start` to `end` (bytes).
+    pub const fn new(start: u32, end: u32) -> Self {
+        Self { start, end }
+    }
+
+    /// The smallest span that holds both.
+    pub fn join(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+}
+
+/// The value of a `def`, `defi` or `defb`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ConstantValue {
+    /// `def c#`: four IEEE single bit patterns, the decimal text rounded to nearest even.
+    Float([u32; 4]),
+    /// `defi i#`
+    Int([i32; 4]),
+    /// `defb b#`
+    Bool(bool),
+}
+
+/// A constant that the program brings along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ConstantDef {
+    /// The constant register.
+    pub register: Register,
+    /// Its value.
+    pub value: ConstantValue,
+    /// How many instructions stand before it; 0 for a well-placed `def`.
+    pub position: usize,
+    /// Where it stands in the program text.
+    pub span: Span,
+}
+
+/// What a declared register carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(
+    missing_docs,
+    reason = "the variants are Direct3D's usages and texture types"
+)]
+pub enum Usage {
+    /// `dcl t0`, `dcl v0` in a pixel program.
+    Plain,
+    Sampler2d,
+    SamplerCube,
+    SamplerVolume,
+    /// `dcl_position# v#` in a vertex program; the number is the usage index.
+    Position(u8),
+    BlendWeight(u8),
+    BlendIndices(u8),
+    Normal(u8),
+    PointSize(u8),
+    TexCoord(u8),
+    Tangent(u8),
+    Binormal(u8),
+    TessFactor(u8),
+    Color(u8),
+    Fog(u8),
+    Depth(u8),
+    Sample(u8),
+}
+
+/// A `dcl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Declaration {
+    /// What the register carries.
+    pub usage: Usage,
+    /// The register with mask and hints (`dcl_pp`, `dcl_centroid`).
+    pub destination: Destination,
+    /// How many instructions stand before it.
+    pub position: usize,
+    /// Where it stands in the program text.
+    pub span: Span,
+}
+
+/// One instruction.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Instruction {
+    /// The operation.
+    pub opcode: Opcode,
+    /// The comparison, where the operation takes one.
+    pub comparison: Option<Comparison>,
+    /// Where the result goes, if the operation has one.
+    pub destination: Option<Destination>,
+    /// The operands, in the order of the text.
+    pub sources: Vec<Source>,
+    /// `+`: issued together with the instruction before.
+    pub coissue: bool,
+    /// `(p0)` in front.
+    pub predicate: Option<Predicate>,
+    /// The whole instruction in the program text.
+    pub span: Span,
+}
+
+/// A program of one version. Nothing says that it is legal: that is [`crate::check`]'s question.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Program {
+    /// The version token.
+    pub version: Version,
+    /// Where the version token stands.
+    pub version_span: Span,
+    /// The constants it defines, in the order of the text.
+    pub constants: Vec<ConstantDef>,
+    /// What it declares, in the order of the text.
+    pub declarations: Vec<Declaration>,
+    /// Its instructions, `phase` and flow control included.
+    pub instructions: Vec<Instruction>,
+}
+
+impl Program {
+    /// The index of the `phase` instruction, if there is one.
+    pub fn phase_marker(&self) -> Option<usize> {
+        self.instructions
+            .iter()
+            .position(|i| i.opcode == Opcode::Phase)
+    }
+}

@@ -1,0 +1,123 @@
+//! Registers and the files they live in.
+
+use std::fmt;
+
+/// A register file. The comment gives the spelling in programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum RegisterFile {
+    /// `r#`: temporaries.
+    Temp,
+    /// `v#`: colours in a pixel program, vertex attributes in a vertex program.
+    Input,
+    /// `t#`: texture coordinates (and, in ps_1_1 to 1_3, texture results).
+    Texture,
+    /// `c#`: constants.
+    Constant,
+    /// `i#`: integer constants.
+    ConstantInt,
+    /// `b#`: boolean constants.
+    ConstantBool,
+    /// `s#`: samplers.
+    Sampler,
+    /// `a0`: the vertex program's address register.
+    Address,
+    /// `aL`: the loop counter.
+    Loop,
+    /// `p0`: the predicate register.
+    Predicate,
+    /// `l#`: subroutine labels.
+    Label,
+    /// `oC#`: colour outputs of ps_2_0 and up.
+    ColorOut,
+    /// `oDepth`: depth output of ps_2_0 and up.
+    DepthOut,
+    /// `oPos`: clip-space position of a vertex.
+    PositionOut,
+    /// `oFog`: fog factor of a vertex.
+    FogOut,
+    /// `oPts`: point size of a vertex.
+    PointSizeOut,
+    /// `oD#`: colours of a vertex.
+    DiffuseOut,
+    /// `oT#`: texture coordinates of a vertex.
+    TexCoordOut,
+}
+
+impl RegisterFile {
+    /// The prefix under which programs write the file's registers.
+    pub const fn prefix(self) -> &'static str {
+        match self {
+            Self::Temp => "r",
+            Self::Input => "v",
+            Self::Texture => "t",
+            Self::Constant => "c",
+            Self::ConstantInt => "i",
+            Self::ConstantBool => "b",
+            Self::Sampler => "s",
+            Self::Address => "a",
+            Self::Loop => "aL",
+            Self::Predicate => "p",
+            Self::Label => "l",
+            Self::ColorOut => "oC",
+            Self::DepthOut => "oDepth",
+            Self::PositionOut => "oPos",
+            Self::FogOut => "oFog",
+            Self::PointSizeOut => "oPts",
+            Self::DiffuseOut => "oD",
+            Self::TexCoordOut => "oT",
+        }
+    }
+
+    /// Whether the file has a single register that is written without a number.
+    pub const fn is_unnumbered(self) -> bool {
+        matches!(
+            self,
+            Self::Loop | Self::DepthOut | Self::PositionOut | Self::FogOut | Self::PointSizeOut
+        )
+    }
+}
+
+/// Relative addressing of a constant: `c[a0.x + 3]` or `c[aL + 3]`. The constant part is the register's index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Relative {
+    /// Through a component (0 to 3 for x to w) of `a0`.
+    Address(u8),
+    /// Through the loop counter `aL`.
+    Loop,
+}
+
+/// One register, as an instruction names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Register {
+    /// The file.
+    pub file: RegisterFile,
+    /// The number in the file (0 for unnumbered registers).
+    pub index: u16,
+    /// What is added to the number when the instruction runs.
+    pub relative: Option<Relative>,
+}
+
+impl Register {
+    /// A register without relative addressing.
+    pub const fn new(file: RegisterFile, index: u16) -> Self {
+        Self {
+            file,
+            index,
+            relative: None,
+        }
+    }
+}
+
+impl fmt::Display for Register {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.relative {
+            None if self.file.is_unnumbered() => f.write_str(self.file.prefix()),
+            None => write!(f, "{}{}", self.file.prefix(), self.index),
+            Some(Relative::Address(component)) => {
+                let name = ['x', 'y', 'z', 'w'][usize::from(component & 3)];
+                write!(f, "{}[a0.{name} + {}]", self.file.prefix(), self.index)
+            }
+            Some(Relative::Loop) => write!(f, "{}[aL + {}]", self.file.prefix(), self.index),
+        }
+    }
+}

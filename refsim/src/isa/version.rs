@@ -1,0 +1,113 @@
+//! Shader versions.
+
+use std::{fmt, str::FromStr};
+
+/// Which programmable stage a program runs on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Runs once a vertex.
+    Vertex,
+    /// Runs once a fragment.
+    Pixel,
+}
+
+/// A shader version, as the first token of a program names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the variants are the version tokens")]
+pub enum Version {
+    Ps1_1,
+    Ps1_2,
+    Ps1_3,
+    Ps1_4,
+    Ps2_0,
+    /// The NV3x flavour of `ps_2_x`.
+    Ps2A,
+    /// The R4xx flavour of `ps_2_x`.
+    Ps2B,
+    Vs1_1,
+    Vs2_0,
+}
+
+impl Version {
+    /// Every version, in the order of the enumeration.
+    pub const ALL: [Self; 9] = [
+        Self::Ps1_1,
+        Self::Ps1_2,
+        Self::Ps1_3,
+        Self::Ps1_4,
+        Self::Ps2_0,
+        Self::Ps2A,
+        Self::Ps2B,
+        Self::Vs1_1,
+        Self::Vs2_0,
+    ];
+
+    /// The version token as it is written in a program, `ps_1_4` for example.
+    pub const fn token(self) -> &'static str {
+        match self {
+            Self::Ps1_1 => "ps_1_1",
+            Self::Ps1_2 => "ps_1_2",
+            Self::Ps1_3 => "ps_1_3",
+            Self::Ps1_4 => "ps_1_4",
+            Self::Ps2_0 => "ps_2_0",
+            Self::Ps2A => "ps_2_a",
+            Self::Ps2B => "ps_2_b",
+            Self::Vs1_1 => "vs_1_1",
+            Self::Vs2_0 => "vs_2_0",
+        }
+    }
+
+    /// The stage that programs of this version run on.
+    pub const fn stage(self) -> Stage {
+        match self {
+            Self::Vs1_1 | Self::Vs2_0 => Stage::Vertex,
+            _ => Stage::Pixel,
+        }
+    }
+
+    /// Whether this is one of `ps_1_1` to `ps_1_3`, whose texture instructions are tied to stages.
+    pub const fn is_ps_1_1_to_1_3(self) -> bool {
+        matches!(self, Self::Ps1_1 | Self::Ps1_2 | Self::Ps1_3)
+    }
+
+    /// Whether this is one of `ps_1_1` to `ps_1_4`.
+    pub const fn is_ps_1_x(self) -> bool {
+        self.is_ps_1_1_to_1_3() || matches!(self, Self::Ps1_4)
+    }
+
+    /// Whether this is `ps_2_0`, `ps_2_a` or `ps_2_b`.
+    pub const fn is_ps_2(self) -> bool {
+        matches!(self, Self::Ps2_0 | Self::Ps2A | Self::Ps2B)
+    }
+
+    /// Whether this is one of the extended `ps_2_x` versions.
+    pub const fn is_ps_2_x(self) -> bool {
+        matches!(self, Self::Ps2A | Self::Ps2B)
+    }
+}
+
+impl fmt::Display for Version {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.token())
+    }
+}
+
+/// The text is no version token.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "unknown shader version `{0}`; expected one of ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0"
+)]
+pub struct UnknownVersion(pub String);
+
+impl FromStr for Version {
+    type Err = UnknownVersion;
+
+    /// Accepts the token in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let token = text.to_ascii_lowercase().replace('.', "_");
+        Self::ALL
+            .into_iter()
+            .find(|v| v.token() == token)
+            .ok_or_else(|| UnknownVersion(text.to_owned()))
+    }
+}

@@ -1,0 +1,3 @@
+//! `refsim`: a bit-exact emulator of the first programmable graphics cards.
+
+pub mod isa;

@@ -1,0 +1,2 @@
+//! The `crossbar` program.
+fn main() {}
