@@ -1,1 +1,5 @@
-//! Crossbar.
+//! Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
+//!
+//! The emulated cards are in [`refsim`]; the systems that ran on them, the studies and the program are here.
+
+pub mod report;

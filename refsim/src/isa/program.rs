@@ -31,10 +31,7 @@ impl Span {
 
     /// The smallest span that holds both.
     pub fn join(self, other: Self) -> Self {
-        Self {
-            start: self.start.min(other.start),
-            end: self.end.max(other.end),
-        }
+        Self { start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 }
 
@@ -64,10 +61,7 @@ pub struct ConstantDef {
 
 /// What a declared register carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(
-    missing_docs,
-    reason = "the variants are Direct3D's usages and texture types"
-)]
+#[expect(missing_docs, reason = "the variants are Direct3D's usages and texture types")]
 pub enum Usage {
     /// `dcl t0`, `dcl v0` in a pixel program.
     Plain,
@@ -140,8 +134,6 @@ pub struct Program {
 impl Program {
     /// The index of the `phase` instruction, if there is one.
     pub fn phase_marker(&self) -> Option<usize> {
-        self.instructions
-            .iter()
-            .position(|i| i.opcode == Opcode::Phase)
+        self.instructions.iter().position(|i| i.opcode == Opcode::Phase)
     }
 }

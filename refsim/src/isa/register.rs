@@ -70,10 +70,7 @@ impl RegisterFile {
 
     /// Whether the file has a single register that is written without a number.
     pub const fn is_unnumbered(self) -> bool {
-        matches!(
-            self,
-            Self::Loop | Self::DepthOut | Self::PositionOut | Self::FogOut | Self::PointSizeOut
-        )
+        matches!(self, Self::Loop | Self::DepthOut | Self::PositionOut | Self::FogOut | Self::PointSizeOut)
     }
 }
 
@@ -100,11 +97,7 @@ pub struct Register {
 impl Register {
     /// A register without relative addressing.
     pub const fn new(file: RegisterFile, index: u16) -> Self {
-        Self {
-            file,
-            index,
-            relative: None,
-        }
+        Self { file, index, relative: None }
     }
 }
 

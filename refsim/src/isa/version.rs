@@ -94,9 +94,7 @@ impl fmt::Display for Version {
 
 /// The text is no version token.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "unknown shader version `{0}`; expected one of ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0"
-)]
+#[error("unknown shader version `{0}`; expected one of ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0")]
 pub struct UnknownVersion(pub String);
 
 impl FromStr for Version {
@@ -105,9 +103,6 @@ impl FromStr for Version {
     /// Accepts the token in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let token = text.to_ascii_lowercase().replace('.', "_");
-        Self::ALL
-            .into_iter()
-            .find(|v| v.token() == token)
-            .ok_or_else(|| UnknownVersion(text.to_owned()))
+        Self::ALL.into_iter().find(|v| v.token() == token).ok_or_else(|| UnknownVersion(text.to_owned()))
     }
 }
