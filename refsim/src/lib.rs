@@ -1,3 +1,4 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 
+pub mod asm;
 pub mod isa;

@@ -23,6 +23,13 @@ impl std::hash::Hash for Span {
     fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
 }
 
+impl From<Span> for miette::SourceSpan {
+    fn from(span: Span) -> Self {
+        let length = span.end.saturating_sub(span.start) as usize;
+        Self::new((span.start as usize).into(), length)
+    }
+}
+
 impl Span {
     /// The span from `start` to `end` (bytes).
     pub const fn new(start: u32, end: u32) -> Self {

@@ -1,0 +1,96 @@
+//! Lists of operands and values: commas, ends, and going on after an error.
+
+use super::error::{ErrorKind, SyntaxError, quote};
+use super::lexer::Kind;
+use super::parser::{Parsed, Parser};
+use super::word;
+use crate::isa::{Destination, Source};
+
+impl Parser<'_> {
+    /// Whether the current token ends an operand list (without a comma before it).
+    pub(super) fn at_list_end(&self) -> bool {
+        let token = self.peek();
+        match token.kind {
+            Kind::Newline | Kind::End | Kind::Plus | Kind::OpenParen => true,
+            Kind::Word => word::starts_statement(token.text) || word::is_version(token.text),
+            _ => false,
+        }
+    }
+
+    /// Takes the comma between two items of a list, if there is one, and the line ends after it when the list goes
+    /// on in the next line.
+    pub(super) fn comma(&mut self, first: bool) -> Parsed<()> {
+        let Some(comma) = self.accept(Kind::Comma) else {
+            return Ok(());
+        };
+        let mut ahead = 0;
+        while self.peek_at(ahead).kind == Kind::Newline {
+            ahead += 1;
+        }
+        let token = self.peek_at(ahead);
+        let ends = match token.kind {
+            Kind::Word => word::starts_statement(token.text) || word::is_version(token.text),
+            // Only a number can follow: `def c0, +1`.
+            Kind::Plus => self.peek_at(ahead + 1).kind != Kind::Number,
+            Kind::Number | Kind::Minus | Kind::Bang => false,
+            Kind::Comma | Kind::OpenParen | Kind::Newline | Kind::End => true,
+            // Nonsense: the operand's own error says more, if it is in this line.
+            _ => ahead > 0,
+        };
+        if !ends && !first {
+            self.at += ahead;
+            return Ok(());
+        }
+        Err(SyntaxError::new(
+            ErrorKind::MalformedOperand,
+            comma.span,
+            if first {
+                "the first operand"
+            } else {
+                "an operand after the comma"
+            },
+            if first {
+                quote(",")
+            } else {
+                self.peek().found()
+            },
+            "a comma stands between two operands only",
+        ))
+    }
+
+    /// Reads a destination, if there should be one, and sources to the end of the list. `None` after an error,
+    /// which is then recorded.
+    pub(super) fn operands(
+        &mut self,
+        has_destination: bool,
+    ) -> Option<(Option<Destination>, Vec<Source>)> {
+        let mut destination = None;
+        let mut sources = Vec::new();
+        let mut good = true;
+        let mut first = true;
+        while first || !self.at_list_end() {
+            if let Err(error) = self.comma(first) {
+                self.record(error);
+                good = false;
+            }
+            if self.peek().kind == Kind::Comma {
+                continue;
+            }
+            if self.at_list_end() {
+                break;
+            }
+            let read = if first && has_destination {
+                self.destination().map(|d| destination = Some(d))
+            } else {
+                self.source().map(|s| sources.push(s))
+            };
+            if let Err(error) = read {
+                self.record(error);
+                self.skip_operand();
+                good = false;
+            }
+            first = false;
+        }
+        good.then_some((destination, sources))
+    }
+}

@@ -1,0 +1,61 @@
+//! Period assembly: text to [`Program`] and back.
+//!
+//! [`assemble`] reads what programmers of 2001 to 2004 wrote: any case, commas where they please, `//`, `;` and
+//! `/* */` comments, DirectX 8 spellings (`ps.1.4`), selectors before or after modifiers. It judges *shape* only:
+//! a program with `r99` or forty instructions too many assembles, and the checker says what is wrong with it. What
+//! has no shape (an unknown word, a malformed operand, a wrong operand count) is a syntax error, and one call finds
+//! them all.
+//!
+//! [`print`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
+//!
+//! Two spellings are ours, because period text cannot say them: `def` takes `0x` and eight hexadecimal digits as the
+//! bits of a float (so that infinities and NaNs can be printed), and a constant's value may end in `f`.
+//! Source: Direct3D 9 "Assembly Shader Syntax" pages, DirectX 8.1 "Pixel Shader Assembler Reference".
+
+mod declare;
+mod error;
+mod lexer;
+mod list;
+mod number;
+mod operand;
+mod parser;
+mod print;
+mod word;
+
+pub use error::{AssembleErrors, ErrorKind, SyntaxError};
+pub use print::print;
+
+use crate::isa::{Program, Span};
+
+/// The longest program text that [`assemble`] reads, in bytes.
+pub const MAX_TEXT: usize = 1 << 20;
+/// The most instructions, constants and declarations together that a program may have.
+pub const MAX_STATEMENTS: usize = 1 << 16;
+/// How many syntax errors are reported before the assembler gives up on a text.
+pub const MAX_ERRORS: usize = 1000;
+/// The highest register number that can be written; what a version really has is the checker's business.
+pub const MAX_REGISTER: u16 = u16::MAX;
+/// The most operands that an instruction foreign to its version may have.
+pub const MAX_OPERANDS: usize = 8;
+/// The longest number, in characters.
+pub const MAX_NUMBER: usize = 128;
+
+/// Reads a program.
+///
+/// # Errors
+/// Every syntax error of the text, in the order of the text, up to [`MAX_ERRORS`].
+pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
+    if text.len() > MAX_TEXT {
+        return Err(AssembleErrors {
+            errors: vec![SyntaxError::new(
+                ErrorKind::TextTooLong,
+                Span::new(0, 0),
+                format!("at most {MAX_TEXT} bytes of program text"),
+                format!("{} bytes", text.len()),
+                "split the text: no card of the period takes a program of this length",
+            )],
+        });
+    }
+    let (tokens, errors) = lexer::lex(text);
+    parser::Parser::new(tokens, errors).run()
+}

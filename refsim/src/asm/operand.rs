@@ -1,0 +1,438 @@
+//! Operands: registers with their addresses, swizzles, masks and modifiers.
+
+use super::error::{ErrorKind, SyntaxError, quote};
+use super::lexer::{Kind, Token};
+use super::parser::{Parsed, Parser};
+use super::{MAX_REGISTER, word};
+use crate::isa::{
+    Destination, Mask, Modifier, Register, RegisterFile, Relative, Source, Span, Swizzle,
+};
+
+/// The files, longest prefixes first.
+const FILES: [RegisterFile; 18] = [
+    RegisterFile::DepthOut,
+    RegisterFile::PositionOut,
+    RegisterFile::FogOut,
+    RegisterFile::PointSizeOut,
+    RegisterFile::ColorOut,
+    RegisterFile::DiffuseOut,
+    RegisterFile::TexCoordOut,
+    RegisterFile::Loop,
+    RegisterFile::Temp,
+    RegisterFile::Input,
+    RegisterFile::Texture,
+    RegisterFile::Constant,
+    RegisterFile::ConstantInt,
+    RegisterFile::ConstantBool,
+    RegisterFile::Sampler,
+    RegisterFile::Address,
+    RegisterFile::Predicate,
+    RegisterFile::Label,
+];
+
+/// A source modifier written after the register.
+#[derive(Clone, Copy)]
+enum Suffix {
+    Bias,
+    Bx2,
+    X2,
+    Dz,
+    Dw,
+}
+
+/// A source modifier written in front of the register.
+#[derive(Clone, Copy)]
+enum Prefix {
+    Negate,
+    Invert,
+    Not,
+}
+
+/// A register with everything that was written around it.
+struct Named<'a> {
+    register: Register,
+    /// The words of modifiers, in the order of the text.
+    modifiers: Vec<(&'a str, Span)>,
+    /// The letters after the point.
+    selector: Option<(&'a str, Span)>,
+}
+
+/// Reads a swizzle's letters: one to four of `xyzw` or of `rgba`, the last repeated.
+pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
+    let bad = || {
+        SyntaxError::new(
+            ErrorKind::Swizzle,
+            span,
+            "one to four letters of xyzw or of rgba",
+            quote(letters),
+            "write `.x`, `.xyz` or `.wzyx`, for example; the two sets of letters don't mix",
+        )
+    };
+    let components = components(letters).ok_or_else(bad)?;
+    let last = *components.last().ok_or_else(bad)?;
+    let mut lanes = [last; 4];
+    lanes[..components.len()].copy_from_slice(&components);
+    Ok(Swizzle(lanes))
+}
+
+/// The component numbers of one to four letters of one set.
+fn components(letters: &str) -> Option<Vec<u8>> {
+    if letters.is_empty() || letters.len() > 4 {
+        return None;
+    }
+    ["xyzw", "rgba"].iter().find_map(|set| {
+        letters
+            .bytes()
+            .map(|letter| set.bytes().position(|l| l == letter.to_ascii_lowercase()))
+            .map(|position| position.map(|p| p as u8))
+            .collect()
+    })
+}
+
+fn mask(letters: &str, span: Span) -> Parsed<Mask> {
+    let bad = |help: &str| {
+        SyntaxError::new(
+            ErrorKind::Mask,
+            span,
+            "letters of xyzw or of rgba in this order, each once at most",
+            quote(letters),
+            help,
+        )
+    };
+    let Some(components) = components(letters) else {
+        return Err(bad(
+            "write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix",
+        ));
+    };
+    if !components.is_sorted_by(|a, b| a < b) {
+        return Err(bad(
+            "a destination takes a mask, no swizzle: put the swizzle on the sources",
+        ));
+    }
+    Ok(Mask(components.iter().fold(0, |bits, c| bits | 1 << c)))
+}
+
+fn is_file(letters: &str) -> Option<RegisterFile> {
+    FILES
+        .into_iter()
+        .find(|f| f.prefix().eq_ignore_ascii_case(letters))
+}
+
+/// A register number; `None` where it exceeds [`MAX_REGISTER`].
+fn number(digits: &str) -> Option<u16> {
+    let digits = digits.trim_start_matches('0');
+    match digits.len() {
+        0 => Some(0),
+        1..=5 => digits.parse().ok(),
+        _ => None,
+    }
+}
+
+fn out_of_range(what: &str, found: &str, span: Span) -> SyntaxError {
+    SyntaxError::new(
+        ErrorKind::RegisterNumber,
+        span,
+        format!("a {what} of at most {MAX_REGISTER}"),
+        quote(found),
+        "no version has more than a few hundred registers of a kind",
+    )
+}
+
+fn suffix_of(word: &str, span: Span) -> Parsed<Suffix> {
+    match word.to_ascii_lowercase().as_str() {
+        "bias" => Ok(Suffix::Bias),
+        "bx2" => Ok(Suffix::Bx2),
+        "x2" => Ok(Suffix::X2),
+        "dz" | "db" => Ok(Suffix::Dz),
+        "dw" | "da" => Ok(Suffix::Dw),
+        lower => Err(SyntaxError::new(
+            ErrorKind::UnknownSourceModifier,
+            span,
+            "one of _bias _bx2 _x2 _dz _dw (or _db _da)",
+            quote(&format!("_{word}")),
+            match lower {
+                "abs" => {
+                    "`_abs` came with ps_3_0: use `abs`, or `max` of the value and its negative"
+                }
+                "sat" | "x4" | "x8" | "d2" | "d4" | "d8" | "pp" => {
+                    "this one belongs on the instruction: `add_sat`, for example"
+                }
+                _ => "write `r0_bx2` or `-r0_bias`, for example",
+            },
+        )),
+    }
+}
+
+fn combine(prefix: Option<Prefix>, suffix: Option<Suffix>, span: Span) -> Parsed<Modifier> {
+    Ok(match (prefix, suffix) {
+        (None, None) => Modifier::None,
+        (Some(Prefix::Negate), None) => Modifier::Negate,
+        (Some(Prefix::Invert), None) => Modifier::Invert,
+        (Some(Prefix::Not), None) => Modifier::Not,
+        (None, Some(Suffix::Bias)) => Modifier::Bias,
+        (None, Some(Suffix::Bx2)) => Modifier::Bx2,
+        (None, Some(Suffix::X2)) => Modifier::X2,
+        (None, Some(Suffix::Dz)) => Modifier::Dz,
+        (None, Some(Suffix::Dw)) => Modifier::Dw,
+        (Some(Prefix::Negate), Some(Suffix::Bias)) => Modifier::BiasNegate,
+        (Some(Prefix::Negate), Some(Suffix::Bx2)) => Modifier::Bx2Negate,
+        (Some(Prefix::Negate), Some(Suffix::X2)) => Modifier::X2Negate,
+        _ => return Err(clash(span, "a prefix and a suffix that exclude each other")),
+    })
+}
+
+fn clash(span: Span, found: &str) -> SyntaxError {
+    SyntaxError::new(
+        ErrorKind::SourceModifierClash,
+        span,
+        "one source modifier, or `-` with one of _bias _bx2 _x2",
+        found,
+        "`1-`, `!`, `_dz` and `_dw` stand alone",
+    )
+}
+
+impl<'a> Parser<'a> {
+    fn malformed(&self, expected: &str) -> SyntaxError {
+        let token = self.peek();
+        let help = match token.kind {
+            Kind::Number => "constants are named: `def c0, ...` first, then `c0`",
+            Kind::Newline | Kind::End => "the operand is missing",
+            _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
+        };
+        SyntaxError::new(
+            ErrorKind::MalformedOperand,
+            token.span,
+            expected,
+            token.found(),
+            help,
+        )
+    }
+
+    /// A destination, without the modifiers that its instruction's word carries.
+    pub(super) fn destination(&mut self) -> Parsed<Destination> {
+        let start = self.peek();
+        if matches!(start.kind, Kind::Minus | Kind::Bang | Kind::Number) {
+            return Err(match start.kind {
+                Kind::Number if self.peek_at(1).kind != Kind::Minus => self.malformed("a register"),
+                _ => self.on_destination(start.span, start.text),
+            });
+        }
+        let named = self.named()?;
+        if let Some((modifier, span)) = named.modifiers.first() {
+            return Err(self.on_destination(*span, &format!("_{modifier}")));
+        }
+        let mask = match named.selector {
+            Some((letters, span)) => mask(letters, span)?,
+            None => Mask::ALL,
+        };
+        Ok(Destination {
+            register: named.register,
+            mask,
+            shift: 0,
+            saturate: false,
+            partial_precision: false,
+            centroid: false,
+            span: Span::new(start.span.start, self.last_end()),
+        })
+    }
+
+    fn on_destination(&self, span: Span, found: &str) -> SyntaxError {
+        SyntaxError::new(
+            ErrorKind::ModifierOnDestination,
+            span,
+            "a register with or without a mask",
+            quote(found),
+            "the first operand is written; results are modified on the instruction: `add_x2_sat r0, ...`",
+        )
+    }
+
+    /// A source.
+    pub(super) fn source(&mut self) -> Parsed<Source> {
+        let start = self.peek().span.start;
+        let prefix = match self.peek().kind {
+            Kind::Minus => Some(Prefix::Negate),
+            Kind::Bang => Some(Prefix::Not),
+            Kind::Number if self.peek().text == "1" && self.peek_at(1).kind == Kind::Minus => {
+                self.next();
+                Some(Prefix::Invert)
+            }
+            _ => None,
+        };
+        if prefix.is_some() {
+            self.next();
+        }
+        let named = self.named()?;
+        let span = Span::new(start, self.last_end());
+        let suffix = match named.modifiers.as_slice() {
+            [] => None,
+            [(word, span)] => Some(suffix_of(word, *span)?),
+            [(word, first), .., (last, span)] => {
+                suffix_of(word, *first)?;
+                suffix_of(last, *span)?;
+                return Err(clash(*span, "two suffixes"));
+            }
+        };
+        Ok(Source {
+            register: named.register,
+            swizzle: match named.selector {
+                Some((letters, span)) => swizzle(letters, span)?,
+                None => Swizzle::IDENTITY,
+            },
+            modifier: combine(prefix, suffix, span)?,
+            span,
+        })
+    }
+
+    /// A register that nothing but its number belongs to: for definitions.
+    pub(super) fn bare_register(&mut self) -> Parsed<Register> {
+        let start = self.peek();
+        let named = self.named()?;
+        if named.selector.is_some() || !named.modifiers.is_empty() {
+            return Err(SyntaxError::new(
+                ErrorKind::MalformedOperand,
+                Span::new(start.span.start, self.last_end()),
+                "a register without letters or modifiers",
+                quote(start.text),
+                "a definition gives all components: `def c0, 1, 0, 0, 0`",
+            ));
+        }
+        Ok(named.register)
+    }
+
+    /// A register, its address, its selector and its suffixes, the latter two in either order.
+    fn named(&mut self) -> Parsed<Named<'a>> {
+        let token = self.peek();
+        if token.kind != Kind::Word {
+            return Err(self.malformed("a register"));
+        }
+        self.next();
+        let mut modifiers: Vec<_> = word::suffixes(&token).collect();
+        let register = self.register(token)?;
+        let after = self.peek();
+        if register.1 && after.kind == Kind::Word && after.text.starts_with('_') {
+            self.next();
+            modifiers.extend(word::suffixes(&after));
+        }
+        let mut selector = None;
+        if self.accept(Kind::Dot).is_some() {
+            let letters = self.peek();
+            if letters.kind != Kind::Word {
+                return Err(SyntaxError::new(
+                    ErrorKind::Swizzle,
+                    letters.span,
+                    "letters after the point",
+                    letters.found(),
+                    "write `.x`, `.xyz` or `.rgba`, for example",
+                ));
+            }
+            self.next();
+            let text = word::base(letters.text);
+            let start = letters.span.start;
+            selector = Some((text, Span::new(start, start + text.len() as u32)));
+            modifiers.extend(word::suffixes(&letters));
+        }
+        Ok(Named {
+            register: register.0,
+            modifiers,
+            selector,
+        })
+    }
+
+    /// The register that `token`, already taken, starts, and whether brackets followed.
+    fn register(&mut self, token: Token<'a>) -> Parsed<(Register, bool)> {
+        let name = word::base(token.text);
+        let span = Span::new(token.span.start, token.span.start + name.len() as u32);
+        let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let digits = &name[letters.len()..];
+        let Some(file) = is_file(letters).filter(|f| digits.is_empty() || !f.is_unnumbered())
+        else {
+            return Err(SyntaxError::new(
+                ErrorKind::UnknownRegister,
+                span,
+                "a register",
+                quote(name),
+                "registers are r# v# t# c# i# b# s# a0 aL p0 l# oC# oDepth oPos oFog oPts oD# oT#",
+            ));
+        };
+        let bracket = self.peek().kind == Kind::OpenBracket;
+        if digits.is_empty() && !file.is_unnumbered() && !bracket {
+            return Err(SyntaxError::new(
+                ErrorKind::MissingRegisterNumber,
+                span,
+                format!("a number after `{}`", file.prefix()),
+                token.found(),
+                format!("write `{}0`, for example", file.prefix()),
+            ));
+        }
+        let base = number(digits).ok_or_else(|| out_of_range("register number", name, span))?;
+        let mut register = Register::new(file, base);
+        if bracket {
+            if file.is_unnumbered() {
+                return Err(self.address_error(self.peek(), &format!("`{}` alone", file.prefix())));
+            }
+            self.address(&mut register)?;
+        }
+        Ok((register, bracket))
+    }
+
+    fn address_error(&self, token: Token<'_>, expected: &str) -> SyntaxError {
+        SyntaxError::new(
+            ErrorKind::RelativeAddress,
+            token.span,
+            expected,
+            token.found(),
+            "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`",
+        )
+    }
+
+    /// `[a0.x + 3]` and its kin: sums of numbers and one address register at most.
+    fn address(&mut self, register: &mut Register) -> Parsed<()> {
+        self.next();
+        loop {
+            let token = self.next_in_line();
+            match token.kind {
+                Kind::Number => {
+                    if !token.text.bytes().all(|b| b.is_ascii_digit()) {
+                        return Err(self.address_error(token, "an integer"));
+                    }
+                    register.index = number(token.text)
+                        .and_then(|n| register.index.checked_add(n))
+                        .ok_or_else(|| out_of_range("sum of offsets", token.text, token.span))?;
+                }
+                Kind::Word if register.relative.is_some() => {
+                    return Err(self.address_error(token, "one address register at most"));
+                }
+                Kind::Word if token.text.eq_ignore_ascii_case("aL") => {
+                    register.relative = Some(Relative::Loop);
+                }
+                Kind::Word if token.text.eq_ignore_ascii_case("a0") => {
+                    register.relative = Some(Relative::Address(self.address_component()?));
+                }
+                _ => return Err(self.address_error(token, "`a0.x`, `aL` or a number")),
+            }
+            let token = self.peek();
+            match token.kind {
+                Kind::Plus => self.next(),
+                Kind::CloseBracket => break,
+                _ => return Err(self.address_error(token, "`+` or `]`")),
+            };
+        }
+        self.next();
+        Ok(())
+    }
+
+    fn address_component(&mut self) -> Parsed<u8> {
+        let point = self.peek();
+        if self.accept(Kind::Dot).is_none() {
+            return Err(self.address_error(point, "`.x`: one component of a0"));
+        }
+        let letter = self.peek();
+        match components(letter.text).as_deref() {
+            Some(&[component]) if letter.kind == Kind::Word => {
+                self.next();
+                Ok(component)
+            }
+            _ => Err(self.address_error(letter, "one letter of xyzw")),
+        }
+    }
+}
