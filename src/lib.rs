@@ -2,4 +2,6 @@
 //!
 //! The emulated cards are in [`refsim`]; the systems that ran on them, the studies and the program are here.
 
+pub mod geom;
 pub mod report;
+pub mod scene;

@@ -1,0 +1,166 @@
+//! A renderer's answer held against the truth.
+
+use num_bigint::BigUint;
+
+use super::exact::{ExactT, NearestHit, ratio};
+use super::{Contact, Mesh};
+
+/// What a renderer says a ray hits first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The triangle, or `None` for no hit.
+    pub triangle: Option<u32>,
+    /// Its t; not looked at without a triangle.
+    pub t: f32,
+}
+
+/// How the answer stands to the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// The first triangle, or one that ties with it at exactly the same t; or rightly none.
+    Right,
+    /// No hit where there is a surface: a hole.
+    Leak,
+    /// A hit where there is no surface.
+    FalseHit,
+    /// A hit, but of a triangle that is not first.
+    WrongTriangle {
+        /// Whether it shares an edge or a vertex with one that is.
+        adjacent: bool,
+    },
+}
+
+/// The error of a t against the exact one. Both figures are infinite for a t that is not finite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TError {
+    /// |t - exact|, correctly rounded.
+    pub absolute: f64,
+    /// |t - exact| / exact, correctly rounded; 0 when both are zero, infinite when only the exact t is.
+    pub relative: f64,
+}
+
+/// A verdict, and the error of t where both sides have one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judgement {
+    /// What happened.
+    pub verdict: Verdict,
+    /// For [`Verdict::Right`] hits and [`Verdict::WrongTriangle`]: t against the true first t.
+    pub t_error: Option<TError>,
+}
+
+/// Judges a candidate against the true first hit (`None`: the ray hits nothing).
+#[must_use]
+pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -> Judgement {
+    let (verdict, t_error) = match (truth, candidate.triangle) {
+        (None, None) => (Verdict::Right, None),
+        (Some(_), None) => (Verdict::Leak, None),
+        (None, Some(_)) => (Verdict::FalseHit, None),
+        (Some(truth), Some(found)) => {
+            let verdict = if truth.ties.contains(&found) {
+                Verdict::Right
+            } else {
+                let adjacent = truth.ties.iter().any(|&right| mesh.contact(right, found) != Contact::None);
+                Verdict::WrongTriangle { adjacent }
+            };
+            (verdict, Some(t_error(&truth.t, candidate.t)))
+        }
+    };
+    Judgement { verdict, t_error }
+}
+
+/// The error of a t against an exact one, computed exactly and rounded once.
+#[must_use]
+pub fn t_error(exact: &ExactT, t: f32) -> TError {
+    if !t.is_finite() {
+        return TError { absolute: f64::INFINITY, relative: f64::INFINITY };
+    }
+    // t = whole / 2^149 exactly; the error is |whole * den - num * 2^149| / (den * 2^149).
+    let magnitude = whole_units(t.abs());
+    let (num, den) = (exact.numerator() << 149_u8, exact.denominator());
+    let scaled = &magnitude * den;
+    let difference = if t < 0.0 {
+        scaled + &num
+    } else if scaled > num {
+        scaled - &num
+    } else {
+        &num - scaled
+    };
+    let none = BigUint::default();
+    let absolute = ratio::to_f64(&difference, &(den << 149_u8));
+    let relative = if difference == none {
+        0.0
+    } else if num == none {
+        f64::INFINITY
+    } else {
+        ratio::to_f64(&difference, &num)
+    };
+    TError { absolute, relative }
+}
+
+/// A finite, non-negative f32 in units of 2^-149.
+fn whole_units(value: f32) -> BigUint {
+    let bits = value.to_bits();
+    match bits >> 23 {
+        0 => BigUint::from(bits),
+        field => BigUint::from(bits & 0x7f_ffff | 0x80_0000) << (field - 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::exact::{self, Sides};
+    use crate::geom::Ray;
+
+    /// Two triangles that share an edge in z = 0, one that touches a corner, one far off.
+    fn scene() -> Mesh {
+        let positions = vec![
+            [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0],
+            [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [5.0, 5.0, 5.0], [6.0, 5.0, 5.0], [5.0, 6.0, 5.0],
+        ];
+        Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [6, 7, 8]]).expect("a mesh")
+    }
+
+    fn judge(origin: [f32; 3], candidate: Candidate) -> Judgement {
+        let mesh = scene();
+        let ray = Ray::new(origin, [0.0, 0.0, -1.0]).expect("a ray");
+        let truth = exact::nearest(&mesh, &ray, Sides::Both);
+        classify(&mesh, truth.as_ref(), candidate)
+    }
+
+    #[test]
+    fn every_verdict_has_its_case() {
+        let hit = |triangle, t| Candidate { triangle: Some(triangle), t };
+        let none = Candidate { triangle: None, t: 0.0 };
+        let inside = [0.75, 0.25, 3.0];
+        assert_eq!(judge(inside, hit(0, 3.0)).verdict, Verdict::Right);
+        assert_eq!(judge(inside, none), Judgement { verdict: Verdict::Leak, t_error: None });
+        assert_eq!(judge(inside, hit(1, 3.0)).verdict, Verdict::WrongTriangle { adjacent: true });
+        assert_eq!(judge(inside, hit(2, 3.0)).verdict, Verdict::WrongTriangle { adjacent: true });
+        assert_eq!(judge(inside, hit(3, 3.0)).verdict, Verdict::WrongTriangle { adjacent: false });
+        assert_eq!(judge(inside, hit(77, 3.0)).verdict, Verdict::WrongTriangle { adjacent: false });
+        assert_eq!(judge([9.0, 0.0, 3.0], hit(0, 1.0)).verdict, Verdict::FalseHit);
+        assert_eq!(judge([9.0, 0.0, 3.0], none).verdict, Verdict::Right);
+    }
+
+    #[test]
+    fn either_triangle_of_a_tie_is_right() {
+        for triangle in [0, 1] {
+            let candidate = Candidate { triangle: Some(triangle), t: 3.0 };
+            assert_eq!(judge([0.5, 0.5, 3.0], candidate).verdict, Verdict::Right);
+        }
+    }
+
+    #[test]
+    fn the_error_of_t_is_exact() {
+        let t = ExactT::new(BigUint::from(1_u8), BigUint::from(3_u8)).expect("a fraction");
+        let found = t_error(&t, 0.333_333_34);
+        assert!((found.absolute - (f64::from(0.333_333_34_f32) - 1.0 / 3.0)).abs() < 1e-16, "{found:?}");
+        assert!((found.relative / found.absolute - 3.0).abs() < 1e-12);
+        assert_eq!(t_error(&t, f32::NAN).absolute, f64::INFINITY);
+        assert!((t_error(&t, -1.0).absolute - 4.0 / 3.0).abs() < 1e-15);
+        let zero = ExactT::new(BigUint::from(0_u8), BigUint::from(3_u8)).expect("a fraction");
+        assert_eq!(t_error(&zero, 0.0), TError { absolute: 0.0, relative: 0.0 });
+        assert_eq!(t_error(&zero, 1.0), TError { absolute: 1.0, relative: f64::INFINITY });
+    }
+}

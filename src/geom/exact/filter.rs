@@ -1,0 +1,168 @@
+//! The definitions of [`super`] in f64 with a proved error bound: a clear answer, or none.
+//!
+//! **Why nothing overflows or underflows.** A finite f32 is a multiple of 2^-149 below 2^128. A difference of two is a
+//! multiple of 2^-149 below 2^129, also after rounding to f64 (rounding a multiple of 2^-k, far above the least normal
+//! number, gives a multiple of 2^-k). Products of three such figures are multiples of 2^-447 below 2^387, sums of six
+//! stay below 2^391; quotients lie between 2^-838 and 2^838. All of it is far inside the normal range of f64, so every
+//! operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
+//!
+//! **The bound.** Every figure here is a sum of at most six products `x * y * z` whose factors are components of d
+//! (exact) or differences of corners and origin (one rounding each). A product gathers: at most three roundings of its factors,
+//! two of multiplications, one of the difference inside the cross product, two of the outer sum: 8. So the error
+//! is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
+//! operations on magnitudes, so P <= P' / (1 - u)^8, and the error is below 8.1 u P'. `16 u P'` is used (a power of two
+//! times P', hence exact).
+
+use super::Sides;
+use crate::geom::Ray;
+
+/// Half a unit in the last place of 1: the largest relative error of one f64 operation.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// What f64 can say about a ray and a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Guess {
+    /// Certainly no hit.
+    Miss,
+    /// Certainly a hit, with the exact t within the bounds.
+    Hit {
+        /// t is not below this.
+        low: f64,
+        /// t is not above this.
+        high: f64,
+    },
+    /// Too close to call.
+    Unclear,
+}
+
+/// A value and a bound of its error.
+#[derive(Clone, Copy)]
+struct Estimate {
+    value: f64,
+    error: f64,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sense {
+    Negative,
+    Zero,
+    Positive,
+    Unknown,
+}
+
+impl Estimate {
+    fn sense(self) -> Sense {
+        if self.value > self.error {
+            Sense::Positive
+        } else if self.value < -self.error {
+            Sense::Negative
+        } else if self.error == 0.0 {
+            Sense::Zero
+        } else {
+            Sense::Unknown
+        }
+    }
+}
+
+type Vector = [f64; 3];
+
+fn sub(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// A cross product, and the sums of its products' magnitudes.
+fn cross(a: Vector, b: Vector) -> (Vector, Vector) {
+    let (yz, zy) = (a[1] * b[2], a[2] * b[1]);
+    let (zx, xz) = (a[2] * b[0], a[0] * b[2]);
+    let (xy, yx) = (a[0] * b[1], a[1] * b[0]);
+    ([yz - zy, zx - xz, xy - yx], [yz.abs() + zy.abs(), zx.abs() + xz.abs(), xy.abs() + yx.abs()])
+}
+
+/// The product of a vector with such a cross product, with its error bound.
+fn mixed(d: Vector, (value, magnitude): (Vector, Vector)) -> Estimate {
+    let sum = d[0].abs() * magnitude[0] + d[1].abs() * magnitude[1] + d[2].abs() * magnitude[2];
+    Estimate { value: d[0] * value[0] + d[1] * value[1] + d[2] * value[2], error: 16.0 * U * sum }
+}
+
+/// A number not above any t that rounds to `t`, nor above `t` by up to eight roundings.
+pub(super) fn below(t: f64) -> f64 {
+    t * (1.0 - 16.0 * U)
+}
+
+/// A number not below any t that rounds to `t`.
+pub(super) fn above(t: f64) -> f64 {
+    t * (1.0 + 16.0 * U)
+}
+
+/// What f64 can say. The corners must be finite.
+#[must_use]
+pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
+    let o = ray.origin().map(f64::from);
+    let d = ray.direction().map(f64::from);
+    let [a, b, c] = triangle.map(|corner| sub(corner.map(f64::from), o));
+
+    let edges = [cross(b, c), cross(c, a), cross(a, b)].map(|pair| mixed(d, pair).sense());
+    let positive = edges.contains(&Sense::Positive);
+    let negative = edges.contains(&Sense::Negative);
+    if positive && (negative || sides == Sides::Front) {
+        return Guess::Miss;
+    }
+    // The edges of the triangle itself, not differences of differences: one rounding a component.
+    let corners = triangle.map(|corner| corner.map(f64::from));
+    let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+    let facing = mixed(d, normal);
+    let height = mixed(a, normal);
+    let sense = facing.sense();
+    match sense {
+        Sense::Zero => return Guess::Miss,
+        Sense::Positive if negative || sides == Sides::Front => return Guess::Miss,
+        Sense::Negative if positive => return Guess::Miss,
+        _ => {}
+    }
+    match (sense, height.sense()) {
+        (Sense::Positive, Sense::Negative) | (Sense::Negative, Sense::Positive) => return Guess::Miss,
+        (Sense::Unknown, _) | (_, Sense::Unknown) => return Guess::Unclear,
+        _ => {}
+    }
+    if edges.contains(&Sense::Unknown) {
+        return Guess::Unclear;
+    }
+    // Numerator and denominator are certain in sign, so |value| > error, unless the height is exactly zero (and t with it).
+    let low = (height.value.abs() - height.error) / (facing.value.abs() + facing.error);
+    let high = (height.value.abs() + height.error) / (facing.value.abs() - facing.error);
+    Guess::Hit { low: below(low), high: above(high) }
+}
+
+/// Whether the triangle certainly has an area.
+pub(super) fn has_area(triangle: &[[f32; 3]; 3]) -> bool {
+    let [a, b, c] = triangle.map(|corner| corner.map(f64::from));
+    let (value, magnitude) = cross(sub(b, a), sub(c, a));
+    (0..3).any(|axis| value[axis].abs() > 16.0 * U * magnitude[axis])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clear_cases_need_no_integers() {
+        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let ray = |origin, direction| Ray::new(origin, direction).expect("a ray");
+        let hit = guess(&ray([0.2, 0.3, 2.0], [0.0, 0.0, -1.0]), &triangle, Sides::Front);
+        let Guess::Hit { low, high } = hit else { panic!("expected a hit, found {hit:?}") };
+        assert!(low <= 2.0 && 2.0 <= high && high - low < 1e-13, "{low} {high}");
+        let miss = ray([0.7, 0.7, 2.0], [0.0, 0.0, -1.0]);
+        assert_eq!(guess(&miss, &triangle, Sides::Both), Guess::Miss);
+        let behind = ray([0.2, 0.3, -1.0], [0.0, 0.0, -1.0]);
+        assert_eq!(guess(&behind, &triangle, Sides::Both), Guess::Miss);
+    }
+
+    #[test]
+    fn a_ray_through_an_edge_is_unclear() {
+        let triangle = [[0.1, 0.1, 0.3], [1.0, 0.2, 0.7], [0.3, 1.0, 0.9]];
+        let ray = Ray::new([0.4, 0.5, 5.0], [0.15 - 0.4, 0.1 + 0.1 / 18.0 - 0.5, 0.32 - 5.0]).expect("a ray");
+        assert!(matches!(guess(&ray, &triangle, Sides::Both), Guess::Unclear | Guess::Hit { .. } | Guess::Miss));
+        let corner = Ray::new([0.1, 0.1, 5.0], [0.0, 0.0, -1.0]).expect("a ray");
+        assert!(matches!(guess(&corner, &triangle, Sides::Both), Guess::Unclear | Guess::Hit { .. }));
+    }
+}

@@ -1,0 +1,160 @@
+//! The definitions of [`super`] evaluated in integers, without any filter.
+
+use num_bigint::{BigInt, Sign};
+use num_traits::Zero;
+
+use super::{ExactT, NearestHit, Sides};
+use crate::geom::{Mesh, Ray};
+
+type Vector = [BigInt; 3];
+
+/// A finite f32 as `mantissa * 2^exponent`.
+fn split(value: f32) -> (i64, i32) {
+    let bits = value.to_bits();
+    let field = (bits >> 23 & 0xff) as i32;
+    let fraction = i64::from(bits & 0x7f_ffff);
+    let (mantissa, exponent) = if field == 0 { (fraction, -149) } else { (fraction | 0x80_0000, field - 150) };
+    (if bits >> 31 == 1 { -mantissa } else { mantissa }, exponent)
+}
+
+/// The smallest exponent among some numbers, zeros left out: 2^exponent divides them all.
+fn common_exponent<'a>(values: impl IntoIterator<Item = &'a f32>) -> i32 {
+    let parts = values.into_iter().map(|&value| split(value));
+    parts.filter(|&(mantissa, _)| mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0)
+}
+
+/// `value / 2^exponent`, a whole number.
+fn whole(value: f32, exponent: i32) -> BigInt {
+    let (mantissa, own) = split(value);
+    if mantissa == 0 { BigInt::zero() } else { BigInt::from(mantissa) << (own - exponent).unsigned_abs() }
+}
+
+fn vector(values: [f32; 3], exponent: i32) -> Vector {
+    values.map(|value| whole(value, exponent))
+}
+
+fn sub(a: &Vector, b: &Vector) -> Vector {
+    [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
+}
+
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [
+        &a[1] * &b[2] - &a[2] * &b[1],
+        &a[2] * &b[0] - &a[0] * &b[2],
+        &a[0] * &b[1] - &a[1] * &b[0],
+    ]
+}
+
+fn dot(a: &Vector, b: &Vector) -> BigInt {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+/// Where the ray hits the triangle, if it does. The corners must be finite.
+#[must_use]
+pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
+    let (origin, direction) = (ray.origin(), ray.direction());
+    let place = common_exponent(triangle.iter().flatten().chain(&origin));
+    let step = common_exponent(&direction);
+    let o = vector(origin, place);
+    let d = vector(direction, step);
+    let [a, b, c] = triangle.map(|corner| sub(&vector(corner, place), &o));
+
+    let normal = cross(&sub(&b, &a), &sub(&c, &a));
+    let facing = dot(&normal, &d);
+    let sense = facing.sign();
+    if sense == Sign::NoSign || (sides == Sides::Front && sense == Sign::Plus) {
+        return None;
+    }
+    let with_or_zero = |value: &BigInt| value.is_zero() || value.sign() == sense;
+    for [from, to] in [[&b, &c], [&c, &a], [&a, &b]] {
+        if !with_or_zero(&dot(&d, &cross(from, to))) {
+            return None;
+        }
+    }
+    let height = dot(&normal, &a);
+    if !with_or_zero(&height) {
+        return None;
+    }
+    // height is in units of 2^(3 place), facing in units of 2^(2 place + step).
+    let (mut num, mut den) = (height.into_parts().1, facing.into_parts().1);
+    let scale = place - step;
+    if scale >= 0 {
+        num <<= scale.unsigned_abs();
+    } else {
+        den <<= scale.unsigned_abs();
+    }
+    ExactT::new(num, den)
+}
+
+/// The first hit among all triangles, with no filter and no tree: what the others are tested against.
+#[must_use]
+pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
+    let mut first: Option<NearestHit> = None;
+    for (triangle, corners) in (0..).zip(mesh.iter_corners()) {
+        let Some(t) = intersect(ray, &corners, sides) else { continue };
+        match &mut first {
+            Some(best) if t > best.t => {}
+            Some(best) if t == best.t => best.ties.push(triangle),
+            _ => first = Some(NearestHit { triangle, t, ties: vec![triangle] }),
+        }
+    }
+    first
+}
+
+/// Whether n = 0.
+#[must_use]
+pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
+    let place = common_exponent(triangle.iter().flatten());
+    let [a, b, c] = triangle.map(|corner| vector(corner, place));
+    cross(&sub(&b, &a), &sub(&c, &a)).iter().all(Zero::is_zero)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+    fn at(origin: [f32; 3], direction: [f32; 3], sides: Sides) -> Option<f32> {
+        let ray = Ray::new(origin, direction).expect("a ray");
+        intersect(&ray, &UNIT, sides).map(|t| t.to_f32())
+    }
+
+    #[test]
+    fn edges_and_corners_belong_to_the_triangle() {
+        for target in [[0.25, 0.25], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5], [0.0, 0.5], [0.5, 0.0]] {
+            let origin = [target[0], target[1], 2.0];
+            assert_eq!(at(origin, [0.0, 0.0, -0.5], Sides::Front), Some(4.0), "{target:?}");
+        }
+        let beyond = 0.5_f32.next_up();
+        assert_eq!(at([0.5, beyond, 2.0], [0.0, 0.0, -1.0], Sides::Both), None);
+        assert_eq!(at([-f32::from_bits(1), 0.5, 2.0], [0.0, 0.0, -1.0], Sides::Both), None);
+    }
+
+    #[test]
+    fn the_front_is_where_corners_run_counter_clockwise() {
+        assert_eq!(at([0.25, 0.25, -1.0], [0.0, 0.0, 1.0], Sides::Front), None);
+        assert_eq!(at([0.25, 0.25, -1.0], [0.0, 0.0, 1.0], Sides::Both), Some(1.0));
+    }
+
+    #[test]
+    fn t_starts_at_zero_and_a_plane_is_no_hit() {
+        assert_eq!(at([0.25, 0.25, 0.0], [0.0, 0.0, -1.0], Sides::Front), Some(0.0));
+        assert_eq!(at([0.25, 0.25, -f32::from_bits(1)], [0.0, 0.0, -1.0], Sides::Front), None);
+        assert_eq!(at([-1.0, 0.25, 0.0], [1.0, 0.0, 0.0], Sides::Both), None, "the ray lies in the plane");
+        let line = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]];
+        let ray = Ray::new([1.0, 1.0, 2.0], [0.0, 0.0, -1.0]).expect("a ray");
+        assert_eq!(intersect(&ray, &line, Sides::Both), None, "a triangle without area");
+        assert!(is_degenerate(&line) && !is_degenerate(&UNIT));
+    }
+
+    #[test]
+    fn the_ends_of_the_range_do_no_harm() {
+        let (least, most) = (f32::from_bits(1), f32::MAX);
+        assert_eq!(at([least, least, most], [0.0, 0.0, -least], Sides::Front), Some(f32::INFINITY));
+        let ray = Ray::new([least, least, most], [0.0, 0.0, -least]).expect("a ray");
+        let t = intersect(&ray, &UNIT, Sides::Front).expect("a hit").to_f64();
+        assert_eq!(t, f64::from(most) / f64::from(least));
+        assert_eq!(at([0.0, 0.0, least], [0.0, 0.0, -most], Sides::Front), Some(0.0), "below the format");
+    }
+}

@@ -1,0 +1,21 @@
+//! Meshes, rays, the teapot, and what is true of them.
+//!
+//! - [`mesh`]: triangles with shared vertices, validated once, so that nothing behind it has to check an index again;
+//! - [`teapot`]: the Utah teapot at any rate of tessellation;
+//! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
+//! - [`classify`]: a renderer's answer held against that truth;
+//! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
+//! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
+
+pub mod aimed;
+pub mod classify;
+pub mod exact;
+pub mod mesh;
+pub mod random;
+pub mod ray;
+pub mod teapot;
+mod teapot_table;
+
+pub use exact::{ExactT, NearestHit, Sides};
+pub use mesh::{Contact, Mesh, MeshError};
+pub use ray::{Ray, RayError};

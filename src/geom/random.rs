@@ -1,0 +1,61 @@
+//! Random numbers that depend on what they are for, never on who draws them or when.
+
+/// A stream of random numbers named by a seed: each number is a function of (seed, index, sample, dimension) alone, so
+/// threads may draw them in any order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Keyed {
+    seed: u64,
+}
+
+impl Keyed {
+    /// The stream of a seed.
+    #[must_use]
+    pub const fn new(seed: u64) -> Self {
+        Self { seed }
+    }
+
+    /// 64 bits for one sample of one thing.
+    #[must_use]
+    pub const fn bits(self, index: u64, sample: u64, dimension: u64) -> u64 {
+        let mut state = scramble(self.seed ^ 0x6a09_e667_f3bc_c908);
+        state = scramble(state ^ index);
+        state = scramble(state ^ sample.wrapping_add(0x3c6e_f372_fe94_f82b));
+        scramble(state ^ dimension.wrapping_add(0x9b05_688c_2b3e_6c1f))
+    }
+
+    /// A multiple of 2^-24 in [0, 1), exact in f32 and f64.
+    #[must_use]
+    pub fn unit(self, index: u64, sample: u64, dimension: u64) -> f64 {
+        (self.bits(index, sample, dimension) >> 40) as f64 / 16_777_216.0
+    }
+}
+
+/// A bijection of 64-bit words in which every input bit reaches every output bit: two rounds of multiply and fold.
+const fn scramble(word: u64) -> u64 {
+    let mut word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    word ^= word >> 32;
+    word = word.wrapping_mul(0xd6e8_feb8_6659_fd93);
+    word ^= word >> 32;
+    word = word.wrapping_mul(0xd6e8_feb8_6659_fd93);
+    word ^ (word >> 32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_fixed_and_spread() {
+        let stream = Keyed::new(1);
+        assert_eq!(stream.bits(3, 4, 5), Keyed::new(1).bits(3, 4, 5));
+        assert_ne!(stream.bits(3, 4, 5), stream.bits(4, 3, 5));
+        assert_ne!(stream.bits(3, 4, 5), stream.bits(3, 5, 4));
+        let mean = (0..4096).map(|index| stream.unit(index, 0, 0)).sum::<f64>() / 4096.0;
+        assert!((mean - 0.5).abs() < 0.02, "mean {mean}");
+        let mut halves = [0; 2];
+        for sample in 0..4096 {
+            halves[usize::from(stream.unit(7, sample, 1) < 0.5)] += 1;
+        }
+        assert!(halves.iter().all(|&count| count > 1900), "{halves:?}");
+    }
+}

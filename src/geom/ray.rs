@@ -1,0 +1,71 @@
+//! Rays.
+
+use thiserror::Error;
+
+/// A half-line `origin + t * direction`, t >= 0, on the f32 figures as given: the direction is never renormalised.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    origin: [f32; 3],
+    direction: [f32; 3],
+}
+
+/// Why three and three numbers are no ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum RayError {
+    /// A NaN or an infinity among the six numbers.
+    #[error("expected six finite numbers, found {what} {axis} not finite")]
+    NotFinite {
+        /// `origin` or `direction`.
+        what: &'static str,
+        /// `x`, `y` or `z`.
+        axis: char,
+    },
+    /// All three components of the direction are zero.
+    #[error("expected a direction, found (0, 0, 0)")]
+    ZeroDirection,
+}
+
+impl Ray {
+    /// A ray from an origin along a direction of any length but zero.
+    ///
+    /// # Errors
+    /// [`RayError`] when a number is not finite or the direction is zero.
+    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Result<Self, RayError> {
+        for (what, vector) in [("origin", origin), ("direction", direction)] {
+            for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vector) {
+                if !value.is_finite() {
+                    return Err(RayError::NotFinite { what, axis });
+                }
+            }
+        }
+        if direction == [0.0; 3] {
+            return Err(RayError::ZeroDirection);
+        }
+        Ok(Self { origin, direction })
+    }
+
+    /// Where the ray starts (t = 0).
+    #[must_use]
+    pub fn origin(&self) -> [f32; 3] {
+        self.origin
+    }
+
+    /// Where it goes: t counts in multiples of this vector.
+    #[must_use]
+    pub fn direction(&self) -> [f32; 3] {
+        self.direction
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refuses_what_is_no_ray() {
+        assert_eq!(Ray::new([0.0; 3], [0.0, -0.0, 0.0]), Err(RayError::ZeroDirection));
+        let found = Ray::new([0.0, f32::NAN, 0.0], [1.0; 3]);
+        assert_eq!(found, Err(RayError::NotFinite { what: "origin", axis: 'y' }));
+        assert!(Ray::new([0.0; 3], [0.0, 0.0, f32::from_bits(1)]).is_ok());
+    }
+}

@@ -1,0 +1,174 @@
+//! The Utah teapot: 32 bicubic Bezier patches, tessellated at any rate into one mesh with shared vertices.
+//!
+//! **Arithmetic.** The control points are whole numbers of 1/100000 and the parameters are i/N, so every point of the
+//! grid is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches that share a border
+//! therefore give bit-identical points on it, from whichever side they are evaluated, and welding by bit identity closes
+//! the seams: no epsilon, and no evaluation order to agree on.
+//!
+//! **What is watertight.** For N >= 2 every edge belongs to exactly two triangles that run through it in opposite
+//! directions, except 16 N boundary edges: the rims that the published surface itself leaves open.
+//!
+//! | rim | patches | boundary edges |
+//! |---|---|---|
+//! | the pot's mouth (inner lip, radius 1.4, z = 2.4) | 4 | 4 N |
+//! | the lid's edge (radius 1.3, z = 2.4; it does not touch the mouth) | 4 | 4 N |
+//! | the handle's two ends (they pass through the body unjoined) | 2 each | 2 N + 2 N |
+//! | the spout's base (inside the body) and its tip (open) | 2 each | 2 N + 2 N |
+//!
+//! Body and bottom are joined; the poles of lid and bottom, where a patch's whole first row is one point, give one
+//! triangle a column in place of two, so that there are `64 N^2 - 8 N` triangles and none is degenerate. N = 1 is a
+//! caricature: the rings of handle and spout have two vertices, so that both collapse to double sheets, whose end edges
+//! have two triangles (only the 8 edges of mouth and lid are open) and of which the handle's middle edge has four; the
+//! spout's last stretch, whose four corners lie on one line, falls away (52 triangles).
+//!
+//! The lower end of the handle has one corner of the body as its own (control point 69), so that those two parts share
+//! that vertex, though no edge. Front faces (counter-clockwise) look outwards; z is up and the spout points along +x.
+
+use num_bigint::BigUint;
+use thiserror::Error;
+
+use super::exact::{is_degenerate, ratio};
+use super::mesh::{Mesh, Welder};
+use super::teapot_table::{PATCHES, POINTS, UNITS};
+
+/// Largest rate of tessellation (4 million triangles; beyond it the poles' slivers come near the resolution of f32).
+pub const MAX_RATE: u32 = 256;
+
+/// The rate at which the teapot has about the 9,000 triangles of a classic test model (9,120).
+pub const DEFAULT_RATE: u32 = 12;
+
+/// Why there is no teapot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum TeapotError {
+    /// The rate is outside 1..=256.
+    #[error("expected a tessellation of 1 to {MAX_RATE} quads along a patch side, found {found}")]
+    Rate {
+        /// What was asked.
+        found: u32,
+    },
+}
+
+/// A part of the teapot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// Lip and wall, patches 0 to 11.
+    Body,
+    /// Patches 12 to 15.
+    Handle,
+    /// Patches 16 to 19.
+    Spout,
+    /// With its knob, patches 20 to 27.
+    Lid,
+    /// Patches 28 to 31, joined to the body.
+    Bottom,
+}
+
+/// The part that a patch (0 to 31) belongs to.
+#[must_use]
+pub fn part_of_patch(patch: u32) -> Part {
+    match patch {
+        0..=11 => Part::Body,
+        12..=15 => Part::Handle,
+        16..=19 => Part::Spout,
+        20..=27 => Part::Lid,
+        _ => Part::Bottom,
+    }
+}
+
+/// A tessellated teapot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Teapot {
+    /// The surface.
+    pub mesh: Mesh,
+    /// The patch (0 to 31) that each triangle lies on.
+    pub patch_of: Vec<u8>,
+}
+
+/// The teapot's mesh with `rate` x `rate` quads a patch, two triangles each.
+///
+/// # Errors
+/// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
+pub fn teapot(rate: u32) -> Result<Mesh, TeapotError> {
+    tessellate(rate).map(|teapot| teapot.mesh)
+}
+
+/// As [`teapot`], with the patch of every triangle.
+///
+/// # Errors
+/// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
+pub fn tessellate(rate: u32) -> Result<Teapot, TeapotError> {
+    if !(1..=MAX_RATE).contains(&rate) {
+        return Err(TeapotError::Rate { found: rate });
+    }
+    let weights: Vec<[i128; 4]> = (0..=rate).map(|step| bernstein(step, rate)).collect();
+    let scale = BigUint::from(rate).pow(6) * UNITS.unsigned_abs();
+    let side = rate as usize + 1;
+    let mut welder = Welder::default();
+    let mut triangles = Vec::new();
+    let mut patch_of = Vec::new();
+    for (patch, control) in (0_u8..).zip(&PATCHES) {
+        let mut grid = Vec::with_capacity(side * side);
+        for row in &weights {
+            for column in &weights {
+                grid.push(welder.vertex(point(control, row, column, &scale)));
+            }
+        }
+        for row in 0..side - 1 {
+            for column in 0..side - 1 {
+                let at = row * side + column;
+                let [a, b, c, d] = [grid[at], grid[at + 1], grid[at + side + 1], grid[at + side]];
+                // The patches' own sense of rotation looks inwards. At a pole a = b, and one triangle remains.
+                for [p, q, r] in [[a, b, c], [a, c, d]] {
+                    let corners = [p, q, r].map(|index| welder.position(index));
+                    if !is_degenerate(&corners) {
+                        triangles.push([p, q, r]);
+                        patch_of.push(patch);
+                    }
+                }
+            }
+        }
+    }
+    let mesh = Mesh::new(welder.into_positions(), triangles).expect("grid indices are in range and points finite");
+    Ok(Teapot { mesh, patch_of })
+}
+
+/// The four cubic Bernstein polynomials at step/rate, times rate^3.
+fn bernstein(step: u32, rate: u32) -> [i128; 4] {
+    let (near, far) = (i128::from(step), i128::from(rate - step));
+    [far * far * far, 3 * near * far * far, 3 * near * near * far, near * near * near]
+}
+
+/// A point of a patch: the exact fraction `sum(weights * control points) / scale`, each coordinate rounded to nearest once.
+fn point(control: &[u16; 16], row: &[i128; 4], column: &[i128; 4], scale: &BigUint) -> [f32; 3] {
+    let mut sum = [0_i128; 3];
+    for (index, &number) in control.iter().enumerate() {
+        let weight = row[index / 4] * column[index % 4];
+        for (axis, total) in sum.iter_mut().enumerate() {
+            *total += weight * i128::from(POINTS[usize::from(number) - 1][axis]);
+        }
+    }
+    sum.map(|total| {
+        let magnitude = ratio::to_f32(&BigUint::from(total.unsigned_abs()), scale);
+        if total < 0 { -magnitude } else { magnitude }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_are_control_points() {
+        let mesh = teapot(1).expect("a teapot");
+        assert_eq!(mesh.positions()[0], [1.4, 0.0, 2.4]);
+        assert_eq!(mesh.positions()[1], [0.0, -1.4, 2.4]);
+        assert!(mesh.positions().contains(&[2.8, 0.0, 2.4]), "the spout's tip");
+    }
+
+    #[test]
+    fn rates_outside_are_refused() {
+        assert_eq!(teapot(0), Err(TeapotError::Rate { found: 0 }));
+        let found = teapot(257).unwrap_err().to_string();
+        assert_eq!(found, "expected a tessellation of 1 to 256 quads along a patch side, found 257");
+    }
+}

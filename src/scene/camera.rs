@@ -1,0 +1,202 @@
+//! A pinhole camera.
+
+use thiserror::Error;
+
+use crate::geom::Ray;
+
+/// Widest field of view, as the tangent of its half.
+const MAX_TANGENT: f32 = 1e6;
+
+/// Sine of the least angle between `up` and the view.
+const LEAST_SINE: f64 = 1e-6;
+
+/// A pinhole camera: one ray through the centre of each pixel, pixel (0, 0) at the upper left.
+///
+/// All arithmetic is f64 additions, multiplications, divisions and square roots in a fixed order, rounded to f32 once
+/// at the end: the same bits everywhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    eye: [f32; 3],
+    width: u32,
+    height: u32,
+    /// To the target, length 1.
+    forward: [f64; 3],
+    /// To the right edge of the picture from its centre, at distance 1.
+    right: [f64; 3],
+    /// To the upper edge of the picture from its centre, at distance 1.
+    up: [f64; 3],
+}
+
+/// Why there is no such camera.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CameraError {
+    /// A figure is not finite.
+    #[error("expected finite figures for {what}, found {found:?}")]
+    NotFinite {
+        /// `eye`, `target` or `up`.
+        what: &'static str,
+        /// What was given.
+        found: [f32; 3],
+    },
+    /// Eye and target are one point, or `up` is zero or runs along the view.
+    #[error("eye, target and up span no picture: expected a target other than the eye, and an up not along the view")]
+    Flat,
+    /// The tangent of half the field of view is not in (0, 1e6].
+    #[error("expected a tangent of half the vertical field of view above 0 and up to 1000000, found {found}")]
+    FieldOfView {
+        /// What was given.
+        found: f32,
+    },
+    /// The picture has no pixels, or more than 2^30.
+    #[error("expected a picture of 1 to 2^30 pixels, found {width}x{height}")]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+}
+
+impl Camera {
+    /// A camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the tangent of half the vertical
+    /// field of view; pixels are square.
+    ///
+    /// # Errors
+    /// [`CameraError`] for figures that make no picture.
+    pub fn new(eye: [f32; 3], target: [f32; 3], up: [f32; 3], tan_half_height: f32, width: u32, height: u32) -> Result<Self, CameraError> {
+        for (what, found) in [("eye", eye), ("target", target), ("up", up)] {
+            if !found.iter().all(|value| value.is_finite()) {
+                return Err(CameraError::NotFinite { what, found });
+            }
+        }
+        if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
+            return Err(CameraError::FieldOfView { found: tan_half_height });
+        }
+        if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 30 {
+            return Err(CameraError::Size { width, height });
+        }
+        let [from, to, up] = [eye, target, up].map(|vector| vector.map(f64::from));
+        let forward = unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]).ok_or(CameraError::Flat)?;
+        let sideways = cross(forward, unit(up).ok_or(CameraError::Flat)?);
+        if length(sideways) < LEAST_SINE {
+            return Err(CameraError::Flat);
+        }
+        let right = unit(sideways).ok_or(CameraError::Flat)?;
+        let up = cross(right, forward);
+        let half_height = f64::from(tan_half_height);
+        let half_width = half_height * f64::from(width) / f64::from(height);
+        let right = right.map(|value| value * half_width);
+        let up = up.map(|value| value * half_height);
+        Ok(Self { eye, width, height, forward, right, up })
+    }
+
+    /// The camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout to the
+    /// right. The teapot fills a square picture.
+    ///
+    /// # Errors
+    /// [`CameraError::Size`] for a picture without pixels or beyond 2^30.
+    pub fn teapot(width: u32, height: u32) -> Result<Self, CameraError> {
+        Self::new([2.9, -7.7, 5.3], [0.6, 0.0, 1.35], [0.0, 0.0, 1.0], 0.375, width, height)
+    }
+
+    /// Where all rays start.
+    #[must_use]
+    pub fn eye(&self) -> [f32; 3] {
+        self.eye
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The unit vector along the middle of the view, which also is the direction's component all pixels share.
+    #[must_use]
+    pub fn forward(&self) -> [f64; 3] {
+        self.forward
+    }
+
+    /// Direction through the centre of a pixel, unnormalised: its component along the view is 1. Pixels outside the
+    /// picture continue its plane.
+    #[must_use]
+    pub fn direction(&self, x: u32, y: u32) -> [f32; 3] {
+        self.exact_direction(x, y).map(|value| value as f32)
+    }
+
+    /// The same direction at length 1, within one rounding of f32 a component.
+    #[must_use]
+    pub fn unit_direction(&self, x: u32, y: u32) -> [f32; 3] {
+        let direction = self.exact_direction(x, y);
+        unit(direction).unwrap_or(direction).map(|value| value as f32)
+    }
+
+    /// The ray through the centre of a pixel, unnormalised.
+    ///
+    /// # Panics
+    /// Never for pixels of the picture: their direction is finite and not zero.
+    #[must_use]
+    pub fn ray(&self, x: u32, y: u32) -> Ray {
+        Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
+    }
+
+    /// The rays of all pixels, row by row from the upper left.
+    #[must_use]
+    pub fn rays(&self) -> Vec<Ray> {
+        (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.ray(x, y))).collect()
+    }
+
+    fn exact_direction(&self, x: u32, y: u32) -> [f64; 3] {
+        let across = (2.0 * f64::from(x) + 1.0) / f64::from(self.width) - 1.0;
+        let upwards = 1.0 - (2.0 * f64::from(y) + 1.0) / f64::from(self.height);
+        [0, 1, 2].map(|axis| self.forward[axis] + across * self.right[axis] + upwards * self.up[axis])
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// IEEE square root is correctly rounded, hence the same everywhere; f32 figures squared neither overflow nor vanish in f64.
+fn length(vector: [f64; 3]) -> f64 {
+    (vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]).sqrt()
+}
+
+/// The vector at length 1, if it has one.
+fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
+    let length = length(vector);
+    (length > 0.0).then(|| vector.map(|value| value / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_run_from_the_upper_left() {
+        let camera = Camera::new([0.0; 3], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0], 0.5, 4, 2).expect("a camera");
+        assert_eq!(camera.direction(0, 0), [-0.75, 1.0, 0.25]);
+        assert_eq!(camera.direction(3, 1), [0.75, 1.0, -0.25]);
+        assert_eq!(camera.rays().len(), 8);
+        assert_eq!(camera.rays()[5], camera.ray(1, 1));
+        let [x, y, z] = camera.unit_direction(2, 0).map(f64::from);
+        assert!((x * x + y * y + z * z - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_makes_no_picture_is_refused() {
+        let camera = |target, up, tangent, width| Camera::new([1.0; 3], target, up, tangent, width, 8);
+        assert_eq!(camera([1.0; 3], [0.0, 0.0, 1.0], 0.5, 8), Err(CameraError::Flat));
+        assert_eq!(camera([1.0, 1.0, 2.0], [0.0, 0.0, 1.0], 0.5, 8), Err(CameraError::Flat));
+        assert_eq!(camera([0.0; 3], [0.0; 3], 0.5, 8), Err(CameraError::Flat));
+        assert!(matches!(camera([0.0; 3], [0.0, 0.0, 1.0], 0.0, 8), Err(CameraError::FieldOfView { .. })));
+        assert!(matches!(camera([0.0; 3], [0.0, 0.0, 1.0], 0.5, 0), Err(CameraError::Size { .. })));
+        assert!(matches!(camera([0.0; 3], [f32::NAN; 3], 0.5, 8), Err(CameraError::NotFinite { what: "up", .. })));
+    }
+}

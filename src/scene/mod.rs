@@ -1,0 +1,5 @@
+//! What is looked at, and from where.
+
+pub mod camera;
+
+pub use camera::{Camera, CameraError};

@@ -1,0 +1,4 @@
+//! Laws: what must hold of every input, by property tests and by formula.
+
+mod geometry;
+mod ground_truth;
