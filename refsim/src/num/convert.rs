@@ -1,0 +1,23 @@
+//! From one format to another.
+
+use super::env::Env;
+use super::flags::{Flags, Outcome};
+use super::format::Format;
+use super::round::{from_parts, infinite};
+use super::unpack::{Unpacked, nan_bits, unpack};
+
+/// The number `bits` of format `from`, rounded once into format `to` by `to`'s rules.
+///
+/// NaN to NaN, `INVALID` if it was signalling; NaN to fixed point is 0 and `INVALID`. Infinity stays infinity; in
+/// fixed point it saturates with `OVERFLOW`, also where finite numbers wrap.
+pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
+    let to = to.into();
+    match unpack(from, bits) {
+        Unpacked::Nan { signaling } => {
+            let bad = signaling || to.format.is_fixed();
+            Outcome::new(nan_bits(&to.format), if bad { Flags::INVALID } else { Flags::empty() })
+        }
+        Unpacked::Inf { sign } => infinite(&to.format, sign),
+        Unpacked::Finite { sign, sig, exp } => from_parts(to, sign, sig.into(), exp, false),
+    }
+}

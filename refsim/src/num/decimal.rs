@@ -1,0 +1,269 @@
+//! Decimal text to bits and back, correctly rounded for any length.
+
+use num_bigint::BigUint;
+use num_traits::{ToPrimitive, Zero};
+
+use super::env::Env;
+use super::flags::Outcome;
+use super::format::Format;
+use super::round::{from_parts, infinite, zero};
+use super::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// Significant digits that are read; later ones count only as "more follows". The midpoint between two neighbours of
+/// any format has fewer than 200.
+const DIGITS: usize = 800;
+/// Decimal exponents beyond this are beyond every format (`2^128` has 39 digits, `2^-149` starts at the 45th place).
+const FAR: i64 = 400;
+
+/// Text that is not a decimal number.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("decimal number `{text}`: expected {expected} at character {at}, found {found}")]
+#[diagnostic(
+    code(num::decimal),
+    help("write a number like `-12.5`, `3e-7`, `inf` or `nan`, without spaces")
+)]
+pub struct DecimalError {
+    /// The text, cut short if it is very long.
+    pub text: String,
+    /// Where, in characters from 0.
+    pub at: usize,
+    /// What may stand there.
+    pub expected: &'static str,
+    /// What stands there.
+    pub found: String,
+}
+
+/// The number written in `text`, rounded once into the format.
+///
+/// Grammar: an optional sign, then `inf`, `infinity` or `nan` in any case, or digits with at most one point and an
+/// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are fine. `inf` and `nan` become
+/// the end of the range (`OVERFLOW`) and zero (`INVALID`) in fixed point. In a wrapping format numbers of magnitude
+/// `2^86` and more saturate.
+///
+/// # Errors
+/// [`DecimalError`] if the text doesn't follow the grammar.
+pub fn from_decimal(env: impl Into<Env>, text: &str) -> Result<Outcome, DecimalError> {
+    let env = env.into();
+    let (negative, body) = match text.as_bytes().first() {
+        Some(b'-') => (true, &text[1..]),
+        Some(b'+') => (false, &text[1..]),
+        _ => (false, text),
+    };
+    if body.eq_ignore_ascii_case("inf") || body.eq_ignore_ascii_case("infinity") {
+        return Ok(infinite(&env.format, negative));
+    }
+    if body.eq_ignore_ascii_case("nan") {
+        let quiet = nan_result(&env.format, &[]);
+        return Ok(if env.format.is_fixed() { invalid(&env.format) } else { quiet });
+    }
+    let literal = scan(text, text.len() - body.len())?;
+    Ok(round_decimal(&env, negative, &literal))
+}
+
+/// A scanned literal: `0.d1 d2 d3... * 10^point`, `d1` nonzero, and whether nonzero digits were cut off.
+struct Literal {
+    digits: Vec<u8>,
+    point: i64,
+    more: bool,
+}
+
+fn scan(text: &str, start: usize) -> Result<Literal, DecimalError> {
+    let bytes = text.as_bytes();
+    let fail = |at: usize, expected| {
+        let found = text.get(at..).and_then(|rest| rest.chars().next());
+        DecimalError {
+            text: text.chars().take(60).collect(),
+            at: text.get(..at).map_or(at, |before| before.chars().count()),
+            expected,
+            found: found.map_or_else(|| "the end".to_owned(), |c| format!("`{c}`")),
+        }
+    };
+    let mut literal = Literal { digits: Vec::new(), point: 0, more: false };
+    let (mut at, mut any, mut after_point) = (start, false, false);
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b'0'..=b'9' => {
+                any = true;
+                let leading = literal.digits.is_empty() && byte == b'0';
+                if !leading && literal.digits.len() < DIGITS {
+                    literal.digits.push(byte - b'0');
+                } else if !leading {
+                    literal.more |= byte != b'0';
+                }
+                literal.point += match (leading, after_point) {
+                    (true, true) => -1,
+                    (false, false) => 1,
+                    _ => 0,
+                };
+            }
+            b'.' if !after_point => after_point = true,
+            _ => break,
+        }
+        at += 1;
+    }
+    if !any {
+        return Err(fail(at, "a digit, `inf` or `nan`"));
+    }
+    if matches!(bytes.get(at), Some(b'e' | b'E')) {
+        at += 1;
+        let down = bytes.get(at) == Some(&b'-');
+        at += usize::from(matches!(bytes.get(at), Some(b'-' | b'+')));
+        let first = at;
+        let mut exponent = 0i64;
+        while let Some(digit) = bytes.get(at).filter(|b| b.is_ascii_digit()) {
+            // Saturates far outside every format, and far from any text's length.
+            exponent = (exponent * 10 + i64::from(digit - b'0')).min(1 << 50);
+            at += 1;
+        }
+        if at == first {
+            return Err(fail(at, "a digit of the exponent"));
+        }
+        literal.point += if down { -exponent } else { exponent };
+    }
+    if at < bytes.len() {
+        return Err(fail(at, "a digit, a point, an exponent or the end"));
+    }
+    Ok(literal)
+}
+
+fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
+    let format = &env.format;
+    if literal.digits.is_empty() {
+        return zero(format, negative);
+    }
+    let too_large = || {
+        let saturating = format.with_overflow(super::Overflow::Saturate);
+        let format = if format.is_fixed() { saturating } else { *format };
+        from_parts(Env { format, ..*env }, negative, 1, FAR as i32 * 4, false)
+    };
+    if literal.point > FAR {
+        return too_large();
+    }
+    if literal.point < -FAR {
+        return from_parts(*env, negative, 0, -4 * FAR as i32, true);
+    }
+    let ten = BigUint::from(10u32);
+    let digits = BigUint::from_radix_be(&literal.digits, 10).unwrap_or_default();
+    let scale = literal.point - literal.digits.len() as i64;
+    let power = ten.pow(u32::try_from(scale.unsigned_abs()).unwrap_or(0));
+    let (num, den) = if scale >= 0 { (digits * power, BigUint::from(1u32)) } else { (digits, power) };
+    // 66 quotient bits at least, down to 2^-40 at least.
+    let left = (den.bits() + 66).saturating_sub(num.bits()).max(40);
+    let scaled = num << left;
+    let quotient = &scaled / &den;
+    let mut sticky = literal.more || !(&scaled % &den).is_zero();
+    let drop = quotient.bits().saturating_sub(126);
+    sticky |= quotient.trailing_zeros().unwrap_or(0) < drop;
+    let kept = (quotient >> drop).to_u128().unwrap_or(0);
+    let exp = drop as i64 - left as i64;
+    if format.is_fixed() && exp > -40 {
+        return too_large();
+    }
+    from_parts(*env, negative, kept, exp as i32, sticky)
+}
+
+/// The number behind `bits` with all its digits, without exponent: `-0.333251953125`, `65504`, `-0`, `inf`, `nan`.
+pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
+    let (sign, digits, point) = match expand(format, bits) {
+        Ok(parts) => parts,
+        Err(word) => return word.to_owned(),
+    };
+    plain(sign, &digits, point)
+}
+
+/// The shortest decimal text that [`from_decimal`] reads back to the same bits (of equally short ones, the nearest
+/// to the value). Subnormals of a flushing format are the zeros they count as. Large and small magnitudes are
+/// written with an exponent.
+pub fn to_decimal(format: &Format, bits: u32) -> String {
+    let (sign, digits, point) = match expand(format, bits) {
+        Ok(parts) => parts,
+        Err(word) => return word.to_owned(),
+    };
+    let wanted = super::unpack::pass(format, bits);
+    for length in 1..digits.len() {
+        for (digits, point) in candidates(&digits, point, length) {
+            let text = compact(sign, &digits, point);
+            if from_decimal(format, &text).is_ok_and(|outcome| outcome.bits == wanted) {
+                return text;
+            }
+        }
+    }
+    compact(sign, &digits, point)
+}
+
+/// Sign, digits without zeros at either end and the power of ten of the point, as in [`Literal`].
+fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static str> {
+    let (sign, sig, exp) = match unpack(format, bits) {
+        Unpacked::Nan { .. } => return Err("nan"),
+        Unpacked::Inf { sign: true } => return Err("-inf"),
+        Unpacked::Inf { sign: false } => return Err("inf"),
+        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+    };
+    if sig == 0 {
+        return Ok((sign, Vec::new(), 0));
+    }
+    // sig * 2^-n = sig * 5^n / 10^n
+    let (number, places) = if exp >= 0 {
+        (BigUint::from(sig) << exp.unsigned_abs(), 0)
+    } else {
+        (BigUint::from(sig) * BigUint::from(5u32).pow(exp.unsigned_abs()), i64::from(exp.unsigned_abs()))
+    };
+    let mut digits = number.to_radix_be(10);
+    let point = digits.len() as i64 - places;
+    while digits.last() == Some(&0) {
+        digits.pop();
+    }
+    Ok((sign, digits, point))
+}
+
+/// The two neighbours of `length` digits, the nearer first.
+fn candidates(digits: &[u8], point: i64, length: usize) -> [(Vec<u8>, i64); 2] {
+    let below = digits[..length].to_vec();
+    let mut above = below.clone();
+    let mut above_point = point;
+    while above.last() == Some(&9) {
+        above.pop();
+    }
+    match above.last_mut() {
+        Some(digit) => *digit += 1,
+        None => {
+            above.push(1);
+            above_point += 1;
+        }
+    }
+    let upper_nearer = digits[length] > 5 || (digits[length] == 5 && digits.len() > length + 1);
+    if upper_nearer { [(above, above_point), (below, point)] } else { [(below, point), (above, above_point)] }
+}
+
+/// Digits with a point, or with an exponent where that would take many zeros.
+fn compact(sign: bool, digits: &[u8], point: i64) -> String {
+    if digits.is_empty() || (-4..=9).contains(&point) {
+        return plain(sign, digits, point);
+    }
+    let mut text = plain(sign, digits, 1);
+    text.push_str(&format!("e{}", point - 1));
+    text
+}
+
+/// Digits with a point and no exponent.
+fn plain(sign: bool, digits: &[u8], point: i64) -> String {
+    let mut text = String::from(if sign { "-" } else { "" });
+    let push = |text: &mut String, digits: &[u8]| text.extend(digits.iter().map(|d| char::from(b'0' + d)));
+    let zeros = |count: i64| vec![0u8; usize::try_from(count).unwrap_or(0)];
+    if digits.is_empty() {
+        text.push('0');
+    } else if point <= 0 {
+        text.push_str("0.");
+        push(&mut text, &zeros(-point));
+        push(&mut text, digits);
+    } else {
+        let whole = digits.len().min(usize::try_from(point).unwrap_or(0));
+        push(&mut text, &digits[..whole]);
+        push(&mut text, &zeros(point - whole as i64));
+        if whole < digits.len() {
+            text.push('.');
+            push(&mut text, &digits[whole..]);
+        }
+    }
+    text
+}

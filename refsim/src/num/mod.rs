@@ -1,0 +1,62 @@
+//! Number formats, and arithmetic in them with integers alone.
+//!
+//! A [`Format`] is a record: a layout ([`Kind`]) and four rules ([`Rounding`], [`Overflow`], [`Denormals`],
+//! [`Specials`]). It is written as a string, the same everywhere in Crossbar:
+//!
+//! | string | meaning |
+//! |---|---|
+//! | `s3.12` | fixed point: sign, 3 integer and 12 fraction bits, two's complement |
+//! | `e5m10` | float: sign, 5 exponent and 10 mantissa bits, as IEEE 754 lays them out |
+//! | `ps14` `fx12` `fp16` `fp24` `fp32` `bf16` | `s3.12` `s1.10` `e5m10` `e7m16` `e8m23` `e8m7` |
+//! | `:rne` `:rna` `:rtz` `:rdn` | rounding: nearest even (default), nearest away, toward zero, down |
+//! | `:sat` `:wrap` | overflow in fixed point: saturate (default), wrap |
+//! | `:inf` `:sat` `:nvovf` | overflow in floats: IEEE (default), saturate, `NV_fragment_program` |
+//! | `:keep` `:ftz` | floats: subnormals kept (default), flushed to zero |
+//! | `:ieee` `:nv` | floats: special values as Direct3D 9 (default) or `NV_fragment_program` has them |
+//!
+//! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and
+//! returns an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded
+//! once**: an operation works out the exact magnitude (or enough of its leading bits and whether more follow), and
+//! [`from_parts`], the one place that rounds, makes bits of it. Where a card rounds in between, the operation says so
+//! by its name: [`ops::mad`] has two roundings, [`ops::fused_mad`] has one, [`ops::dot`] takes the order.
+//!
+//! Conventions that hold for all operations:
+//! - No host float decides a bit. `fp32` goes the same way as every other format.
+//! - A NaN result is the canonical one: positive, quiet, the rest of its payload zero. A signalling NaN operand
+//!   raises `INVALID`, a quiet one doesn't (except in the signalling comparisons).
+//! - Where there is no real result, floats give NaN and fixed point gives zero, with `INVALID`.
+//! - An exactly infinite result is infinity with `DIVIDE_BY_ZERO`; fixed point and `:sat` floats give the end of the
+//!   range instead.
+//! - Under `:ftz` subnormal operands and results are zeros of their sign, in every operation, moves included.
+//! - `UNDERFLOW` is raised for results that are tiny and inexact; [`Tininess`] chooses what tiny means. In fixed
+//!   point it is never raised.
+//!
+//! ```
+//! use refsim::num::{Flags, Format, decimal, ops};
+//!
+//! let ps14: Format = "s3.12:rtz".parse()?;
+//! let third = ops::div(&ps14, ps14.one(), decimal::from_decimal(&ps14, "3")?.bits);
+//! assert_eq!((third.bits, third.flags), (0x0555, Flags::INEXACT));
+//! assert_eq!(decimal::to_decimal_exact(&ps14, third.bits), "0.333251953125");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod convert;
+pub mod decimal;
+mod env;
+mod flags;
+mod format;
+pub mod ops;
+mod parse;
+mod round;
+mod sum;
+mod transcendental;
+mod unpack;
+
+pub use env::{Env, Tininess};
+pub use flags::{Flags, Outcome};
+pub use format::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+pub use ops::DotOrder;
+pub use parse::FormatError;
+pub use round::{from_parts, from_ratio};
+pub use unpack::{Unpacked, unpack};

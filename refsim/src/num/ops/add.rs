@@ -1,0 +1,36 @@
+//! Addition and subtraction.
+
+use crate::num::env::Env;
+use crate::num::flags::Outcome;
+use crate::num::round::infinite;
+use crate::num::sum::{Term, sum};
+use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// `a + b`. `inf - inf` is `INVALID`; an exact zero is +0, or -0 when rounding down or when both operands are -0.
+pub fn add(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
+    let env = env.into();
+    add_values(&env, unpack(&env.format, a), unpack(&env.format, b))
+}
+
+/// `a - b`, which is `a + (-b)`.
+pub fn sub(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
+    let env = env.into();
+    let negated = match unpack(&env.format, b) {
+        Unpacked::Finite { sign, sig, exp } => Unpacked::Finite { sign: !sign, sig, exp },
+        Unpacked::Inf { sign } => Unpacked::Inf { sign: !sign },
+        nan => nan,
+    };
+    add_values(&env, unpack(&env.format, a), negated)
+}
+
+fn add_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
+    use Unpacked::{Finite, Inf, Nan};
+    match (a, b) {
+        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
+            sum(env, Term { sign: sa, sig: ma, exp: ea }, Term { sign: sb, sig: mb, exp: eb })
+        }
+        (Nan { .. }, _) | (_, Nan { .. }) => nan_result(&env.format, &[a, b]),
+        (Inf { sign: sa }, Inf { sign: sb }) if sa != sb => invalid(&env.format),
+        (Inf { sign }, _) | (_, Inf { sign }) => infinite(&env.format, sign),
+    }
+}

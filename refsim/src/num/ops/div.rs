@@ -1,0 +1,41 @@
+//! Division and the reciprocal.
+
+use crate::num::env::Env;
+use crate::num::flags::Outcome;
+use crate::num::round::{divide_by_zero, from_parts, infinite, zero};
+use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`: infinity of the quotient's sign, or the end of the
+/// range on the side of `a` where there is none (fixed point, wrapping too, and `:sat` floats). `0/0` and `inf/inf`
+/// are `INVALID`, and 0 in fixed point.
+pub fn div(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
+    let env = env.into();
+    div_values(&env, unpack(&env.format, a), unpack(&env.format, b))
+}
+
+/// `1 / x`, rounded once; the one is exact even in formats that can't hold it. `1 / 0` as in [`div`]: in fixed point
+/// the largest number.
+pub fn rcp(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    div_values(&env, Unpacked::Finite { sign: false, sig: 1, exp: 0 }, unpack(&env.format, x))
+}
+
+fn div_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
+    use Unpacked::{Finite, Inf, Nan};
+    let format = &env.format;
+    match (a, b) {
+        (Nan { .. }, _) | (_, Nan { .. }) => nan_result(format, &[a, b]),
+        (Inf { .. }, Inf { .. }) | (Finite { sig: 0, .. }, Finite { sig: 0, .. }) => invalid(format),
+        (Inf { sign: sa }, Finite { sign: sb, .. }) => infinite(format, sa != sb),
+        (Finite { sign: sa, .. }, Inf { sign: sb }) => zero(format, sa != sb),
+        (Finite { sign: sa, .. }, Finite { sign: sb, sig: 0, .. }) => divide_by_zero(format, sa != sb),
+        (Finite { sign: sa, sig: 0, .. }, Finite { sign: sb, .. }) => zero(format, sa != sb),
+        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
+            // With the dividend's leading bit at 2^63 a float's quotient has 40 bits or more; in fixed point its
+            // last bit is 2^-32 or less, half a unit of the finest format.
+            let left = ma.leading_zeros();
+            let dividend = ma << left;
+            from_parts(*env, sa != sb, u128::from(dividend / mb), ea - left.cast_signed() - eb, dividend % mb != 0)
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Multiply-add in two roundings and in one.
+
+use super::{add, mul};
+use crate::num::env::Env;
+use crate::num::flags::Outcome;
+use crate::num::round::infinite;
+use crate::num::sum::{Term, sum};
+use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// `a * b + c` with the product rounded first: the multiply-add of the cards.
+pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
+    let env = env.into();
+    let product = mul(env, a, b);
+    add(env, product.bits, c).also(product.flags)
+}
+
+/// `a * b + c` rounded once. `0 * inf + c` is `INVALID` even for a quiet NaN `c`, which IEEE 754 leaves open; so
+/// decide SoftFloat and RISC-V.
+pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
+    use Unpacked::{Finite, Inf, Nan};
+    let env = env.into();
+    let format = &env.format;
+    let (a, b, c) = (unpack(format, a), unpack(format, b), unpack(format, c));
+    let product = match (a, b) {
+        (Nan { .. }, _) | (_, Nan { .. }) => return nan_result(format, &[a, b, c]),
+        (Inf { .. }, Finite { sig: 0, .. }) | (Finite { sig: 0, .. }, Inf { .. }) => return invalid(format),
+        (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
+            Finite { sign: sa != sb, sig: ma * mb, exp: ea + eb }
+        }
+        (Inf { sign: sa }, Inf { sign: sb } | Finite { sign: sb, .. })
+        | (Finite { sign: sa, .. }, Inf { sign: sb }) => Inf { sign: sa != sb },
+    };
+    match (product, c) {
+        (_, Nan { .. }) => nan_result(format, &[c]),
+        (Finite { sign: sp, sig: mp, exp: ep }, Finite { sign: sc, sig: mc, exp: ec }) => {
+            sum(&env, Term { sign: sp, sig: mp, exp: ep }, Term { sign: sc, sig: mc, exp: ec })
+        }
+        (Inf { sign: sp }, Inf { sign: sc }) if sp != sc => invalid(format),
+        (Inf { sign }, _) | (_, Inf { sign }) => infinite(format, sign),
+        (Nan { .. }, _) => nan_result(format, &[product]),
+    }
+}

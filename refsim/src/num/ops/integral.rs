@@ -1,0 +1,79 @@
+//! Floor, fraction and rounding to integers.
+
+use crate::num::env::Env;
+use crate::num::flags::{Flags, Outcome};
+use crate::num::format::Rounding;
+use crate::num::round::{from_parts, infinite};
+use crate::num::sum::{Term, sum};
+use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// The largest integer not above `x`. Never `INEXACT`; infinities and zeros keep their sign.
+pub fn floor(env: impl Into<Env>, x: u32) -> Outcome {
+    round_to_int_with(env, x, Rounding::Down, false)
+}
+
+/// `x` rounded to an integer by the format's rounding, without `INEXACT` (TestFloat's `roundToInt`).
+pub fn round_to_int(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    round_to_int_with(env, x, env.format.rounding, false)
+}
+
+/// [`round_to_int`] that raises `INEXACT` when it changes the value (TestFloat's `-exact`).
+pub fn round_to_int_exact(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    round_to_int_with(env, x, env.format.rounding, true)
+}
+
+/// `x` rounded to an integer by the given rounding; `exact` asks for `INEXACT` when that changes the value.
+///
+/// A zero result keeps the operand's sign. The integer may lie outside a short format's range (8 in `s3.12`); then
+/// it overflows as any result does.
+pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact: bool) -> Outcome {
+    let env = env.into();
+    let value = unpack(&env.format, x);
+    let (sign, sig, exp) = match value {
+        Unpacked::Nan { .. } => return nan_result(&env.format, &[value]),
+        Unpacked::Inf { sign } => return infinite(&env.format, sign),
+        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+    };
+    if exp >= 0 {
+        return from_parts(env, sign, sig.into(), exp, false);
+    }
+    let (integer, rest, half) = split(sig, exp);
+    let up = match rounding {
+        Rounding::NearestEven => rest > half || (rest == half && integer % 2 == 1),
+        Rounding::NearestAway => rest >= half,
+        Rounding::TowardZero => false,
+        Rounding::Down => sign && rest != 0,
+    };
+    let outcome = from_parts(env, sign, u128::from(integer + u64::from(up)), 0, false);
+    outcome.also(if exact && rest != 0 { Flags::INEXACT } else { Flags::empty() })
+}
+
+/// `sig * 2^exp` for negative `exp` as integer and rest, with the rest that would be one half.
+fn split(sig: u64, exp: i32) -> (u64, u64, u64) {
+    // Nothing is longer than 32 bits, so with 40 places dropped the rest is below one half as it should be.
+    let places = exp.unsigned_abs().min(40);
+    let integer = sig >> places;
+    (integer, sig - (integer << places), 1 << (places - 1))
+}
+
+/// `x - floor(x)`, rounded once. A small negative `x` may round to 1. Integers give +0 (-0 when rounding down);
+/// infinities are `INVALID`.
+pub fn frc(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    let value = unpack(&env.format, x);
+    let (sign, sig, exp) = match value {
+        Unpacked::Nan { .. } => return nan_result(&env.format, &[value]),
+        Unpacked::Inf { .. } => return invalid(&env.format),
+        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+    };
+    let rest = if exp >= 0 { 0 } else { split(sig, exp).1 };
+    // x - floor(x) is the rest of a positive x, and one minus the rest of a negative one.
+    let fraction = Term { sign, sig: rest, exp };
+    let whole = Term { sign: !sign, sig: u64::from(sign && rest != 0), exp: 0 };
+    if rest == 0 {
+        return sum(&env, Term { sign: false, sig: 0, exp }, Term { sign: true, sig: 0, exp });
+    }
+    sum(&env, fraction, whole)
+}

@@ -1,0 +1,29 @@
+//! The operations: free functions from a format and bit patterns to an [`Outcome`](super::Outcome).
+//!
+//! Each takes `impl Into<Env>`, so a [`Format`](super::Format), a `&Format` or an [`Env`](super::Env). Operands are
+//! bit patterns in the low bits; bits above the width are ignored. Every result is the exact real result rounded
+//! once, unless the operation's documentation names its steps. No operation panics.
+
+mod add;
+mod compare;
+mod div;
+mod dot;
+mod fused;
+mod integral;
+mod mul;
+mod scale;
+mod select;
+mod sqrt;
+
+pub use super::convert::convert;
+pub use super::transcendental::{exp2, log2, pow};
+pub use add::{add, sub};
+pub use compare::{eq, eq_signaling, le, le_quiet, lt, lt_quiet};
+pub use div::{div, rcp};
+pub use dot::{DotOrder, dot};
+pub use fused::{fused_mad, mad};
+pub use integral::{floor, frc, round_to_int, round_to_int_exact, round_to_int_with};
+pub use mul::mul;
+pub use scale::{abs, neg, saturate01, scale};
+pub use select::{cmp, cnd, max, min};
+pub use sqrt::{rsq, sqrt};

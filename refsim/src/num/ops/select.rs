@@ -1,0 +1,59 @@
+//! Minimum, maximum and the two selects of the shading languages.
+//!
+//! A selected value is passed on: NaN made canonical, subnormals flushed where the format flushes.
+
+use super::compare::order;
+use crate::num::env::Env;
+use crate::num::flags::{Flags, Outcome};
+use crate::num::format::{Kind, Specials};
+use crate::num::unpack::{key, nan_bits, pass};
+
+/// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
+/// [`Specials::Nv`] a NaN on either side gives NaN. `INVALID` for signalling NaNs only.
+pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
+    choose(env.into(), a, b, std::cmp::Ordering::is_lt)
+}
+
+/// `a >= b ? a : b` (Direct3D 9 `max`), so that a NaN on either side gives `b` and a pair of zeros `a`; with
+/// [`Specials::Nv`] a NaN on either side gives NaN. `INVALID` for signalling NaNs only.
+pub fn max(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
+    choose(env.into(), a, b, std::cmp::Ordering::is_ge)
+}
+
+fn choose(env: Env, a: u32, b: u32, first: impl Fn(std::cmp::Ordering) -> bool) -> Outcome {
+    let format = &env.format;
+    let (order, signaling) = order(&env, a, b);
+    let bits = match order {
+        None if format.specials == Specials::Nv => nan_bits(format),
+        Some(order) if first(order) => pass(format, a),
+        _ => pass(format, b),
+    };
+    Outcome::new(bits, if signaling { Flags::INVALID } else { Flags::empty() })
+}
+
+/// `cond >= 0 ? a : b`. -0 counts as zero, a NaN condition selects `b`. Raises nothing.
+pub fn cmp(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
+    let format = env.into().format;
+    let first = !format.is_nan(cond) && key(&format, cond) >= 0;
+    Outcome::exact(pass(&format, if first { a } else { b }))
+}
+
+/// `cond > 0.5 ? a : b`. The half is exact even in formats that can't hold it; a NaN condition selects `b`. Raises
+/// nothing.
+pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
+    let format = env.into().format;
+    let first = match format.kind {
+        Kind::Fixed { frac_bits, .. } => 2 * key(&format, cond) > 1 << frac_bits,
+        Kind::Float { .. } => !format.is_nan(cond) && key(&format, cond) > i64::from(half(&format)),
+    };
+    Outcome::exact(pass(&format, if first { a } else { b }))
+}
+
+/// The pattern of 0.5 in a float; `eXmY` always has it, `e2mY` as a subnormal.
+fn half(format: &crate::num::Format) -> u32 {
+    match format.kind {
+        Kind::Float { exp_bits: 2, man_bits } => 1 << (man_bits - 1),
+        Kind::Float { man_bits, .. } => format.one() - (1 << man_bits),
+        Kind::Fixed { .. } => 0,
+    }
+}

@@ -1,0 +1,62 @@
+//! Square root and its reciprocal.
+
+use crate::num::env::Env;
+use crate::num::flags::Outcome;
+use crate::num::format::Specials;
+use crate::num::round::{divide_by_zero, from_parts, infinite, zero};
+use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// The square root. Negative operands are `INVALID` (fixed point: 0); `sqrt(-0)` is -0.
+pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    let value = unpack(&env.format, x);
+    match value {
+        Unpacked::Nan { .. } => nan_result(&env.format, &[value]),
+        Unpacked::Finite { sign, sig: 0, .. } => zero(&env.format, sign),
+        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(&env.format),
+        Unpacked::Inf { sign: false } => infinite(&env.format, false),
+        Unpacked::Finite { sig, exp, .. } => {
+            let (square, exp) = even(sig, exp);
+            let root = square.isqrt();
+            from_parts(env, false, root, exp / 2, root * root != square)
+        }
+    }
+}
+
+/// `1 / sqrt(x)`, rounded once.
+///
+/// Special values: with [`Specials::Ieee`] the operand's magnitude is taken, as Direct3D's pages have it, so
+/// `rsq(-4)` is 0.5 and both zeros give +inf with `DIVIDE_BY_ZERO`. With [`Specials::Nv`] `rsq(-0)` is -inf and
+/// negative operands are `INVALID`. In fixed point zero gives the largest number and negative operands are
+/// `INVALID`, result 0.
+pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    let format = &env.format;
+    let value = unpack(format, x);
+    let magnitude = format.specials == Specials::Ieee && !format.is_fixed();
+    match value {
+        Unpacked::Nan { .. } => nan_result(format, &[value]),
+        Unpacked::Finite { sign, sig: 0, .. } => divide_by_zero(format, sign && !magnitude),
+        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
+        Unpacked::Inf { .. } => zero(format, false),
+        Unpacked::Finite { sig, exp, .. } => {
+            // 1/sqrt(s * 2^e) = sqrt(2^126 / s) * 2^(-e/2 - 63) with s in [2^31, 2^33): the floor of the root of a
+            // floor is the floor of the root, and the root is exact only if both steps are.
+            let left = sig.leading_zeros() - 32 + (exp - sig.leading_zeros().cast_signed()).rem_euclid(2).unsigned_abs();
+            let (s, e) = (u128::from(sig) << left, exp - left.cast_signed());
+            let quotient = (1u128 << 126) / s;
+            let root = quotient.isqrt();
+            let exact = root * root * s == 1u128 << 126;
+            from_parts(env, false, root, -e / 2 - 63, !exact)
+        }
+    }
+}
+
+/// `sig * 2^exp` with an even exponent and 126 to 127 significant bits, so that the root has 63 or more.
+fn even(sig: u64, exp: i32) -> (u128, i32) {
+    let mut left = u128::from(sig).leading_zeros() - 1;
+    if (exp - left.cast_signed()) % 2 != 0 {
+        left -= 1;
+    }
+    (u128::from(sig) << left, exp - left.cast_signed())
+}

@@ -1,0 +1,217 @@
+//! Format strings: `s3.12`, `e5m10:rtz`, `fp24:rne:ftz`.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::format::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+
+/// Names that stand for a layout.
+const ALIASES: [(&str, Format); 6] = [
+    ("ps14", Format::S3_12),
+    ("fx12", Format::FX12),
+    ("fp16", Format::FP16),
+    ("fp24", Format::FP24),
+    ("fp32", Format::FP32),
+    ("bf16", Format::BF16),
+];
+
+/// Why a string is not a number format. Each message carries the whole string and what to write instead.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+pub enum FormatError {
+    /// The part before the first colon is not a layout.
+    #[error(
+        "number format `{text}`: expected a layout `sI.F`, `eXmY` or one of ps14, fx12, fp16, fp24, fp32, bf16, found `{found}`"
+    )]
+    #[diagnostic(
+        code(num::format_layout),
+        help("write for example `s3.12` (fixed point) or `e5m10` (float)")
+    )]
+    Layout {
+        /// The whole string.
+        text: String,
+        /// The part at fault.
+        found: String,
+    },
+    /// A layout whose bit counts are out of range.
+    #[error("number format `{text}`: expected {expected}, found `{found}`")]
+    #[diagnostic(
+        code(num::format_range),
+        help("fixed point goes up to 32 bits, floats from `e2m1` to `e8m23`")
+    )]
+    Range {
+        /// The whole string.
+        text: String,
+        /// The part at fault.
+        found: String,
+        /// The allowed range, in words.
+        expected: &'static str,
+    },
+    /// A suffix that nobody knows.
+    #[error(
+        "number format `{text}`: expected a suffix :rne :rna :rtz :rdn, :sat :wrap :inf :nvovf, :keep :ftz or :ieee :nv, found `:{found}` at character {at}"
+    )]
+    #[diagnostic(
+        code(num::format_suffix),
+        help("leave the suffix out to take the default (fixed: rne, sat; float: rne, inf, keep, ieee)")
+    )]
+    Suffix {
+        /// The whole string.
+        text: String,
+        /// The suffix without its colon.
+        found: String,
+        /// Where the suffix starts, in characters from 0.
+        at: usize,
+    },
+    /// A suffix that the kind of layout doesn't have.
+    #[error("number format `{text}`: `:{found}` at character {at} is for {kind} only")]
+    #[diagnostic(
+        code(num::format_kind),
+        help("fixed point knows :sat and :wrap; floats know :inf, :sat, :nvovf, :keep, :ftz, :ieee and :nv")
+    )]
+    WrongKind {
+        /// The whole string.
+        text: String,
+        /// The suffix without its colon.
+        found: String,
+        /// Where the suffix starts, in characters from 0.
+        at: usize,
+        /// `fixed point` or `floats`.
+        kind: &'static str,
+    },
+    /// Two suffixes that set the same rule.
+    #[error("number format `{text}`: expected one {rule} rule, found a second, `:{found}`, at character {at}")]
+    #[diagnostic(code(num::format_twice), help("keep one of the two suffixes"))]
+    Twice {
+        /// The whole string.
+        text: String,
+        /// The second suffix without its colon.
+        found: String,
+        /// Where the suffix starts, in characters from 0.
+        at: usize,
+        /// The rule that is set twice.
+        rule: &'static str,
+    },
+}
+
+impl FromStr for Format {
+    type Err = FormatError;
+
+    fn from_str(text: &str) -> Result<Format, FormatError> {
+        let mut parts = text.split(':');
+        let layout = parts.next().unwrap_or_default();
+        let mut format = parse_layout(text, layout)?;
+        let mut at = layout.chars().count();
+        let mut set = [false; 4];
+        for suffix in parts {
+            apply(&mut format, &mut set, text, suffix, at)?;
+            at += 1 + suffix.chars().count();
+        }
+        Ok(format)
+    }
+}
+
+/// `sI.F`, `eXmY` or an alias.
+fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
+    if let Some((_, format)) = ALIASES.iter().find(|(name, _)| *name == layout) {
+        return Ok(*format);
+    }
+    let range = |expected| FormatError::Range { text: text.to_owned(), found: layout.to_owned(), expected };
+    if let Some((i, f)) = split_counts(layout, 's', '.') {
+        return Format::fixed(i, f).ok_or_else(|| range("1 to 31 integer and fraction bits together"));
+    }
+    if let Some((x, m)) = split_counts(layout, 'e', 'm') {
+        return Format::float(x, m).ok_or_else(|| range("2 to 8 exponent and 1 to 23 mantissa bits"));
+    }
+    Err(FormatError::Layout { text: text.to_owned(), found: layout.to_owned() })
+}
+
+/// The two bit counts of `<lead>A<mid>B`; counts too long to matter become 255, which no range admits.
+fn split_counts(layout: &str, lead: char, mid: char) -> Option<(u8, u8)> {
+    let (a, b) = layout.strip_prefix(lead)?.split_once(mid)?;
+    let digits = |s: &str| !s.is_empty() && s.bytes().all(|c| c.is_ascii_digit());
+    (digits(a) && digits(b)).then(|| (a.parse().unwrap_or(255), b.parse().unwrap_or(255)))
+}
+
+/// One suffix.
+fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
+    let fixed = format.is_fixed();
+    // rule index, and which kind the suffix is for
+    let (rule, only) = match suffix {
+        "rne" => (0, None),
+        "rna" => (0, None),
+        "rtz" => (0, None),
+        "rdn" => (0, None),
+        "sat" => (1, None),
+        "wrap" => (1, Some(true)),
+        "inf" | "nvovf" => (1, Some(false)),
+        "keep" | "ftz" => (2, Some(false)),
+        "ieee" | "nv" => (3, Some(false)),
+        _ => return Err(FormatError::Suffix { text: text.to_owned(), found: suffix.to_owned(), at }),
+    };
+    if let Some(for_fixed) = only.filter(|k| *k != fixed) {
+        let kind = if for_fixed { "fixed point" } else { "floats" };
+        return Err(FormatError::WrongKind { text: text.to_owned(), found: suffix.to_owned(), at, kind });
+    }
+    if std::mem::replace(&mut set[rule], true) {
+        let rule = ["rounding", "overflow", "denormal", "special-value"][rule];
+        return Err(FormatError::Twice { text: text.to_owned(), found: suffix.to_owned(), at, rule });
+    }
+    match suffix {
+        "rne" => format.rounding = Rounding::NearestEven,
+        "rna" => format.rounding = Rounding::NearestAway,
+        "rtz" => format.rounding = Rounding::TowardZero,
+        "rdn" => format.rounding = Rounding::Down,
+        "sat" => format.overflow = Overflow::Saturate,
+        "wrap" => format.overflow = Overflow::Wrap,
+        "inf" => format.overflow = Overflow::Infinity,
+        "nvovf" => format.overflow = Overflow::Nv30,
+        "keep" => format.denormals = Denormals::Keep,
+        "ftz" => format.denormals = Denormals::Flush,
+        "ieee" => format.specials = Specials::Ieee,
+        _ => format.specials = Specials::Nv,
+    }
+    Ok(())
+}
+
+/// The canonical string: the layout spelled out, then the rules that differ from the defaults.
+impl fmt::Display for Format {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = match self.kind {
+            Kind::Fixed { int_bits, frac_bits } => format!("s{int_bits}.{frac_bits}"),
+            Kind::Float { exp_bits, man_bits } => format!("e{exp_bits}m{man_bits}"),
+        };
+        text.push_str(match self.rounding {
+            Rounding::NearestEven => "",
+            Rounding::NearestAway => ":rna",
+            Rounding::TowardZero => ":rtz",
+            Rounding::Down => ":rdn",
+        });
+        text.push_str(match (self.is_fixed(), self.overflow) {
+            (true, Overflow::Wrap) => ":wrap",
+            (false, Overflow::Saturate) => ":sat",
+            (false, Overflow::Nv30) => ":nvovf",
+            _ => "",
+        });
+        if !self.is_fixed() && self.denormals == Denormals::Flush {
+            text.push_str(":ftz");
+        }
+        if !self.is_fixed() && self.specials == Specials::Nv {
+            text.push_str(":nv");
+        }
+        out.pad(&text)
+    }
+}
+
+impl TryFrom<String> for Format {
+    type Error = FormatError;
+
+    fn try_from(text: String) -> Result<Format, FormatError> {
+        text.parse()
+    }
+}
+
+impl From<Format> for String {
+    fn from(format: Format) -> String {
+        format.to_string()
+    }
+}

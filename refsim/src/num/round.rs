@@ -1,0 +1,195 @@
+//! The one place that rounds: an exact magnitude becomes bits and flags.
+
+use super::env::{Env, Tininess};
+use super::flags::{Flags, Outcome};
+use super::format::{Denormals, Format, Kind, Overflow, Rounding};
+
+/// Exponents beyond this are beyond every format; clamping them keeps the arithmetic below in range.
+const FAR: i32 = 1 << 20;
+
+/// Rounds `(-1)^sign * v` once into the format, where `v = sig * 2^exp`, or with `sticky` some `v` strictly between
+/// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky`, `2^exp` must be at most half a unit in the last place of
+/// the result, or nothing can be said about it.
+pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
+    let env = env.into();
+    let exp = exp.clamp(-FAR, FAR);
+    match env.format.kind {
+        Kind::Fixed { int_bits, frac_bits } => {
+            round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, sig, exp, sticky)
+        }
+        Kind::Float { exp_bits, man_bits } => {
+            if sig >> 64 == 0 {
+                return round_float(&env, exp_bits, man_bits, sign, sig as u64, exp, sticky);
+            }
+            // 64 leading bits and the knowledge whether more follow are all that rounding asks for.
+            let drop = 64 - sig.leading_zeros();
+            let lost = sig & ((1 << drop) - 1) != 0;
+            round_float(&env, exp_bits, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
+        }
+    }
+}
+
+/// Whether the kept magnitude goes up by one unit.
+fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -> bool {
+    match rounding {
+        Rounding::NearestEven => half && (below || odd),
+        Rounding::NearestAway => half,
+        Rounding::TowardZero => false,
+        Rounding::Down => sign && (half || below),
+    }
+}
+
+/// `sig / 2^shift` rounded to an integer, and whether anything was lost.
+fn shift_round(rounding: Rounding, sign: bool, sig: u64, shift: i32, sticky: bool) -> (u64, bool) {
+    if shift <= 0 {
+        return (sig << -shift, sticky);
+    }
+    if shift > 64 {
+        let lost = sig != 0 || sticky;
+        return (u64::from(goes_up(rounding, sign, false, false, lost)), lost);
+    }
+    let half = (sig >> (shift - 1)) & 1 == 1;
+    let below = sticky || sig & ((1 << (shift - 1)) - 1) != 0;
+    let kept = if shift == 64 { 0 } else { sig >> shift };
+    let up = goes_up(rounding, sign, kept & 1 == 1, half, below);
+    (kept + u64::from(up), half || below)
+}
+
+fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
+    let format = &env.format;
+    let sign_bits = if sign { format.sign_bit() } else { 0 };
+    if sig == 0 && !sticky {
+        return Outcome::exact(sign_bits);
+    }
+    let man = i32::from(man_bits);
+    let min_exp = 2 - (1 << (exp_bits - 1));
+    // The value lies in [2^top, 2^(top+1)); its unit in the last place is 2^unit.
+    let top = exp + 63 - sig.leading_zeros().cast_signed();
+    let unit = (top - man).max(min_exp - man);
+    let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
+    // Exponent field and mantissa in one sum: the hidden bit adds the first one, a carry the next.
+    let magnitude = (((unit - min_exp + man) as u64) << man) + kept;
+    let infinity = u64::from(format.sign_bit()) - (1 << man);
+    if magnitude >= infinity {
+        let huge = top > 1 - min_exp;
+        return overflow_float(format, sign, huge);
+    }
+    let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
+    if inexact && top < min_exp {
+        let grows = env.tininess == Tininess::After
+            && top == min_exp - 1
+            && shift_round(format.rounding, sign, sig, top - man - exp, sticky).0 >> (man + 1) != 0;
+        if !grows {
+            flags |= Flags::UNDERFLOW;
+        }
+    }
+    if format.denormals == Denormals::Flush && magnitude != 0 && magnitude >> man == 0 {
+        return Outcome::new(sign_bits, Flags::UNDERFLOW | Flags::INEXACT);
+    }
+    Outcome::new(sign_bits | magnitude as u32, flags)
+}
+
+/// The result of a float too large; `huge` if the exact magnitude is `2^(emax+1)` or more.
+fn overflow_float(format: &Format, sign: bool, huge: bool) -> Outcome {
+    let infinite = match format.overflow {
+        Overflow::Saturate => false,
+        Overflow::Nv30 => huge,
+        Overflow::Infinity | Overflow::Wrap => match format.rounding {
+            Rounding::NearestEven | Rounding::NearestAway => true,
+            Rounding::TowardZero => false,
+            Rounding::Down => sign,
+        },
+    };
+    let bits = if infinite { format.infinity(sign).unwrap_or(0) } else { format.extreme(sign) };
+    Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT)
+}
+
+fn round_fixed(
+    format: &Format,
+    magnitude_bits: u8,
+    frac_bits: u8,
+    sign: bool,
+    sig: u128,
+    exp: i32,
+    sticky: bool,
+) -> Outcome {
+    let shift = -(exp + i32::from(frac_bits));
+    let (kept, carry_out, inexact) = if shift <= 0 {
+        let left = shift.unsigned_abs();
+        let kept = if left >= 128 { 0 } else { sig << left };
+        (kept, sig != 0 && sig.leading_zeros() < left, sticky)
+    } else if shift > 128 {
+        let lost = sig != 0 || sticky;
+        (u128::from(goes_up(format.rounding, sign, false, false, lost)), false, lost)
+    } else {
+        let half = (sig >> (shift - 1)) & 1 == 1;
+        let below = sticky || sig & ((1 << (shift - 1)) - 1) != 0;
+        let kept = if shift == 128 { 0 } else { sig >> shift };
+        let up = goes_up(format.rounding, sign, kept & 1 == 1, half, below);
+        (kept + u128::from(up), false, half || below)
+    };
+    // Two's complement reaches one unit further on the negative side.
+    let limit = (1u128 << magnitude_bits) - u128::from(!sign);
+    let low = kept as u32;
+    let bits = (if sign { low.wrapping_neg() } else { low }) & format.mask();
+    if kept > limit || carry_out {
+        let bits = if format.overflow == Overflow::Wrap { bits } else { format.extreme(sign) };
+        return Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT);
+    }
+    Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
+}
+
+/// An exactly infinite result of finite operands: infinity, or the end of the range where the format has no
+/// infinity or makes none.
+pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
+    let bits = match format.infinity(sign) {
+        Some(infinity) if format.overflow != Overflow::Saturate => infinity,
+        _ => format.extreme(sign),
+    };
+    Outcome::new(bits, Flags::DIVIDE_BY_ZERO)
+}
+
+/// An infinite operand passed on: infinity, or in fixed point the end of the range with `OVERFLOW`.
+pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
+    match format.infinity(sign) {
+        Some(bits) => Outcome::exact(bits),
+        None => Outcome::new(format.extreme(sign), Flags::OVERFLOW | Flags::INEXACT),
+    }
+}
+
+/// A zero; fixed point has one only.
+pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
+    Outcome::exact(if sign && !format.is_fixed() { format.sign_bit() } else { 0 })
+}
+
+/// The quotient `num / den` rounded once: how texels become numbers and attributes are interpolated.
+///
+/// `den = 0` is a division by zero (`0/0`: `INVALID`). In a wrapping format the quotient must be below `2^64`.
+pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> Outcome {
+    let env = env.into();
+    match (num, den) {
+        (0, 0) => return super::unpack::invalid(&env.format),
+        (_, 0) => return divide_by_zero(&env.format, negative),
+        (0, _) => return zero(&env.format, negative),
+        _ => {}
+    }
+    if num >> 32 == 0 && den >> 32 == 0 {
+        // 32 quotient bits at least, down to 2^-32 at least: enough for every format.
+        let shift = (num as u64).leading_zeros();
+        let scaled = (num as u64) << shift;
+        let (quotient, rest) = (scaled / den as u64, scaled % den as u64);
+        return from_parts(env, negative, u128::from(quotient), -shift.cast_signed(), rest != 0);
+    }
+    let shift = num.leading_zeros();
+    let scaled = num << shift;
+    let (mut quotient, mut rest) = (scaled / den, scaled % den);
+    let mut exp = -shift.cast_signed();
+    // Long division, a bit at a time, until the quotient is as long as rounding needs it.
+    while rest != 0 && quotient >> 126 == 0 && (quotient >> 64 == 0 || exp > -33) {
+        let bit = rest >= den - rest;
+        rest = if bit { rest - (den - rest) } else { rest << 1 };
+        quotient = quotient << 1 | u128::from(bit);
+        exp -= 1;
+    }
+    from_parts(env, negative, quotient, exp, rest != 0)
+}

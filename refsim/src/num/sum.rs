@@ -1,0 +1,55 @@
+//! Exact sums of two signed magnitudes, as far as one rounding can see them.
+
+use super::env::Env;
+use super::flags::Outcome;
+use super::format::Rounding;
+use super::round::{from_parts, zero};
+
+/// `(-1)^sign * sig * 2^exp`, exact; `sig` below `2^64`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Term {
+    pub(crate) sign: bool,
+    pub(crate) sig: u64,
+    pub(crate) exp: i32,
+}
+
+/// The sign of an exact zero that is the sum of terms which aren't all zeros of one sign (IEEE 754-2019, 6.3).
+pub(crate) fn cancelled(env: &Env) -> bool {
+    env.format.rounding == Rounding::Down
+}
+
+/// `a + b`, rounded once.
+pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
+    if a.sig == 0 && b.sig == 0 {
+        let sign = if a.sign == b.sign { a.sign } else { cancelled(env) };
+        return zero(&env.format, sign);
+    }
+    if b.sig == 0 {
+        return from_parts(*env, a.sign, a.sig.into(), a.exp, false);
+    }
+    if a.sig == 0 {
+        return from_parts(*env, b.sign, b.sig.into(), b.exp, false);
+    }
+    let (high, low) = if a.exp >= b.exp { (a, b) } else { (b, a) };
+    let distance = high.exp.abs_diff(low.exp);
+    // Bits by which the higher term moves left (two stay free for the carry), and the lower one right.
+    let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
+    let right = distance - left;
+    let high_sig = u128::from(high.sig) << left;
+    let (low_sig, sticky) = if right >= 64 { (0, true) } else { (low.sig >> right, low.sig << (64 - right).min(63) != 0) };
+    let sticky = right != 0 && sticky;
+    let low_sig = u128::from(low_sig);
+    let exp = high.exp - left.cast_signed();
+    if high.sign == low.sign {
+        return from_parts(*env, high.sign, high_sig + low_sig, exp, sticky);
+    }
+    if high_sig == low_sig && !sticky {
+        return zero(&env.format, cancelled(env));
+    }
+    if high_sig >= low_sig {
+        // A rest below the cut makes the difference smaller by less than one unit.
+        from_parts(*env, high.sign, high_sig - low_sig - u128::from(sticky), exp, sticky)
+    } else {
+        from_parts(*env, low.sign, low_sig - high_sig, exp, false)
+    }
+}

@@ -1,0 +1,145 @@
+//! Base-two exponential, logarithm and power.
+//!
+//! A value that no finite number of bits holds is enclosed between two integers in units of `2^-places`. If both
+//! ends round to the same bits and flags, so does the value between them (rounding is monotone); if not, the
+//! enclosure is made again with twice the places. Exact results never get here, so the loop ends: `2^x` is
+//! irrational for every rational `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
+
+mod enclose;
+
+use num_bigint::BigInt;
+use num_traits::ToPrimitive;
+
+use self::enclose::Enclosure;
+use super::env::Env;
+use super::flags::{Flags, Outcome};
+use super::format::{Kind, Overflow, Specials};
+use super::ops::mul;
+use super::round::{divide_by_zero, from_parts, infinite, zero};
+use super::unpack::{Unpacked, invalid, nan_result, unpack};
+
+/// Places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24 bits, so
+/// the later ones are never reached in practice.
+const PLACES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
+
+/// `2^x`, correctly rounded. `2^-inf` is +0. In a wrapping format an overflowing result saturates.
+pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    let format = &env.format;
+    let value = unpack(format, x);
+    let (sign, sig, exp) = match value {
+        Unpacked::Nan { .. } => return nan_result(format, &[value]),
+        Unpacked::Inf { sign: false } => return infinite(format, false),
+        Unpacked::Inf { sign: true } => return zero(format, false),
+        Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
+    };
+    let whole = floor_clamped(sign, sig, exp);
+    if let Kind::Fixed { int_bits, .. } = format.kind
+        && format.overflow == Overflow::Wrap
+        && whole >= i32::from(int_bits)
+    {
+        return Outcome::new(format.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
+    }
+    if exp >= 0 || sig == 0 || sig.trailing_zeros() >= exp.unsigned_abs() {
+        return from_parts(env, false, 1, whole, false);
+    }
+    let quick = enclose::exp2_quick(sign, sig, exp);
+    decide_quick(&env, quick.low, quick.high, quick.exp + whole).unwrap_or_else(|| {
+        decide_long(&env, |places| {
+            let long = enclose::exp2_long(sign, sig, exp, places);
+            Enclosure { exp: long.exp + whole, ..long }
+        })
+    })
+}
+
+/// `floor(x)`, held within +-2^20: further out every format overflows or underflows alike.
+fn floor_clamped(sign: bool, sig: u64, exp: i32) -> i32 {
+    const FAR: i64 = 1 << 20;
+    let value = if sign { -i128::from(sig) } else { i128::from(sig) };
+    let floor = if exp >= 0 { value << exp.min(60) } else { value >> exp.unsigned_abs().min(100) };
+    i32::try_from(floor.clamp(-i128::from(FAR), i128::from(FAR))).unwrap_or(0)
+}
+
+/// `log2 x`, correctly rounded.
+///
+/// Zero gives -inf with `DIVIDE_BY_ZERO` (the most negative number in fixed point and `:sat` floats). With
+/// [`Specials::Ieee`] a negative operand's magnitude is taken, as Direct3D's `log` does; with [`Specials::Nv`], and
+/// in fixed point, it is `INVALID`.
+pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
+    let env = env.into();
+    let format = &env.format;
+    let value = unpack(format, x);
+    let magnitude = format.specials == Specials::Ieee && !format.is_fixed();
+    match value {
+        Unpacked::Nan { .. } => nan_result(format, &[value]),
+        Unpacked::Finite { sig: 0, .. } => divide_by_zero(format, true),
+        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
+        Unpacked::Inf { .. } => infinite(format, false),
+        Unpacked::Finite { sig, exp, .. } => {
+            let top = 63 - sig.leading_zeros().cast_signed();
+            let whole = exp + top;
+            if sig.is_power_of_two() {
+                return from_parts(env, whole < 0, whole.unsigned_abs().into(), 0, false);
+            }
+            let quick = enclose::log2_quick(sig);
+            let base = i128::from(whole) << quick.exp.unsigned_abs();
+            decide_quick(&env, base + quick.low, base + quick.high, quick.exp).unwrap_or_else(|| {
+                decide_long(&env, |places| {
+                    let long = enclose::log2_long(sig, places);
+                    let base = BigInt::from(whole) << places;
+                    Enclosure { low: &base + long.low, high: base + long.high, exp: long.exp }
+                })
+            })
+        }
+    }
+}
+
+/// `x^y` as ps_2_0 expands it: `exp2(y * log2|x|)`, each of the three steps rounded once in the format. So `pow(0, 0)`
+/// is NaN (0 times -inf), as in `NV_fragment_program`. The magnitude is taken with [`Specials::Ieee`] and in fixed
+/// point; with [`Specials::Nv`] a negative `x` is `INVALID`.
+pub fn pow(env: impl Into<Env>, x: u32, y: u32) -> Outcome {
+    let env = env.into();
+    let x = if env.format.specials == Specials::Ieee { super::ops::abs(env, x).bits } else { x };
+    let log = log2(env, x);
+    let product = mul(env, y, log.bits);
+    exp2(env, product.bits).also(log.flags | product.flags)
+}
+
+/// The outcome for every value strictly between `low * 2^exp` and `high * 2^exp`, if there is one.
+fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
+    let (sign, near, far) = match (low >= 0, high <= 0) {
+        (true, _) => (false, low, high),
+        (_, true) => (true, -high, -low),
+        _ => return None,
+    };
+    // The value's floor is one of near ..= far - 1.
+    let first = from_parts(*env, sign, near.unsigned_abs(), exp, true);
+    let last = from_parts(*env, sign, (far - 1).unsigned_abs(), exp, true);
+    (first == last).then_some(first)
+}
+
+/// The same with enclosures of more and more places.
+fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outcome {
+    let mut best = Outcome::exact(0);
+    for places in PLACES {
+        let Enclosure { low, high, exp } = enclosure(places);
+        let (sign, near, far) = match (low >= BigInt::ZERO, high <= BigInt::ZERO) {
+            (true, _) => (false, low, high),
+            (_, true) => (true, -high, -low),
+            _ => continue,
+        };
+        best = round_big(env, sign, &near, exp);
+        if best == round_big(env, sign, &(far - 1), exp) {
+            break;
+        }
+    }
+    best
+}
+
+/// A value strictly between `floor * 2^exp` and `(floor + 1) * 2^exp`, rounded.
+fn round_big(env: &Env, sign: bool, floor: &BigInt, exp: i32) -> Outcome {
+    let magnitude = floor.magnitude();
+    let drop = magnitude.bits().saturating_sub(120);
+    let kept = (magnitude >> drop).to_u128().unwrap_or(0);
+    from_parts(*env, sign, kept, exp + i32::try_from(drop).unwrap_or(0), true)
+}

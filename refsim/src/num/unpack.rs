@@ -1,0 +1,100 @@
+//! From bits to the number they mean.
+
+use super::Outcome;
+use super::flags::Flags;
+use super::format::{Denormals, Format, Kind};
+
+/// The number behind a bit pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unpacked {
+    /// Not a number.
+    Nan {
+        /// The quiet bit is clear.
+        signaling: bool,
+    },
+    /// An infinity.
+    Inf {
+        /// Negative.
+        sign: bool,
+    },
+    /// `(-1)^sign * sig * 2^exp`; `sig` need not be normalised, and zero has a sign in floats.
+    Finite {
+        /// Negative, or -0.
+        sign: bool,
+        /// Magnitude in units of `2^exp`, at most `2^31`.
+        sig: u64,
+        /// Exponent of the unit.
+        exp: i32,
+    },
+}
+
+/// The number behind `bits` as operations see it: under [`Denormals::Flush`] a subnormal is a zero of its sign.
+/// Bits above the width are ignored.
+pub fn unpack(format: &Format, bits: u32) -> Unpacked {
+    let bits = bits & format.mask();
+    let sign = format.is_negative(bits);
+    match format.kind {
+        Kind::Fixed { frac_bits, .. } => {
+            let sig = if sign { (1u64 << format.width()) - u64::from(bits) } else { u64::from(bits) };
+            Unpacked::Finite { sign, sig, exp: -i32::from(frac_bits) }
+        }
+        Kind::Float { exp_bits, man_bits } => {
+            let bias = (1 << (exp_bits - 1)) - 1;
+            let field = (bits >> man_bits) & ((1 << exp_bits) - 1);
+            let man = bits & ((1 << man_bits) - 1);
+            if field == (1 << exp_bits) - 1 {
+                return match man {
+                    0 => Unpacked::Inf { sign },
+                    _ => Unpacked::Nan { signaling: man >> (man_bits - 1) == 0 },
+                };
+            }
+            let unit = 1 - bias - i32::from(man_bits);
+            if field == 0 {
+                let sig = if format.denormals == Denormals::Flush { 0 } else { u64::from(man) };
+                return Unpacked::Finite { sign, sig, exp: unit };
+            }
+            Unpacked::Finite { sign, sig: u64::from(man | 1 << man_bits), exp: unit + field.cast_signed() - 1 }
+        }
+    }
+}
+
+/// A value moved unchanged: NaN made canonical, subnormals flushed where the format says so, no exception.
+pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
+    let bits = bits & format.mask();
+    if let Kind::Float { .. } = format.kind {
+        if format.is_nan(bits) {
+            return nan_bits(format);
+        }
+        if format.is_zero(bits) {
+            return bits & format.sign_bit();
+        }
+    }
+    bits
+}
+
+/// The canonical NaN, or zero where the format has none.
+pub(crate) fn nan_bits(format: &Format) -> u32 {
+    format.canonical_nan().unwrap_or(0)
+}
+
+/// "There is no result": canonical NaN (fixed point: zero) and `INVALID`.
+pub(crate) fn invalid(format: &Format) -> Outcome {
+    Outcome::new(nan_bits(format), Flags::INVALID)
+}
+
+/// The result of an operation of which some operand is a NaN: `INVALID` if one of them is signalling.
+pub(crate) fn nan_result(format: &Format, operands: &[Unpacked]) -> Outcome {
+    let signaling = operands.iter().any(|o| matches!(o, Unpacked::Nan { signaling: true }));
+    Outcome::new(nan_bits(format), if signaling { Flags::INVALID } else { Flags::empty() })
+}
+
+/// An order-preserving integer for a pattern that isn't a NaN; both zeros give 0.
+pub(crate) fn key(format: &Format, bits: u32) -> i64 {
+    let bits = pass(format, bits);
+    let negative = format.is_negative(bits);
+    match format.kind {
+        Kind::Fixed { .. } if negative => i64::from(bits) - (1i64 << format.width()),
+        Kind::Float { .. } if negative => -i64::from(bits & (format.sign_bit() - 1)),
+        _ => i64::from(bits),
+    }
+}
