@@ -1,5 +1,6 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 
 pub mod asm;
+pub mod device;
 pub mod isa;
 pub mod num;

@@ -1,0 +1,63 @@
+//! What can be wrong with a request for a device.
+
+use crate::num::FormatError;
+
+/// A device, switch or value that does not exist.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+pub enum DeviceError {
+    /// No profile has this name.
+    #[error("unknown device `{name}`; expected one of {known}")]
+    #[diagnostic(
+        code(device::unknown),
+        help("`ideal-` takes any number format, for example `ideal-fp32` or `ideal-s3.12:rtz`")
+    )]
+    UnknownDevice {
+        /// What was asked for.
+        name: String,
+        /// The names that exist, separated by spaces.
+        known: String,
+    },
+    /// The part of `ideal-<format>` after the dash is no number format.
+    #[error("device `{name}`: expected a number format after `ideal-`")]
+    #[diagnostic(code(device::ideal_format))]
+    IdealFormat {
+        /// What was asked for.
+        name: String,
+        /// What is wrong with the format.
+        #[source]
+        source: FormatError,
+    },
+    /// The device has no switch of this name.
+    #[error("device `{device}` has no switch `{name}`; expected one of {allowed}")]
+    #[diagnostic(code(device::unknown_switch), help("`crossbar devices {device}` lists the switches"))]
+    UnknownSwitch {
+        /// The device.
+        device: String,
+        /// What was asked for.
+        name: String,
+        /// Its switches, separated by spaces.
+        allowed: String,
+    },
+    /// The switch does not take this value.
+    #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
+    #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
+    SwitchValue {
+        /// The device.
+        device: String,
+        /// The switch.
+        switch: String,
+        /// What was asked for.
+        value: String,
+        /// What it takes, separated by spaces.
+        allowed: String,
+    },
+    /// A profile's data are not what the emulator expects.
+    #[error("profile `{device}`: {problem}")]
+    #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
+    Profile {
+        /// The device.
+        device: String,
+        /// What is wrong, and where.
+        problem: String,
+    },
+}

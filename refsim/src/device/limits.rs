@@ -1,0 +1,159 @@
+//! What a device allows and how fast it is: the figures behind `check` and the timing model.
+
+use std::collections::BTreeMap;
+
+use super::DeviceError;
+use super::figure::Section;
+use crate::isa::Version;
+
+/// A structure of optional whole-number figures that is read from the section of the same field names.
+macro_rules! figures {
+    ($(#[$meta:meta])* $name:ident : $number:ty { $($(#[$doc:meta])* $field:ident),* $(,)? }
+     $(extra { $($(#[$extra_doc:meta])* $extra:ident : $extra_type:ty),* $(,)? })?) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Default, PartialEq, Eq)]
+        pub struct $name {
+            $($(#[$doc])* pub $field: Option<$number>,)*
+            $($($(#[$extra_doc])* pub $extra: $extra_type,)*)?
+        }
+
+        impl $name {
+            #[allow(clippy::needless_update, reason = "some of the structures have no further fields")]
+            pub(super) fn read(section: &mut Section<'_>) -> Result<Self, DeviceError> {
+                Ok(Self { $($field: section.number(stringify!($field))?,)* ..Self::default() })
+            }
+        }
+    };
+}
+
+figures! {
+    /// What a device allows. A figure that is absent leaves the limit to the shader version.
+    Limits: u32 {
+        /// Texture instructions in a phase (in the program, where the version has no phases).
+        texture_instructions_per_phase,
+        /// Arithmetic instruction slots in a phase (in the program, where the version has no phases).
+        arithmetic_instructions_per_phase,
+        /// Instruction slots of a pixel program in all.
+        instructions,
+        /// Temporaries `r#` of a pixel program.
+        temporaries,
+        /// Constants `c#` of a pixel program.
+        constants,
+        /// Coordinate sets `t#`.
+        texture_coordinates,
+        /// Samplers `s#` (stages in ps_1_x).
+        samplers,
+        /// Colours `v#` of a pixel program.
+        color_inputs,
+        /// Levels of texture reads that depend on one another.
+        dependent_reads,
+        /// Nesting of `if b#`.
+        static_flow_depth,
+        /// Nesting of flow that a computed value decides.
+        dynamic_flow_depth,
+        /// Nesting of `rep` and `loop`.
+        loop_depth,
+        /// Nesting of calls.
+        call_depth,
+        /// `if b#`, `else`, `rep`, `loop`, `call` and `callnz` in a vertex program.
+        static_flow_count,
+        /// Instruction slots of a vertex program.
+        vertex_instructions,
+        /// Temporaries `r#` of a vertex program.
+        vertex_temporaries,
+        /// Constants `c#` of a vertex program.
+        vertex_constants,
+        /// Colour targets of a draw.
+        render_targets,
+        /// Largest width and height of a texture, in texels.
+        max_texture_size,
+        /// Largest width and height of a render target, in pixels.
+        max_target_size,
+        /// Magnitude that a pixel register holds at least (`PixelShader1xMaxValue`).
+        register_magnitude,
+    }
+    extra {
+        /// The shader versions that the device runs.
+        versions: Vec<Version>,
+        /// Whether the limits of the shader version hold beside those of the device; false for `ideal-` devices.
+        version_limits: bool,
+        /// Names of the texel formats that textures can have (`crate::texture::TexelFormat` knows them).
+        texture_formats: Vec<String>,
+        /// Names of the texel formats that colour targets can have.
+        target_formats: Vec<String>,
+        /// Names of the depth formats.
+        depth_formats: Vec<String>,
+        /// Whether float textures can be filtered.
+        float_filtering: bool,
+        /// Whether float textures can have mip maps.
+        float_mipmaps: bool,
+        /// Whether float targets can be blended into.
+        float_blending: bool,
+    }
+}
+
+figures! {
+    /// How fast a device is. The timing model reads these; values never depend on them.
+    Rates: u64 {
+        /// Core clock, in Hz.
+        core_clock_hz,
+        /// Clock of the shader units where they have their own, in Hz.
+        shader_clock_hz,
+        /// Memory clock, in Hz; data move on both edges.
+        memory_clock_hz,
+        /// Width of the memory bus, in bits.
+        memory_bus_bits,
+        /// Peak memory bandwidth, in bytes a second.
+        memory_bytes_per_s,
+        /// Pixel pipelines (scalar processors on a unified card).
+        pixel_pipes,
+        /// Texture units of each pipeline.
+        texture_units_per_pipe,
+        /// Texture units in all, where they belong to no pipeline.
+        texture_units,
+        /// Pixels that the raster back end can finish in a clock.
+        raster_pixels_per_clock,
+        /// Pixels without colour (depth or stencil only) in a clock.
+        depth_only_pixels_per_clock,
+        /// Peak fill rate, in pixels a second.
+        fill_pixels_per_s,
+        /// Peak texture rate, in texels a second.
+        fill_texels_per_s,
+        /// Fill rate that a paper measured with its own program, in pixels a second.
+        measured_fill_pixels_per_s,
+        /// Vertex units.
+        vertex_units,
+        /// Vertices a second, peak.
+        vertices_per_s,
+        /// Pairs of one colour and one alpha instruction that a pipeline issues in a clock.
+        alu_pairs_per_clock,
+        /// Texture reads that a pipeline issues in a clock.
+        texture_reads_per_clock,
+        /// Registers that can be live without slowing the pipelines, in fp32.
+        full_speed_registers,
+        /// Ray-triangle tests a second that a paper measured.
+        measured_tests_per_s,
+        /// Ray-triangle tests a second that a paper measured on the vertex units.
+        measured_vertex_tests_per_s,
+    }
+    extra {
+        /// Clocks of an instruction in one pipeline by mnemonic; 1 where it is not listed.
+        instruction_clocks: BTreeMap<String, u32>,
+    }
+}
+
+figures! {
+    /// The way between the host and the card.
+    Bus: u64 {
+        /// Nominal bandwidth, in bytes a second.
+        nominal_bytes_per_s,
+        /// Upload to the card, in bytes a second.
+        upload_bytes_per_s,
+        /// Read-back from the card, in bytes a second.
+        readback_bytes_per_s,
+    }
+    extra {
+        /// Name of the bus, `AGP 4x` for example.
+        kind: String,
+    }
+}

@@ -1,0 +1,327 @@
+//! A profile, read from its TOML.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::DeviceError;
+use super::figure::{FigureRow, RawFigure, Section};
+use super::limits::{Bus, Limits, Rates};
+use super::rules::{
+    ColorIterator, ConstantStorage, LrpMode, MadMode, Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
+    TexdepthDenominator, TexkillComponents,
+};
+use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, rounding_name};
+use crate::isa::Version;
+use crate::num::{DotOrder, Format};
+
+/// The cards, by age.
+const CARDS: [(&str, &str); 8] = [
+    ("nv20", include_str!("profiles/nv20.toml")),
+    ("r200", include_str!("profiles/r200.toml")),
+    ("nv25", include_str!("profiles/nv25.toml")),
+    ("r300", include_str!("profiles/r300.toml")),
+    ("nv30", include_str!("profiles/nv30.toml")),
+    ("r350", include_str!("profiles/r350.toml")),
+    ("nv35", include_str!("profiles/nv35.toml")),
+    ("gt200", include_str!("profiles/gt200.toml")),
+];
+const IDEAL: &str = include_str!("profiles/ideal.toml");
+
+/// Switches that alter limits, not rules.
+const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
+
+/// A profile's file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawProfile {
+    name: String,
+    title: String,
+    versions: RawFigure,
+    rules: BTreeMap<String, RawFigure>,
+    #[serde(default)]
+    limits: BTreeMap<String, RawFigure>,
+    #[serde(default)]
+    formats: BTreeMap<String, RawFigure>,
+    #[serde(default)]
+    rates: BTreeMap<String, RawFigure>,
+    #[serde(default)]
+    clocks: BTreeMap<String, RawFigure>,
+    #[serde(default)]
+    bus: BTreeMap<String, RawFigure>,
+}
+
+/// A device: how it computes, what it allows, how fast it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Profile {
+    /// Name on the command line, `r200` for example.
+    pub name: String,
+    /// Full name of the card.
+    pub title: String,
+    /// What executors obey.
+    pub rules: Rules,
+    /// What [`crate::check`] obeys.
+    pub limits: Limits,
+    /// What the timing model obeys.
+    pub rates: Rates,
+    /// The way to the host.
+    pub bus: Bus,
+    switches: Vec<Switch>,
+    figures: Vec<FigureRow>,
+}
+
+impl Profile {
+    /// The profile of a card, or `ideal-<format>` for any number format string.
+    ///
+    /// # Errors
+    /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-` is
+    /// no format.
+    pub fn named(name: &str) -> Result<Self, DeviceError> {
+        if let Some((_, text)) = CARDS.iter().find(|(card, _)| *card == name) {
+            return Self::from_toml(name, text);
+        }
+        if let Some(format) = name.strip_prefix("ideal-") {
+            let format: Format =
+                format.parse().map_err(|source| DeviceError::IdealFormat { name: name.to_owned(), source })?;
+            let mut profile = Self::from_toml("ideal", IDEAL)?;
+            profile.name = name.to_owned();
+            profile.set_format(format);
+            return Ok(profile);
+        }
+        Err(DeviceError::UnknownDevice { name: name.chars().take(60).collect(), known: Self::all_names().join(" ") })
+    }
+
+    /// The names of the cards, by age, and `ideal-<format>` to stand for the rest.
+    pub fn all_names() -> Vec<&'static str> {
+        let mut names = Self::card_names();
+        names.push("ideal-<format>");
+        names
+    }
+
+    /// The names of the cards, by age.
+    pub fn card_names() -> Vec<&'static str> {
+        CARDS.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// Every figure of the profile with source and confidence, switches at their current value.
+    pub fn figures(&self) -> Vec<FigureRow> {
+        let mut rows = self.figures.clone();
+        for row in &mut rows {
+            let Some(name) = row.key.strip_prefix("rules.") else { continue };
+            if let Some(switch) = self.switches.iter().find(|s| s.name == name) {
+                row.value.clone_from(&switch.current);
+            } else if name == "format" {
+                row.value = self.rules.format.to_string();
+            }
+        }
+        rows
+    }
+
+    /// The open questions of the device.
+    pub fn switches(&self) -> &[Switch] {
+        &self.switches
+    }
+
+    /// Sets a switch.
+    ///
+    /// # Errors
+    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with what is allowed. The profile is unchanged
+    /// then.
+    pub fn set_switch(&mut self, name: &str, value: &str) -> Result<(), DeviceError> {
+        let Some(index) = self.switches.iter().position(|s| s.name == name) else {
+            let allowed: Vec<&str> = self.switches.iter().map(|s| s.name.as_str()).collect();
+            return Err(DeviceError::UnknownSwitch {
+                device: self.name.clone(),
+                name: name.chars().take(60).collect(),
+                allowed: if allowed.is_empty() { "none".to_owned() } else { allowed.join(" ") },
+            });
+        };
+        let error = DeviceError::SwitchValue {
+            device: self.name.clone(),
+            switch: name.to_owned(),
+            value: value.chars().take(60).collect(),
+            allowed: self.switches[index].values.join(" "),
+        };
+        if !self.switches[index].values.iter().any(|v| v == value) {
+            return Err(error);
+        }
+        if LIMIT_SWITCHES.contains(&name) {
+            self.set_limit_switch(name, value);
+        } else {
+            let mut rules = self.rules.clone();
+            apply(&mut rules, name, value).ok_or(error)?;
+            self.rules = rules;
+        }
+        value.clone_into(&mut self.switches[index].current);
+        if name == "format" {
+            self.refresh_format_switches();
+        }
+        Ok(())
+    }
+
+    /// Replaces the format of pixel registers and pixel arithmetic, all its rules included: what studies sweep over.
+    /// `_pp` is ignored from then on.
+    pub fn set_format(&mut self, format: Format) {
+        self.rules.format = format;
+        self.rules.partial = None;
+        self.refresh_format_switches();
+    }
+
+    /// After a new format, the switches that alter it show what it says.
+    fn refresh_format_switches(&mut self) {
+        let format = self.rules.format;
+        for switch in &mut self.switches {
+            let current = match switch.name.as_str() {
+                "rounding" => rounding_name(format.rounding).to_owned(),
+                "overflow" => overflow_name(format.overflow).to_owned(),
+                "denormals" => denormals_name(format.denormals).to_owned(),
+                "format" => format.to_string(),
+                _ => continue,
+            };
+            switch.current = current;
+        }
+    }
+
+    fn set_limit_switch(&mut self, name: &str, value: &str) {
+        if name == "instruction-slots" {
+            self.limits.instructions = value.parse().ok();
+            return;
+        }
+        // Of two 16-bit channels R200 has one format; whether its codes are signed is the question. `wide` adds what
+        // the card lacks: four channels.
+        let formats = &mut self.limits.texture_formats;
+        formats.retain(|f| !["rg16", "rg16s", "rgba16", "rgba16s"].contains(&f.as_str()));
+        let added: &[&str] = match value {
+            "unsigned" => &["rg16"],
+            "signed" => &["rg16s"],
+            _ => &["rg16", "rg16s", "rgba16", "rgba16s"],
+        };
+        formats.extend(added.iter().map(|f| (*f).to_owned()));
+    }
+
+    fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
+        let problem = |problem: String| DeviceError::Profile { device: device.to_owned(), problem };
+        let raw: RawProfile = toml::from_str(text).map_err(|e| problem(e.to_string()))?;
+        let figures = rows(&raw);
+        let switches = switches(&raw.rules);
+        let rules = read_rules(&raw.rules).map_err(problem)?;
+        let section = |name, figures| Section { device, name, figures };
+
+        let mut part = section("limits", raw.limits);
+        let mut limits = Limits::read(&mut part)?;
+        limits.float_filtering = part.flag("float_filtering")?;
+        limits.float_mipmaps = part.flag("float_mipmaps")?;
+        limits.float_blending = part.flag("float_blending")?;
+        limits.version_limits = device != "ideal";
+        part.finish()?;
+
+        let mut part = section("formats", raw.formats);
+        limits.texture_formats = part.names("texture")?;
+        limits.target_formats = part.names("target")?;
+        limits.depth_formats = part.names("depth")?;
+        part.finish()?;
+
+        let mut part = section("versions", BTreeMap::from([("value".to_owned(), raw.versions)]));
+        for token in part.names("value")? {
+            match token.parse() {
+                Ok(version) => limits.versions.push(version),
+                Err(e) => return Err(problem(format!("versions: {e}"))),
+            }
+        }
+
+        let mut part = section("rates", raw.rates);
+        let mut rates = Rates::read(&mut part)?;
+        part.finish()?;
+        let mut part = section("clocks", raw.clocks);
+        for mnemonic in part.figures.keys().cloned().collect::<Vec<_>>() {
+            let clocks = part.number(&mnemonic)?.unwrap_or(1);
+            rates.instruction_clocks.insert(mnemonic, clocks);
+        }
+
+        let mut part = section("bus", raw.bus);
+        let mut bus = Bus::read(&mut part)?;
+        bus.kind = part.text("kind").unwrap_or_default();
+        part.finish()?;
+
+        let mut profile = Self { name: raw.name, title: raw.title, rules, limits, rates, bus, switches, figures };
+        for (name, value) in profile.switches.iter().map(|s| (s.name.clone(), s.current.clone())).collect::<Vec<_>>() {
+            profile.set_switch(&name, &value)?;
+        }
+        Ok(profile)
+    }
+
+    /// Whether programs of this version run on the device.
+    pub fn supports(&self, version: Version) -> bool {
+        self.limits.versions.contains(&version)
+    }
+}
+
+fn rows(raw: &RawProfile) -> Vec<FigureRow> {
+    let mut rows = vec![raw.versions.row("versions".to_owned())];
+    let sections = [
+        ("rules", &raw.rules),
+        ("limits", &raw.limits),
+        ("formats", &raw.formats),
+        ("rates", &raw.rates),
+        ("clocks", &raw.clocks),
+        ("bus", &raw.bus),
+    ];
+    for (name, figures) in sections {
+        rows.extend(figures.iter().map(|(key, figure)| figure.row(format!("{name}.{key}"))));
+    }
+    rows
+}
+
+fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
+    let open = rules.iter().filter(|(_, figure)| !figure.values.is_empty());
+    open.map(|(name, figure)| Switch {
+        name: name.clone(),
+        values: figure.values.clone(),
+        current: figure.text(),
+        default: figure.text(),
+        source: figure.source.clone(),
+        confidence: figure.confidence,
+        meaning: figure.meaning.clone(),
+    })
+    .collect()
+}
+
+/// The rules of a profile's file. Every rule must be stated: a default that nobody wrote down has no source.
+fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
+    let mut rules = Rules {
+        format: Format::FP32,
+        partial: None,
+        vertex_format: Format::FP32,
+        iterator_format: Format::FP32,
+        color_iterator: ColorIterator::Full,
+        constant_storage: ConstantStorage::Register,
+        mad: MadMode::TwoRoundings,
+        dot: DotOrder::Sequential,
+        lrp: LrpMode::SubMulAdd,
+        texcrd_overflow: TexcrdOverflow::Clamp,
+        texdepth_denominator: TexdepthDenominator::Raw,
+        texkill_components: TexkillComponents::Four,
+        signed_texel_minimum: SignedTexelMinimum::Clamp,
+        zero_times_anything: false,
+        target_rounding: TargetRounding::Nearest,
+        depth_rounding: TargetRounding::Nearest,
+        subpixel_bits: 8,
+        filter_fraction_bits: 8,
+        lod_fraction_bits: 8,
+    };
+    for name in RULES {
+        let figure = figures.get(name).ok_or_else(|| format!("rules.{name} is missing"))?;
+        let value = figure.text();
+        apply(&mut rules, name, &value).ok_or_else(|| format!("rules.{name}: `{value}` means nothing"))?;
+    }
+    let known = |name: &str| RULES.contains(&name) || FORMAT_RULES.contains(&name) || LIMIT_SWITCHES.contains(&name);
+    for (name, figure) in figures {
+        if !known(name) {
+            return Err(format!("rules.{name}: no such rule"));
+        }
+        if !RULES.contains(&name.as_str()) && figure.values.is_empty() {
+            return Err(format!("rules.{name} must be a switch, but has no `values`"));
+        }
+    }
+    Ok(rules)
+}

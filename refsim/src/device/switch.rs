@@ -1,0 +1,161 @@
+//! Switches, and how the text of a rule becomes a value.
+
+use super::figure::Confidence;
+use super::rules::{
+    ColorIterator, ConstantStorage, LrpMode, MadMode, Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
+    TexdepthDenominator, TexkillComponents,
+};
+use crate::num::{Denormals, DotOrder, Format, Overflow, Rounding};
+
+/// An open question of the hardware: a rule with several allowed values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Switch {
+    /// Name, as [`super::Profile::set_switch`] takes it.
+    pub name: String,
+    /// The allowed values.
+    pub values: Vec<String>,
+    /// The value that holds now.
+    pub current: String,
+    /// The value of the profile's file.
+    pub default: String,
+    /// Why the default is what it is.
+    pub source: String,
+    /// How sure we are of the default.
+    pub confidence: Confidence,
+    /// What the switch decides.
+    pub meaning: String,
+}
+
+/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters it.
+pub(super) const RULES: [&str; 19] = [
+    "format",
+    "partial",
+    "vertex-format",
+    "iterator-format",
+    "color-iterator",
+    "constants",
+    "mad",
+    "dot",
+    "lrp",
+    "texcrd-overflow",
+    "texdepth-denominator",
+    "texkill-components",
+    "signed-texel-minimum",
+    "zero-times-anything",
+    "target-rounding",
+    "depth-rounding",
+    "subpixel-bits",
+    "filter-fraction-bits",
+    "lod-fraction-bits",
+];
+
+/// The rules that a profile may state besides: they alter `format` (and `partial`).
+pub(super) const FORMAT_RULES: [&str; 3] = ["rounding", "overflow", "denormals"];
+
+/// Rounding by its format suffix.
+pub(super) fn rounding_name(rounding: Rounding) -> &'static str {
+    match rounding {
+        Rounding::NearestEven => "rne",
+        Rounding::NearestAway => "rna",
+        Rounding::TowardZero => "rtz",
+        Rounding::Down => "rdn",
+    }
+}
+
+/// Overflow rule by its format suffix.
+pub(super) fn overflow_name(overflow: Overflow) -> &'static str {
+    match overflow {
+        Overflow::Saturate => "sat",
+        Overflow::Wrap => "wrap",
+        Overflow::Infinity => "inf",
+        Overflow::Nv30 => "nvovf",
+    }
+}
+
+/// Denormal rule by its format suffix.
+pub(super) fn denormals_name(denormals: Denormals) -> &'static str {
+    match denormals {
+        Denormals::Keep => "keep",
+        Denormals::Flush => "ftz",
+    }
+}
+
+fn alter(format: &mut Format, name: &str, value: &str) -> Option<()> {
+    match name {
+        "rounding" => {
+            let all = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+            format.rounding = all.into_iter().find(|r| rounding_name(*r) == value)?;
+        }
+        "overflow" => {
+            let all = [Overflow::Saturate, Overflow::Wrap, Overflow::Infinity, Overflow::Nv30];
+            let rule = all.into_iter().find(|o| overflow_name(*o) == value)?;
+            let legal = match rule {
+                Overflow::Saturate => true,
+                Overflow::Wrap => format.is_fixed(),
+                Overflow::Infinity | Overflow::Nv30 => !format.is_fixed(),
+            };
+            format.overflow = legal.then_some(rule)?;
+        }
+        _ => {
+            let all = [Denormals::Keep, Denormals::Flush];
+            format.denormals = all.into_iter().find(|d| denormals_name(*d) == value)?;
+        }
+    }
+    Some(())
+}
+
+fn truth(value: &str) -> Option<bool> {
+    match value {
+        "true" => Some(true),
+        "false" => Some(false),
+        _ => None,
+    }
+}
+
+fn bits(value: &str) -> Option<u8> {
+    value.parse().ok().filter(|b| *b <= 8)
+}
+
+/// Sets one rule from its text; `None` if the text means nothing for it.
+pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
+    match name {
+        "format" => rules.format = value.parse().ok()?,
+        "partial" if value == "none" => rules.partial = None,
+        "partial" => rules.partial = Some(value.parse().ok()?),
+        "vertex-format" => rules.vertex_format = value.parse().ok()?,
+        "iterator-format" => rules.iterator_format = value.parse().ok()?,
+        "color-iterator" => rules.color_iterator = ColorIterator::from_name(value)?,
+        "constants" => rules.constant_storage = ConstantStorage::from_name(value)?,
+        "mad" => rules.mad = MadMode::from_name(value)?,
+        "dot" => {
+            rules.dot = match value {
+                "sequential" => DotOrder::Sequential,
+                "tree" => DotOrder::Tree,
+                "exact" => DotOrder::Exact,
+                _ => return None,
+            }
+        }
+        "lrp" => rules.lrp = LrpMode::from_name(value)?,
+        "texcrd-overflow" => rules.texcrd_overflow = TexcrdOverflow::from_name(value)?,
+        "texdepth-denominator" => rules.texdepth_denominator = TexdepthDenominator::from_name(value)?,
+        "texkill-components" => rules.texkill_components = TexkillComponents::from_name(value)?,
+        "signed-texel-minimum" => rules.signed_texel_minimum = SignedTexelMinimum::from_name(value)?,
+        "zero-times-anything" => rules.zero_times_anything = truth(value)?,
+        "target-rounding" => rules.target_rounding = TargetRounding::from_name(value)?,
+        "depth-rounding" => rules.depth_rounding = TargetRounding::from_name(value)?,
+        "subpixel-bits" => rules.subpixel_bits = bits(value)?,
+        "filter-fraction-bits" => rules.filter_fraction_bits = bits(value)?,
+        "lod-fraction-bits" => rules.lod_fraction_bits = bits(value)?,
+        "rounding" | "overflow" | "denormals" => {
+            alter(&mut rules.format, name, value)?;
+            if let Some(partial) = &mut rules.partial {
+                // fp16 of NV30 keeps its subnormals whatever fp32 does.
+                if name != "denormals" {
+                    alter(partial, name, value)?;
+                }
+            }
+        }
+        _ => return None,
+    }
+    Some(())
+}

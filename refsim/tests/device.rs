@@ -1,0 +1,125 @@
+//! The profiles: they load, say what they should, and refuse what they do not have.
+
+use refsim::device::{
+    ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, SignedTexelMinimum, TexkillComponents,
+};
+use refsim::isa::Version;
+use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
+
+#[test]
+fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
+    let mut names = Profile::card_names();
+    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200"]);
+    names.extend(["ideal-fp32", "ideal-s3.12:rtz:wrap", "ideal-e4m3:sat:ftz"]);
+    for name in names {
+        let profile = Profile::named(name).unwrap();
+        assert_eq!(profile.name, name);
+        for switch in profile.switches().to_vec() {
+            assert!(switch.values.contains(&switch.default), "{name} {}", switch.name);
+            assert!(!switch.meaning.is_empty(), "{name} {} says nothing", switch.name);
+            for value in &switch.values {
+                let mut changed = profile.clone();
+                changed.set_switch(&switch.name, value).unwrap();
+                let current = changed.switches().iter().find(|s| s.name == switch.name).unwrap();
+                assert_eq!(&current.current, value);
+                // A switch that alters nothing is a lie.
+                let differs = changed.rules != profile.rules || changed.limits != profile.limits;
+                assert_eq!(differs, *value != switch.current, "{name} {} {value}", switch.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_figure_has_a_source() {
+    for name in Profile::card_names() {
+        let profile = Profile::named(name).unwrap();
+        let rows = profile.figures();
+        assert!(rows.len() > 50, "{name} has {} figures", rows.len());
+        for row in rows {
+            assert!(row.source.len() > 3, "{name} {}", row.key);
+            assert!(!row.source.contains(".md"), "{name} {}: {}", row.key, row.source);
+            assert!(!row.value.is_empty() && !row.value.contains('?'), "{name} {}", row.key);
+        }
+    }
+}
+
+#[test]
+fn r200_is_what_the_paper_says() {
+    let r200 = Profile::named("r200").unwrap();
+    assert_eq!(r200.rules.format, Format::S3_12);
+    assert_eq!(r200.rules.partial, None);
+    assert_eq!(r200.rules.vertex_format, Format::FP32);
+    assert_eq!(r200.rules.constant_storage, ConstantStorage::Snorm8);
+    assert_eq!(r200.rules.color_iterator, ColorIterator::Unorm(8));
+    assert_eq!((r200.rules.mad, r200.rules.dot), (MadMode::TwoRoundings, DotOrder::Sequential));
+    assert_eq!(r200.rules.signed_texel_minimum, SignedTexelMinimum::BelowMinusOne);
+    assert_eq!(r200.limits.texture_instructions_per_phase, Some(6));
+    assert_eq!(r200.limits.arithmetic_instructions_per_phase, Some(8));
+    assert_eq!(r200.limits.temporaries, Some(6));
+    assert!(r200.supports(Version::Ps1_4) && !r200.supports(Version::Ps2_0));
+    assert_eq!(r200.rates.fill_pixels_per_s, Some(1_100_000_000));
+    let format = r200.figures().into_iter().find(|r| r.key == "rules.format").unwrap();
+    assert_eq!((format.value.as_str(), format.confidence), ("s3.12", Confidence::Derived));
+    let rounding = r200.figures().into_iter().find(|r| r.key == "rules.rounding").unwrap();
+    assert_eq!((rounding.value.as_str(), rounding.confidence), ("rne", Confidence::Guess));
+}
+
+#[test]
+fn ray_textures_decide_the_sixteen_bit_formats() {
+    let formats = |value: &str| {
+        let mut r200 = Profile::named("r200").unwrap();
+        r200.set_switch("ray-textures", value).unwrap();
+        let has = |f: &str| r200.limits.texture_formats.iter().any(|name| name == f);
+        [has("rg16"), has("rg16s"), has("rgba16"), has("rgba16s")]
+    };
+    assert_eq!(formats("unsigned"), [true, false, false, false]);
+    assert_eq!(formats("signed"), [false, true, false, false]);
+    assert_eq!(formats("wide"), [true; 4]);
+}
+
+#[test]
+fn switches_reach_the_formats() {
+    let mut nv30 = Profile::named("nv30").unwrap();
+    let (full, half) = (nv30.rules.format, nv30.rules.partial.unwrap());
+    assert_eq!((full.overflow, full.denormals, full.specials), (Overflow::Nv30, Denormals::Flush, Specials::Nv));
+    assert_eq!((half.overflow, half.denormals, half.specials), (Overflow::Nv30, Denormals::Keep, Specials::Nv));
+    nv30.set_switch("rounding", "rtz").unwrap();
+    assert_eq!(nv30.rules.format.rounding, Rounding::TowardZero);
+    assert_eq!(nv30.rules.partial.unwrap().rounding, Rounding::TowardZero);
+    assert_eq!(nv30.limits.instructions, Some(512));
+    nv30.set_switch("instruction-slots", "1024").unwrap();
+    assert_eq!(nv30.limits.instructions, Some(1024));
+
+    let mut r300 = Profile::named("r300").unwrap();
+    assert_eq!(r300.rules.format, "e7m16:ftz".parse().unwrap());
+    assert_eq!(r300.rules.texkill_components, TexkillComponents::Four);
+    r300.set_format(Format::FP16);
+    let denormals = r300.switches().iter().find(|s| s.name == "denormals").unwrap();
+    assert_eq!(denormals.current, "keep");
+    // A float that wraps does not exist, whatever the switch of the fixed-point card says.
+    let mut r200 = Profile::named("r200").unwrap();
+    r200.set_format(Format::FP24);
+    assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::SwitchValue { .. })));
+    assert_eq!(r200.rules.format, Format::FP24);
+}
+
+#[test]
+fn ideal_devices_take_any_format() {
+    let ideal = Profile::named("ideal-s1.6:rtz:wrap").unwrap();
+    assert_eq!(ideal.rules.format, "s1.6:rtz:wrap".parse().unwrap());
+    assert!(!ideal.limits.version_limits);
+    assert_eq!(ideal.limits.instructions, None);
+    assert!(Version::ALL.iter().all(|v| ideal.supports(*v)));
+}
+
+#[test]
+fn unknown_names_get_an_error_that_lists_the_known() {
+    let text = |r: Result<Profile, DeviceError>| r.unwrap_err().to_string();
+    insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 ideal-<format>");
+    insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
+    let mut nv20 = Profile::named("nv20").unwrap();
+    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits format lod-fraction-bits lrp mad rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
+    insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
+    assert_eq!(nv20, Profile::named("nv20").unwrap());
+}
