@@ -2,6 +2,7 @@
 //!
 //! The emulated cards are in [`refsim`]; the systems that ran on them, the studies and the program are here.
 
+pub mod cli;
 pub mod geom;
 pub mod report;
 pub mod scene;

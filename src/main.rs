@@ -1,2 +1,5 @@
 //! The `crossbar` program.
-fn main() {}
+
+fn main() -> std::process::ExitCode {
+    crossbar::cli::main()
+}

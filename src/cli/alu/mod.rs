@@ -1,0 +1,129 @@
+//! `crossbar alu`: one operation of a number format on bit patterns.
+
+mod digest;
+mod line;
+mod operation;
+mod stream;
+
+use std::io::{self, Read};
+
+use clap::ValueEnum;
+use refsim::num::{Format, Tininess};
+
+use self::operation::{Operation, Unit};
+use super::{Out, Problem, Verdict};
+
+const EXAMPLES: &str = "\
+Examples:
+  echo 3C00 4000 | crossbar alu add --format fp16
+      one plus two: prints 4200, which is three
+  echo 5000 5000 | crossbar alu mul --format s3.12:rtz --flags
+      five times five saturates: prints 7FFF 05
+  testfloat_gen f32_mulAdd | crossbar alu mulAdd --format fp32 --verify --flags
+      Berkeley TestFloat's own vectors against this arithmetic
+  crossbar alu mul --format s3.4 --exhaustive
+      one digest over the products of all 65536 pairs
+
+Lines: hexadecimal operands parted by blanks, as TestFloat writes them; blank lines are skipped. A result has as many \
+digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
+08 division by zero, 10 invalid.
+
+Formats: sI.F (fixed point), eXmY (float), or ps14 fx12 fp16 bf16 fp24 fp32; then, if wanted, rounding :rne :rna :rtz \
+:rdn, overflow :sat :wrap :inf :nvovf, subnormals :keep :ftz, special values :ieee :nv.
+
+The digest: for each first operand a in rising order h = 0xcbf29ce484222325, then for each second operand b in rising \
+order h = (h xor result) * 0x100000001b3 mod 2^64; the h of all a are folded into the total by the same rule. An \
+operation of one operand makes one row: h over the results of all operands in rising order, and the total is that one h \
+folded.";
+
+/// Apply an operation to bit patterns from standard input, or check given results, or digest all of them
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The operation
+    #[arg(value_enum, ignore_case = true)]
+    op: Operation,
+
+    /// The number format of operands and result
+    #[arg(long, value_name = "F")]
+    format: Format,
+
+    /// The format that `convert` goes to
+    #[arg(long, value_name = "F2")]
+    to: Option<Format>,
+
+    /// Lines carry expected results too, as testfloat_gen writes them: print every mismatch, then the count
+    ///
+    /// A line is operands, result and flags; the flags may be missing unless --flags asks for their comparison. Any NaN
+    /// matches any other.
+    #[arg(long)]
+    verify: bool,
+
+    /// Apply the operation to all operands, for formats of at most 16 bits, and print a digest of the results
+    #[arg(long, conflicts_with_all = ["verify", "flags"])]
+    exhaustive: bool,
+
+    /// Write the exception flags behind each result, or compare them
+    #[arg(long)]
+    flags: bool,
+
+    /// When a result counts as tiny, which decides the underflow flag
+    #[arg(long, value_enum, default_value = "after")]
+    tininess: When,
+
+    /// Let roundToInt raise inexact where it changes the value
+    #[arg(long)]
+    exact: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum When {
+    /// Before rounding
+    Before,
+    /// After rounding, as testfloat_gen has it by default
+    After,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let unit = unit(args)?;
+    if args.exhaustive {
+        digest::run(&unit, out)?;
+        return Ok(Verdict::Done);
+    }
+    let input = io::stdin().lock();
+    if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
+}
+
+fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
+    stream::compute(unit, flags, input, out)?;
+    Ok(Verdict::Done)
+}
+
+/// What the options ask for, once they go together.
+fn unit(args: &Args) -> Result<Unit, Problem> {
+    let convert = args.op == Operation::Convert;
+    let to = match args.to {
+        Some(to) if convert => to,
+        None if !convert => args.format,
+        None => {
+            return Err(Problem::usage(
+                "`convert` needs the format it goes to",
+                "add for example `--to fp16`; `--format` is the format it comes from",
+            ));
+        }
+        Some(_) => {
+            return Err(Problem::usage(
+                "`--to` is for `convert` only: every other operation stays in its format",
+                "leave `--to` out, or convert the result in a second run",
+            ));
+        }
+    };
+    let tininess = match args.tininess {
+        When::Before => Tininess::Before,
+        When::After => Tininess::After,
+    };
+    if args.exact && args.op != Operation::RoundToInt {
+        return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
+    }
+    Ok(Unit { op: args.op, env: args.format.tininess(tininess), to, exact: args.exact })
+}

@@ -1,0 +1,204 @@
+//! Lines in, lines out, in order and in parallel.
+//!
+//! Whatever one read from the input brings is worked on at once, so that a program at the other end of two pipes may
+//! send a line and wait for the answer; a file comes a mebibyte at a time, and its lines are shared out to the threads.
+
+use std::io::{self, ErrorKind, Read, Write as _};
+
+use miette::Diagnostic;
+use rayon::prelude::*;
+use refsim::num::Outcome;
+use serde_json::json;
+
+use super::{
+    line::{Line, LineError, Shape, push_hex},
+    operation::Unit,
+};
+use crate::cli::{Out, OutputError, Verdict};
+
+/// Bytes asked for at a time.
+const READ: usize = 1 << 20;
+/// Lines of one task.
+const TASK_LINES: usize = 4096;
+
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("standard input cannot be read")]
+#[diagnostic(code(crossbar::alu::input))]
+struct InputError(#[from] io::Error);
+
+/// What became of some consecutive lines: text for the output, and the first error, after which nothing was read.
+#[derive(Default)]
+struct Part {
+    text: Vec<u8>,
+    passed: u64,
+    failed: u64,
+    error: Option<LineError>,
+}
+
+/// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
+fn each_line(
+    mut input: impl Read,
+    work: impl Fn(&mut Part, &[u8], u64) -> Result<(), LineError> + Sync,
+    mut take: impl FnMut(&Part) -> miette::Result<()>,
+) -> miette::Result<()> {
+    let mut buffer: Vec<u8> = Vec::new();
+    let mut number = 1;
+    loop {
+        let held = buffer.len();
+        buffer.resize(held + READ, 0);
+        let got = match input.read(&mut buffer[held..]) {
+            Err(error) if error.kind() == ErrorKind::Interrupted => {
+                buffer.truncate(held);
+                continue;
+            }
+            got => got.map_err(InputError::from)?,
+        };
+        buffer.truncate(held + got);
+        // The last line of the input may lack its end; any other piece of a line waits for the rest.
+        let whole = if got == 0 {
+            buffer.len()
+        } else {
+            // What was held has no line end in it.
+            buffer[held..].iter().rposition(|&b| b == b'\n').map_or(0, |end| held + end + 1)
+        };
+        let lines: Vec<&[u8]> = buffer[..whole].split_inclusive(|&b| b == b'\n').collect();
+        let parts: Vec<Part> = lines
+            .par_chunks(TASK_LINES)
+            .enumerate()
+            .map(|(task, lines)| run_task(lines, number + (task * TASK_LINES) as u64, &work))
+            .collect();
+        number += lines.len() as u64;
+        for mut part in parts {
+            take(&part)?;
+            if let Some(error) = part.error.take() {
+                return Err(error.into());
+            }
+        }
+        if got == 0 {
+            return Ok(());
+        }
+        buffer.drain(..whole);
+    }
+}
+
+fn run_task(lines: &[&[u8]], first: u64, work: &impl Fn(&mut Part, &[u8], u64) -> Result<(), LineError>) -> Part {
+    let mut part = Part::default();
+    for (line, number) in lines.iter().zip(first..) {
+        if let Err(error) = work(&mut part, line, number) {
+            part.error = Some(error);
+            break;
+        }
+    }
+    part
+}
+
+/// Writes the result of every line of operands.
+pub(super) fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<()> {
+    let shape = Shape::compute(unit);
+    let json = out.json();
+    let work = |part: &mut Part, text: &[u8], number: u64| {
+        let Some(line) = shape.read(text, number)? else { return Ok(()) };
+        let outcome = unit.evaluate(line.operands);
+        if json {
+            push_json_result(&mut part.text, unit, flags, outcome);
+        } else {
+            push_result(&mut part.text, unit, flags, outcome);
+        }
+        part.text.push(b'\n');
+        Ok(())
+    };
+    each_line(input, work, |part| {
+        out.write_all(&part.text).and_then(|()| out.flush()).map_err(OutputError::from)?;
+        Ok(())
+    })
+}
+
+fn push_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outcome) {
+    push_hex(text, outcome.bits, unit.result_width());
+    if flags {
+        text.push(b' ');
+        push_hex(text, u32::from(outcome.flags.bits()), 8);
+    }
+}
+
+fn push_json_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outcome) {
+    text.extend_from_slice(b"{\"result\":\"");
+    push_hex(text, outcome.bits, unit.result_width());
+    if flags {
+        text.extend_from_slice(b"\",\"flags\":\"");
+        push_hex(text, u32::from(outcome.flags.bits()), 8);
+    }
+    text.extend_from_slice(b"\"}");
+}
+
+/// Compares the results that the lines bring with ours; a closed pipe does not change the verdict.
+pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
+    out.outlive_reader();
+    let shape = Shape::verify(unit, flags);
+    let json = out.json();
+    let work = |part: &mut Part, text: &[u8], number: u64| {
+        let Some(line) = shape.read(text, number)? else { return Ok(()) };
+        let outcome = unit.evaluate(line.operands);
+        if agrees(unit, flags, &line, outcome) {
+            part.passed += 1;
+        } else {
+            part.failed += 1;
+            push_mismatch(&mut part.text, unit, flags, &line, outcome, number, json);
+        }
+        Ok(())
+    };
+    let (mut passed, mut failed) = (0_u64, 0_u64);
+    if json {
+        out.write_all(b"{\"mismatches\":[").map_err(OutputError::from)?;
+    }
+    each_line(input, work, |part| {
+        // Mismatches of later parts follow a comma, that each begins with.
+        let text = if json && failed == 0 { part.text.get(1..).unwrap_or_default() } else { &part.text };
+        out.write_all(text).map_err(OutputError::from)?;
+        passed += part.passed;
+        failed += part.failed;
+        Ok(())
+    })?;
+    if json {
+        out.line(format_args!("],\"passed\":{passed},\"failed\":{failed}}}"))?;
+    } else {
+        out.line(format_args!("{passed} passed, {failed} failed"))?;
+    }
+    Ok(Verdict::held(failed == 0))
+}
+
+fn agrees(unit: &Unit, flags: bool, line: &Line, outcome: Outcome) -> bool {
+    let same = outcome.bits == line.result || (unit.is_nan(outcome.bits) && unit.is_nan(line.result));
+    same && (!flags || line.flags == Some(outcome.flags.bits()))
+}
+
+fn push_mismatch(text: &mut Vec<u8>, unit: &Unit, flags: bool, line: &Line, outcome: Outcome, number: u64, json: bool) {
+    let hex = |value, width| {
+        let mut digits = Vec::new();
+        push_hex(&mut digits, value, width);
+        String::from_utf8_lossy(&digits).into_owned()
+    };
+    let operands: Vec<String> =
+        line.operands[..unit.op.operands()].iter().map(|&bits| hex(bits, unit.operand_width())).collect();
+    let (expected, found) = (hex(line.result, unit.result_width()), hex(outcome.bits, unit.result_width()));
+    let (expected_flags, found_flags) =
+        (hex(u32::from(line.flags.unwrap_or(0)), 8), hex(u32::from(outcome.flags.bits()), 8));
+    if json {
+        let mut record = json!({ "line": number, "operands": operands, "expected": expected, "found": found });
+        if flags {
+            record["expected_flags"] = expected_flags.into();
+            record["found_flags"] = found_flags.into();
+        }
+        text.push(b',');
+        text.extend_from_slice(record.to_string().as_bytes());
+        return;
+    }
+    let (expected, found) = if flags {
+        (format!("{expected} {expected_flags}"), format!("{found} {found_flags}"))
+    } else {
+        (expected, found)
+    };
+    let operands = operands.join(" ");
+    // Writing to memory cannot fail.
+    writeln!(text, "line {number}: {} {operands}: expected {expected}, found {found}", unit.op.name()).ok();
+}

@@ -1,0 +1,108 @@
+//! The command line: one file a subcommand, and the only place that prints.
+//!
+//! A command computes, writes its findings to an [`Out`] and says whether its check held ([`Verdict`]); bad input
+//! comes back as a [`miette::Report`]. This file turns the two into exit codes: 0 done, 1 the check failed, 2 bad
+//! input or usage. A reader that goes away (`| head`) ends the program quietly.
+
+mod alu;
+mod error;
+mod out;
+mod progress;
+
+use std::{io::Write as _, process::ExitCode};
+
+use clap::{Parser, Subcommand};
+
+pub use error::{OutputError, Problem};
+pub use out::Out;
+pub use progress::Progress;
+
+/// What `main` returns when the check that was asked for failed.
+const CHECK_FAILED: u8 = 1;
+/// What `main` returns on bad input or usage.
+const BAD_INPUT: u8 = 2;
+
+/// How a command ended that met no bad input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Done; where something was checked, it held.
+    Done,
+    /// Something was checked and did not hold.
+    Failed,
+}
+
+impl Verdict {
+    /// [`Verdict::Done`] if the check held.
+    pub const fn held(held: bool) -> Self {
+        if held { Self::Done } else { Self::Failed }
+    }
+}
+
+/// Global illumination on the first programmable graphics cards, emulated to the bit.
+///
+/// Exit codes: 0 done, 1 the check failed, 2 bad input or usage.
+#[derive(Debug, Parser)]
+#[command(name = "crossbar", version, arg_required_else_help = true, max_term_width = 100, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+
+    /// Write results, and errors, as JSON for machines
+    #[arg(long, global = true, display_order = 900)]
+    json: bool,
+
+    /// How many threads may work; the results are the same for every number [default: one a core]
+    #[arg(long, global = true, value_name = "N", display_order = 901,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  echo 3C00 4000 | crossbar alu add --format fp16   one plus two, in half precision
+  crossbar alu --help                               what a subcommand does, with an example";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Alu(alu::Args),
+}
+
+/// Runs the program on the arguments of the process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and `--version` come this way too, with code 0. A closed pipe is no reason to complain.
+            let code = u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT);
+            error.print().ok();
+            return ExitCode::from(code);
+        }
+    };
+    error::install_renderer();
+    if let Some(threads) = cli.threads {
+        // Fails only if a pool is there already, and none is this early.
+        rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
+    }
+    let mut out = Out::new(cli.json);
+    let result = run(cli.command, &mut out).and_then(|verdict| {
+        out.flush().map_err(OutputError::from)?;
+        Ok(verdict)
+    });
+    match result {
+        Ok(Verdict::Done) => ExitCode::SUCCESS,
+        Ok(Verdict::Failed) => ExitCode::from(CHECK_FAILED),
+        Err(report) if error::reader_left(&report) => ExitCode::SUCCESS,
+        Err(report) => {
+            // What was found before the error comes first.
+            out.flush().ok();
+            error::print(&report, cli.json);
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}
+
+fn run(command: Command, out: &mut Out) -> miette::Result<Verdict> {
+    match command {
+        Command::Alu(args) => alu::run(&args, out),
+    }
+}

@@ -1,0 +1,75 @@
+//! Standard output, buffered.
+
+use std::io::{self, BufWriter, Stdout, Write};
+
+use serde::Serialize;
+
+use super::OutputError;
+
+/// Where a command writes what it found.
+#[derive(Debug)]
+pub struct Out {
+    stdout: BufWriter<Stdout>,
+    json: bool,
+    /// Nobody reads any more, but the command goes on, because its exit code still says something.
+    deaf: bool,
+    outlive_reader: bool,
+}
+
+impl Out {
+    /// Standard output; `json` is what `--json` said.
+    pub(super) fn new(json: bool) -> Self {
+        Self { stdout: BufWriter::with_capacity(1 << 16, io::stdout()), json, deaf: false, outlive_reader: false }
+    }
+
+    /// Whether machines read this.
+    pub const fn json(&self) -> bool {
+        self.json
+    }
+
+    /// From here on a closed pipe does not end the command: it runs to its verdict.
+    pub const fn outlive_reader(&mut self) {
+        self.outlive_reader = true;
+    }
+
+    /// Writes one line.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
+        Ok(writeln!(self, "{text}")?)
+    }
+
+    /// Writes `value` as indented JSON and ends the line.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn document(&mut self, value: &impl Serialize) -> Result<(), OutputError> {
+        serde_json::to_writer_pretty(&mut *self, value).map_err(io::Error::from)?;
+        Ok(writeln!(self)?)
+    }
+
+    fn forgive(&mut self, error: io::Error, done: usize) -> io::Result<usize> {
+        if self.outlive_reader && error.kind() == io::ErrorKind::BrokenPipe {
+            self.deaf = true;
+            return Ok(done);
+        }
+        Err(error)
+    }
+}
+
+impl Write for Out {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.deaf {
+            return Ok(bytes.len());
+        }
+        self.stdout.write(bytes).or_else(|error| self.forgive(error, bytes.len()))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.deaf {
+            return Ok(());
+        }
+        self.stdout.flush().or_else(|error| self.forgive(error, 0).map(drop))
+    }
+}

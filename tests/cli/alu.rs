@@ -1,0 +1,232 @@
+//! `crossbar alu`: streams, verdicts, digests.
+
+use crate::{Ran, crossbar};
+
+fn alu(arguments: &str, input: &str) -> Ran {
+    let mut all = vec!["alu"];
+    all.extend(arguments.split_whitespace());
+    crossbar(&all, input)
+}
+
+/// Expects success and one line of output an input line.
+fn results(arguments: &str, input: &str) -> Vec<String> {
+    let ran = alu(arguments, input);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "alu {arguments}");
+    ran.stdout.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn results_have_the_width_of_the_format() {
+    assert_eq!(results("add --format fp16", "3C00 4000\n3c00 bc00\n"), ["4200", "0000"]);
+    assert_eq!(results("mul --format e3m2", "0C 0C"), ["0C"]);
+    assert_eq!(results("add --format fp24 --flags", "3F0000 3F0000\n"), ["400000 00"]);
+    assert_eq!(results("lt --format fp32 --flags", "3F800000 40000000\n40000000 7FC00000"), ["1 00", "0 10"]);
+    assert_eq!(results("convert --format fp32 --to s3.12 --flags", "3F800000\n42C80000"), ["1000 00", "7FFF 05"]);
+    assert_eq!(results("mulAdd --format fp16", "3C00 3C00 3C00"), ["4000"]);
+}
+
+#[test]
+fn suffixes_choose_rounding_and_overflow() {
+    // 1.5 in units of 2^-12 is a tie.
+    assert_eq!(results("mul --format s3.12", "0001 1800\n0003 0800"), ["0002", "0002"]);
+    assert_eq!(results("mul --format s3.12:rtz", "0001 1800\n0003 0800"), ["0001", "0001"]);
+    assert_eq!(results("add --format s3.12:wrap --flags", "7FFF 0001"), ["8000 05"]);
+    assert_eq!(results("add --format s3.12 --flags", "7FFF 0001"), ["7FFF 05"]);
+}
+
+#[test]
+fn blank_lines_and_line_ends_do_not_matter() {
+    assert_eq!(results("sqrt --format fp16", "\r\n4400\r\n\n   \n  4880\t\n3C00"), ["4000", "4200", "3C00"]);
+    assert_eq!(results("sqrt --format fp16", ""), Vec::<String>::new());
+}
+
+#[test]
+fn many_lines_keep_their_order() {
+    let input: String = (0..200_000_u32).map(|n| format!("{:04X} 0000\n", n & 0x3fff)).collect();
+    let expected: Vec<String> = (0..200_000_u32).map(|n| format!("{:04X}", n & 0x3fff)).collect();
+    assert!(results("add --format s3.12 --threads 3", &input) == expected, "x + 0 is x, line for line");
+}
+
+#[test]
+fn json_lines() {
+    assert_eq!(
+        results("add --format fp16 --json --flags", "3C00 3C00\n7BFF 7BFF"),
+        [r#"{"result":"4000","flags":"00"}"#, r#"{"result":"7C00","flags":"05"}"#]
+    );
+}
+
+/// Known answers, in the form in which TestFloat writes them: operands, result, flags.
+#[test]
+fn known_vectors_pass() {
+    let vectors = [
+        (
+            "add --format fp32",
+            "DF7EFFFF 8683F7FF DF7EFFFF 01\n7F7FFFFF 7F7FFFFF 7F800000 05\n7F800000 FF800000 7FC00000 10\n",
+        ),
+        ("mul --format fp32", "00000001 3F000000 00000000 03\n00800000 3F000000 00400000 00\n"),
+        (
+            "div --format fp32",
+            "3F800000 00000000 7F800000 08\n00000000 00000000 FFC00000 10\n3F800000 40400000 3EAAAAAB 01\n",
+        ),
+        ("sqrt --format fp32", "40000000 3FB504F3 01\n80000000 80000000 00\nBF800000 7FC00000 10\n"),
+        ("mulAdd --format fp16", "3C01 3C01 BC02 0010 00\n"),
+        ("eq --format fp16", "0000 8000 1 00\n7E00 7E00 0 00\n7D00 3C00 0 10\n"),
+        ("le --format fp16", "7E00 3C00 0 10\n3C00 3C00 1 00\n"),
+        ("roundToInt --format fp16", "3E00 4000 00\n4100 4000 00\n"),
+        ("roundToInt --exact --format fp16", "3E00 4000 01\n3C00 3C00 00\n"),
+        ("convert --format fp32 --to fp16", "477FE000 7BFF 00\n477FF000 7C00 05\n33000000 0000 03\n7FA00000 7E00 10\n"),
+    ];
+    for (arguments, lines) in vectors {
+        let ran = alu(&format!("{arguments} --verify --flags"), lines);
+        assert_eq!(ran.stdout, format!("{} passed, 0 failed\n", lines.lines().count()), "{arguments}");
+        assert_eq!(ran.code, Some(0));
+    }
+}
+
+#[test]
+fn tininess_decides_the_underflow_flag() {
+    // (1 - 2^-13) * (1 + 2^-13) * 2^-126 rounds up to the smallest normal number: tiny before rounding, not after.
+    let line = "3F7FF800 00800400 00800000";
+    assert_eq!(alu("mul --format fp32 --verify --flags", &format!("{line} 01")).code, Some(0));
+    assert_eq!(alu("mul --format fp32 --verify --flags --tininess before", &format!("{line} 03")).code, Some(0));
+}
+
+#[test]
+fn mismatches_are_printed_and_counted() {
+    let lines = "3C00 3C00 4000 00\n3C00 3C00 4001 00\n\n3C00 3C00 4000 01\n7E00 3C00 FDFF 00\n";
+    let ran = alu("add --format fp16 --verify --flags", lines);
+    insta::assert_snapshot!(ran.transcript());
+    // Without --flags the third line is good, and flags may be missing.
+    let ran = alu("add --format fp16 --verify", "3C00 3C00 4000 01\n3C00 3C00 4000\n3C00 3C00 7E00\n");
+    assert!(ran.stdout.ends_with("2 passed, 1 failed\n"), "{}", ran.stdout);
+    assert_eq!(ran.code, Some(1));
+}
+
+#[test]
+fn mismatches_for_machines() {
+    let lines = "3C00 3C00 4001 00\n3C00 3C00 4000 00\n3C00 3C00 4002 00\n";
+    let ran = alu("add --format fp16 --verify --json", lines);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(report["passed"], 1);
+    assert_eq!(report["failed"], 2);
+    assert_eq!(report["mismatches"][1]["line"], 3);
+    assert_eq!(report["mismatches"][1]["found"], "4000");
+    assert_eq!(ran.code, Some(1));
+}
+
+#[test]
+fn bad_lines_name_their_number() {
+    for (arguments, input, expected) in [
+        ("add --format fp16", "3C00 3C00\n3C00\n", "line 2: expected 2 operands, found 1 field"),
+        ("add --format fp16", "\n\n3C00 3G00\n", "line 3: expected hexadecimal digits, found `3G00`"),
+        ("add --format fp16", "3C00 13C00\n", "line 1: expected at most 4 hexadecimal digits (16 bits), found `13C00`"),
+        ("add --format e3m2", "40 00\n", "line 1: expected at most 2 hexadecimal digits (6 bits), found `40`"),
+        ("sqrt --format fp16 --verify --flags", "3C00 3C00\n", "line 1: expected 1 operand, result and flags"),
+        ("eq --format fp16 --verify", "3C00 3C00 2 00\n", "line 1: expected at most 1 hexadecimal digits (1 bits)"),
+    ] {
+        let ran = alu(arguments, input);
+        assert_eq!(ran.code, Some(2), "alu {arguments}");
+        assert!(ran.stderr.contains(expected), "alu {arguments}: {}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_bad_line_comes_after_the_results_before_it() {
+    let mut input = "3C00\n".repeat(10_000);
+    input.push_str("bad!\n");
+    let ran = alu("sqrt --format fp16", &input);
+    assert_eq!(ran.code, Some(2));
+    assert_eq!(ran.stdout.lines().count(), 10_000);
+    assert!(ran.stderr.contains("line 10001"), "{}", ran.stderr);
+}
+
+/// The rule of the digest, written again.
+fn digest(rows: impl Iterator<Item = Vec<u32>>) -> String {
+    let fold = |h: u64, value: u64| (h ^ value).wrapping_mul(1_099_511_628_211);
+    let start = 14_695_981_039_346_656_037;
+    let total = rows.fold(start, |total, row| fold(total, row.iter().fold(start, |h, &bits| fold(h, u64::from(bits)))));
+    format!("0x{total:016x}\n")
+}
+
+#[test]
+fn digests_of_s3_4() {
+    let signed = |bits: u32| if bits < 128 { i64::from(bits) } else { i64::from(bits) - 256 };
+    let stored = |value: i64| (value.clamp(-128, 127) & 0xff) as u32;
+    // Products are in units of 1/256: to sixteenths by nearest even.
+    let rounded = |product: i64| {
+        let (floor, rest) = (product >> 4, product & 15);
+        floor + i64::from(rest > 8 || (rest == 8 && floor % 2 != 0))
+    };
+    type Rule<'a> = (&'a str, Box<dyn Fn(u32, u32) -> u32>);
+    let rules: [Rule<'_>; 4] = [
+        ("mul", Box::new(move |a, b| stored(rounded(signed(a) * signed(b))))),
+        ("sub", Box::new(move |a, b| stored(signed(a) - signed(b)))),
+        ("max", Box::new(move |a, b| stored(signed(a).max(signed(b))))),
+        ("lt", Box::new(move |a, b| u32::from(signed(a) < signed(b)))),
+    ];
+    for (op, rule) in rules {
+        let expected = digest((0..256).map(|a| (0..256).map(|b| rule(a, b)).collect()));
+        assert_eq!(alu(&format!("{op} --format s3.4 --exhaustive"), "").stdout, expected, "{op}");
+    }
+}
+
+/// `e3m2` by doubles, which hold every sum, difference and product of two of its numbers exactly.
+mod e3m2 {
+    pub(super) const NAN: u32 = 0b0_111_10;
+
+    pub(super) fn value(bits: u32) -> f64 {
+        let (sign, exponent, mantissa) = (bits >> 5, bits >> 2 & 7, f64::from(bits & 3));
+        let magnitude = match exponent {
+            0 => mantissa / 16.0,
+            7 if mantissa == 0.0 => f64::INFINITY,
+            7 => f64::NAN,
+            _ => (1.0 + mantissa / 4.0) * f64::from(1_u32 << exponent) / 8.0,
+        };
+        if sign == 1 { -magnitude } else { magnitude }
+    }
+
+    /// To the nearest of all patterns, ties to the even one; infinity stands where 16 would be.
+    pub(super) fn nearest(value: f64) -> u32 {
+        if value.is_nan() {
+            return NAN;
+        }
+        let place = |bits: u32| if bits == 0b0_111_00 { 16.0 } else { self::value(bits) };
+        let magnitude = value.abs().min(16.0);
+        let best = (0..=0b0_111_00)
+            .min_by(|&a, &b| {
+                let (near_a, near_b) = ((place(a) - magnitude).abs(), (place(b) - magnitude).abs());
+                near_a.total_cmp(&near_b).then((a & 1).cmp(&(b & 1)))
+            })
+            .unwrap_or(NAN);
+        best | u32::from(value.is_sign_negative()) << 5
+    }
+}
+
+#[test]
+fn digests_of_e3m2() {
+    type Rule = (&'static str, fn(f64, f64) -> f64);
+    let rules: [Rule; 3] = [("add", |a, b| a + b), ("sub", |a, b| a - b), ("mul", |a, b| a * b)];
+    for (op, rule) in rules {
+        let row = |a: u32| (0..64).map(|b| e3m2::nearest(rule(e3m2::value(a), e3m2::value(b)))).collect();
+        let expected = digest((0..64).map(row));
+        for threads in ["1", "2", "3"] {
+            let ran = alu(&format!("{op} --format e3m2 --exhaustive --threads {threads}"), "");
+            assert_eq!(ran.stdout, expected, "{op} by {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn one_operand_makes_one_row() {
+    let floors = (0..64).map(|a| e3m2::nearest(e3m2::value(a).floor())).collect();
+    assert_eq!(alu("floor --format e3m2 --exhaustive", "").stdout, digest(std::iter::once(floors)));
+}
+
+#[test]
+fn a_digest_for_machines() {
+    let ran = alu("eq --format e3m2:ftz --exhaustive --json", "");
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(report["op"], "eq");
+    assert_eq!(report["format"], "e3m2:ftz");
+    assert!(report["digest"].as_str().is_some_and(|text| text.len() == 18), "{report}");
+}

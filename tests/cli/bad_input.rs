@@ -1,0 +1,72 @@
+//! Bad input: one clear error, exit code 2, nothing half-written.
+
+use std::path::Path;
+
+use crate::{Ran, crossbar, crossbar_in};
+
+/// Runs in a fresh folder that must be as empty afterwards as before, and expects an error in one piece.
+fn refused(arguments: &[&str], input: &str) -> Ran {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ran = crossbar_in(folder.path(), arguments, input);
+    assert_refused(&ran, arguments);
+    assert_eq!(entries(folder.path()), 0, "{arguments:?} left something behind");
+    ran
+}
+
+fn assert_refused(ran: &Ran, arguments: &[&str]) {
+    assert_eq!(ran.code, Some(2), "{arguments:?}: {}", ran.stderr);
+    assert_eq!(ran.stdout, "", "{arguments:?} found nothing to say on standard output");
+    assert!(!ran.stderr.contains("panicked"), "{arguments:?}: {}", ran.stderr);
+    let errors = ran.stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
+    assert_eq!(errors, 1, "{arguments:?}: one error, not {errors}:\n{}", ran.stderr);
+}
+
+fn entries(folder: &Path) -> usize {
+    std::fs::read_dir(folder).expect("the folder of the test").count()
+}
+
+#[test]
+fn usage() {
+    for arguments in [
+        &["alu", "add"][..],
+        &["alu", "add", "--format", "fp17"],
+        &["alu", "add", "--format", "s16.16"],
+        &["alu", "add", "--format", "e9m10"],
+        &["alu", "add", "--format", "fp16:wrap"],
+        &["alu", "add", "--format", "fp16:rne:rtz"],
+        &["alu", "adds", "--format", "fp16"],
+        &["alu", "add", "--format", "fp16", "--threads", "0"],
+        &["alu", "add", "--format", "fp16", "--verify", "--exhaustive"],
+        &["alu", "add", "--format", "fp16", "--to", "fp32"],
+        &["alu", "convert", "--format", "fp16"],
+        &["alu", "add", "--format", "fp16", "--exact"],
+        &["alu", "mulAdd", "--format", "fp16", "--exhaustive"],
+        &["alu", "add", "--format", "fp24", "--exhaustive"],
+        &["nothing-of-the-kind"],
+    ] {
+        refused(arguments, "");
+    }
+}
+
+#[test]
+fn messages() {
+    let cases: [(&str, &[&str], &str); 5] = [
+        ("bad_format", &["alu", "add", "--format", "fp17"], ""),
+        ("convert_without_to", &["alu", "convert", "--format", "fp16"], ""),
+        ("exhaustive_three_operands", &["alu", "mulAdd", "--format", "fp16", "--exhaustive"], ""),
+        ("exhaustive_too_wide", &["alu", "add", "--format", "fp24", "--exhaustive"], ""),
+        ("bad_hex", &["alu", "sqrt", "--format", "fp16"], "0x3C00\n"),
+    ];
+    for (name, arguments, input) in cases {
+        insta::assert_snapshot!(name, refused(arguments, input).stderr);
+    }
+}
+
+#[test]
+fn errors_for_machines() {
+    let ran = crossbar(&["alu", "sqrt", "--format", "fp16", "--json"], "nonsense\n");
+    let error: serde_json::Value = serde_json::from_str(&ran.stderr).expect("one JSON document");
+    assert_eq!(error["code"], "crossbar::alu::hex");
+    assert_eq!(error["severity"], "error");
+    assert_eq!(ran.code, Some(2));
+}
