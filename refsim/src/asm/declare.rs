@@ -63,11 +63,7 @@ fn usage(part: &str, span: Span) -> Parsed<Usage> {
             "write `dcl_texcoord1 v3`, `dcl_2d s0` or `dcl t0.xy`, for example",
         ));
     };
-    let index = if digits.is_empty() {
-        Ok(0)
-    } else {
-        digits.parse()
-    };
+    let index = if digits.is_empty() { Ok(0) } else { digits.parse() };
     index.map(make).map_err(|_| {
         SyntaxError::new(
             ErrorKind::RegisterNumber,
@@ -101,12 +97,7 @@ impl<'a> Parser<'a> {
                 destination.centroid = centroid;
                 let position = self.instructions.len();
                 let span = token.span.join(destination.span);
-                self.declarations.push(Declaration {
-                    usage,
-                    destination,
-                    position,
-                    span,
-                });
+                self.declarations.push(Declaration { usage, destination, position, span });
             }
             (hints, destination) => {
                 for error in [hints.err(), destination.err()].into_iter().flatten() {
@@ -164,9 +155,7 @@ impl<'a> Parser<'a> {
         };
         let value = match (file, values.as_slice()) {
             (RegisterFile::ConstantBool, &[b]) => ConstantValue::Bool(b != 0),
-            (RegisterFile::ConstantInt, &[x, y, z, w]) => {
-                ConstantValue::Int([x, y, z, w].map(u32::cast_signed))
-            }
+            (RegisterFile::ConstantInt, &[x, y, z, w]) => ConstantValue::Int([x, y, z, w].map(u32::cast_signed)),
             (RegisterFile::Constant, &[x, y, z, w]) => ConstantValue::Float([x, y, z, w]),
             _ => {
                 self.record(SyntaxError::new(
@@ -180,12 +169,7 @@ impl<'a> Parser<'a> {
             }
         };
         let position = self.instructions.len();
-        self.constants.push(ConstantDef {
-            register,
-            value,
-            position,
-            span,
-        });
+        self.constants.push(ConstantDef { register, value, position, span });
     }
 
     fn defined_register(&mut self, file: RegisterFile) -> Parsed<Register> {
@@ -252,9 +236,7 @@ impl<'a> Parser<'a> {
             };
         }
         match (token.kind, file) {
-            (Kind::Number, RegisterFile::ConstantInt) => {
-                number::integer(&text, span).map(i32::cast_unsigned)
-            }
+            (Kind::Number, RegisterFile::ConstantInt) => number::integer(&text, span).map(i32::cast_unsigned),
             (Kind::Number, _) => number::float(&text, span),
             _ => Err(SyntaxError::new(
                 ErrorKind::MalformedValue,

@@ -133,13 +133,7 @@ impl SyntaxError {
         found: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
-        Self {
-            kind,
-            span,
-            expected: expected.into(),
-            found: found.into(),
-            help: help.into(),
-        }
+        Self { kind, span, expected: expected.into(), found: found.into(), help: help.into() }
     }
 }
 

@@ -47,12 +47,7 @@ impl Token<'_> {
 
 /// Splits `text`, which must not be longer than [`super::MAX_TEXT`].
 pub(super) fn lex(text: &str) -> (Vec<Token<'_>>, Vec<SyntaxError>) {
-    let mut lexer = Lexer {
-        text,
-        at: 0,
-        tokens: Vec::new(),
-        errors: Vec::new(),
-    };
+    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), errors: Vec::new() };
     if text.starts_with('\u{feff}') {
         lexer.at = '\u{feff}'.len_utf8();
     }
@@ -113,10 +108,7 @@ impl Lexer<'_> {
             b'.' | b'0'..=b'9' => self.number(),
             b if is_word(b) => self.word(),
             _ => {
-                let len = self.text[self.at..]
-                    .chars()
-                    .next()
-                    .map_or(1, char::len_utf8);
+                let len = self.text[self.at..].chars().next().map_or(1, char::len_utf8);
                 self.push(Kind::Unknown, len);
             }
         }
@@ -150,10 +142,7 @@ impl Lexer<'_> {
         // DirectX 8 wrote versions with points.
         let stage = &rest[..len];
         if stage.eq_ignore_ascii_case(b"ps") || stage.eq_ignore_ascii_case(b"vs") {
-            len = rest
-                .iter()
-                .take_while(|&&b| is_word(b) || b == b'.')
-                .count();
+            len = rest.iter().take_while(|&&b| is_word(b) || b == b'.').count();
         }
         self.push(Kind::Word, len);
     }

@@ -44,26 +44,15 @@ impl Parser<'_> {
         Err(SyntaxError::new(
             ErrorKind::MalformedOperand,
             comma.span,
-            if first {
-                "the first operand"
-            } else {
-                "an operand after the comma"
-            },
-            if first {
-                quote(",")
-            } else {
-                self.peek().found()
-            },
+            if first { "the first operand" } else { "an operand after the comma" },
+            if first { quote(",") } else { self.peek().found() },
             "a comma stands between two operands only",
         ))
     }
 
     /// Reads a destination, if there should be one, and sources to the end of the list. `None` after an error,
     /// which is then recorded.
-    pub(super) fn operands(
-        &mut self,
-        has_destination: bool,
-    ) -> Option<(Option<Destination>, Vec<Source>)> {
+    pub(super) fn operands(&mut self, has_destination: bool) -> Option<(Option<Destination>, Vec<Source>)> {
         let mut destination = None;
         let mut sources = Vec::new();
         let mut good = true;

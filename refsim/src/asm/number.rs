@@ -37,18 +37,11 @@ fn check_length(text: &str, span: Span) -> Result<(), SyntaxError> {
 pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     check_length(text, span)?;
     let unsigned = text.trim_start_matches(['-', '+']);
-    if let Some(digits) = unsigned
-        .strip_prefix("0x")
-        .or_else(|| unsigned.strip_prefix("0X"))
-    {
+    if let Some(digits) = unsigned.strip_prefix("0x").or_else(|| unsigned.strip_prefix("0X")) {
         let whole = digits.len() == 8 && unsigned.len() == text.len();
         return match u32::from_str_radix(digits, 16) {
             Ok(bits) if whole => Ok(bits),
-            _ => Err(malformed(
-                "`0x` and eight hexadecimal digits, without a sign",
-                text,
-                span,
-            )),
+            _ => Err(malformed("`0x` and eight hexadecimal digits, without a sign", text, span)),
         };
     }
     let text = text.strip_suffix(['f', 'F']).unwrap_or(text);
@@ -57,17 +50,9 @@ pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
         return Err(malformed("a decimal number", text, span));
     };
     let too_large = || {
-        out_of_range(
-            "a value within fp32, at most 3.4028235e38",
-            text,
-            span,
-            "write `0x7f800000` if infinity is meant",
-        )
+        out_of_range("a value within fp32, at most 3.4028235e38", text, span, "write `0x7f800000` if infinity is meant")
     };
-    if exponent
-        .parse::<i32>()
-        .is_ok_and(|e| e.unsigned_abs() > MAX_EXPONENT)
-    {
+    if exponent.parse::<i32>().is_ok_and(|e| e.unsigned_abs() > MAX_EXPONENT) {
         return Err(out_of_range(
             &format!("an exponent within -{MAX_EXPONENT} to {MAX_EXPONENT}"),
             text,
@@ -75,9 +60,7 @@ pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
             "fp32 holds 1.4e-45 to 3.4028235e38",
         ));
     }
-    decimal_to_bits(text)
-        .filter(|bits| bits & 0x7f80_0000 != 0x7f80_0000)
-        .ok_or_else(too_large)
+    decimal_to_bits(text).filter(|bits| bits & 0x7f80_0000 != 0x7f80_0000).ok_or_else(too_large)
 }
 
 /// The exponent's text (`0` where there is none) of a well-formed unsigned decimal.
@@ -110,11 +93,7 @@ pub(super) fn float_text(bits: u32) -> String {
     }
     let plain = format!("{value}");
     let scientific = format!("{value:e}");
-    if plain.len() <= scientific.len() {
-        plain
-    } else {
-        scientific
-    }
+    if plain.len() <= scientific.len() { plain } else { scientific }
 }
 
 /// An integer of a `defi`. `text` carries its sign.

@@ -4,9 +4,7 @@ use super::error::{ErrorKind, SyntaxError, quote};
 use super::lexer::{Kind, Token};
 use super::parser::{Parsed, Parser};
 use super::{MAX_REGISTER, word};
-use crate::isa::{
-    Destination, Mask, Modifier, Register, RegisterFile, Relative, Source, Span, Swizzle,
-};
+use crate::isa::{Destination, Mask, Modifier, Register, RegisterFile, Relative, Source, Span, Swizzle};
 
 /// The files, longest prefixes first.
 const FILES: [RegisterFile; 18] = [
@@ -100,22 +98,16 @@ fn mask(letters: &str, span: Span) -> Parsed<Mask> {
         )
     };
     let Some(components) = components(letters) else {
-        return Err(bad(
-            "write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix",
-        ));
+        return Err(bad("write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix"));
     };
     if !components.is_sorted_by(|a, b| a < b) {
-        return Err(bad(
-            "a destination takes a mask, no swizzle: put the swizzle on the sources",
-        ));
+        return Err(bad("a destination takes a mask, no swizzle: put the swizzle on the sources"));
     }
     Ok(Mask(components.iter().fold(0, |bits, c| bits | 1 << c)))
 }
 
 fn is_file(letters: &str) -> Option<RegisterFile> {
-    FILES
-        .into_iter()
-        .find(|f| f.prefix().eq_ignore_ascii_case(letters))
+    FILES.into_iter().find(|f| f.prefix().eq_ignore_ascii_case(letters))
 }
 
 /// A register number; `None` where it exceeds [`MAX_REGISTER`].
@@ -151,9 +143,7 @@ fn suffix_of(word: &str, span: Span) -> Parsed<Suffix> {
             "one of _bias _bx2 _x2 _dz _dw (or _db _da)",
             quote(&format!("_{word}")),
             match lower {
-                "abs" => {
-                    "`_abs` came with ps_3_0: use `abs`, or `max` of the value and its negative"
-                }
+                "abs" => "`_abs` came with ps_3_0: use `abs`, or `max` of the value and its negative",
                 "sat" | "x4" | "x8" | "d2" | "d4" | "d8" | "pp" => {
                     "this one belongs on the instruction: `add_sat`, for example"
                 }
@@ -199,13 +189,7 @@ impl<'a> Parser<'a> {
             Kind::Newline | Kind::End => "the operand is missing",
             _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
         };
-        SyntaxError::new(
-            ErrorKind::MalformedOperand,
-            token.span,
-            expected,
-            token.found(),
-            help,
-        )
+        SyntaxError::new(ErrorKind::MalformedOperand, token.span, expected, token.found(), help)
     }
 
     /// A destination, without the modifiers that its instruction's word carries.
@@ -331,11 +315,7 @@ impl<'a> Parser<'a> {
             selector = Some((text, Span::new(start, start + text.len() as u32)));
             modifiers.extend(word::suffixes(&letters));
         }
-        Ok(Named {
-            register: register.0,
-            modifiers,
-            selector,
-        })
+        Ok(Named { register: register.0, modifiers, selector })
     }
 
     /// The register that `token`, already taken, starts, and whether brackets followed.
@@ -344,8 +324,7 @@ impl<'a> Parser<'a> {
         let span = Span::new(token.span.start, token.span.start + name.len() as u32);
         let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
         let digits = &name[letters.len()..];
-        let Some(file) = is_file(letters).filter(|f| digits.is_empty() || !f.is_unnumbered())
-        else {
+        let Some(file) = is_file(letters).filter(|f| digits.is_empty() || !f.is_unnumbered()) else {
             return Err(SyntaxError::new(
                 ErrorKind::UnknownRegister,
                 span,

@@ -4,8 +4,8 @@ use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
 use super::lexer::{Kind, Token};
 use super::{MAX_ERRORS, MAX_OPERANDS, MAX_STATEMENTS, word};
 use crate::isa::{
-    ConstantDef, Declaration, Destination, DestinationRule, Instruction, OpInfo, Predicate,
-    Program, Source, Span, Swizzle, Version,
+    ConstantDef, Declaration, Destination, DestinationRule, Instruction, OpInfo, Predicate, Program, Source, Span,
+    Swizzle, Version,
 };
 
 /// The result of reading one part of a statement.
@@ -92,9 +92,7 @@ impl<'a> Parser<'a> {
             }),
             _ => {
                 self.errors.sort_by_key(|error| error.span.start);
-                Err(AssembleErrors {
-                    errors: self.errors,
-                })
+                Err(AssembleErrors { errors: self.errors })
             }
         }
     }
@@ -148,9 +146,7 @@ impl<'a> Parser<'a> {
 
     /// Skips to the next comma, the end of the line, or a co-issued instruction in the same line.
     pub(super) fn skip_operand(&mut self) {
-        while !matches!(self.peek().kind, Kind::Comma | Kind::Newline | Kind::End)
-            && !self.at_coissue()
-        {
+        while !matches!(self.peek().kind, Kind::Comma | Kind::Newline | Kind::End) && !self.at_coissue() {
             self.next();
         }
     }
@@ -163,9 +159,7 @@ impl<'a> Parser<'a> {
 
     fn at_coissue(&self) -> bool {
         let next = self.peek_at(1);
-        self.peek().kind == Kind::Plus
-            && next.kind == Kind::Word
-            && word::starts_statement(next.text)
+        self.peek().kind == Kind::Plus && next.kind == Kind::Word && word::starts_statement(next.text)
     }
 
     // ---- the version ----
@@ -215,13 +209,7 @@ impl<'a> Parser<'a> {
             "," => "a comma stands between two operands only",
             _ => "one instruction a line: mnemonic, destination, sources",
         };
-        self.record(SyntaxError::new(
-            ErrorKind::UnexpectedToken,
-            token.span,
-            expected,
-            token.found(),
-            help,
-        ));
+        self.record(SyntaxError::new(ErrorKind::UnexpectedToken, token.span, expected, token.found(), help));
     }
 
     fn statement(&mut self) {
@@ -273,21 +261,9 @@ impl<'a> Parser<'a> {
     fn prefix(&mut self) -> Parsed<Prefix> {
         let start = self.peek().span.start;
         let coissue = self.accept(Kind::Plus).is_some();
-        let predicate = if self.peek().kind == Kind::OpenParen {
-            Some(self.predicate()?)
-        } else {
-            None
-        };
-        let end = if coissue || predicate.is_some() {
-            self.last_end()
-        } else {
-            start
-        };
-        Ok(Prefix {
-            coissue,
-            predicate,
-            span: Span::new(start, end),
-        })
+        let predicate = if self.peek().kind == Kind::OpenParen { Some(self.predicate()?) } else { None };
+        let end = if coissue || predicate.is_some() { self.last_end() } else { start };
+        Ok(Prefix { coissue, predicate, span: Span::new(start, end) })
     }
 
     /// `(p0)`, `(!p0.x)`
@@ -322,11 +298,7 @@ impl<'a> Parser<'a> {
             return Err(bad(close, "`)`"));
         }
         self.next();
-        Ok(Predicate {
-            not,
-            swizzle,
-            span: open.span.join(close.span),
-        })
+        Ok(Predicate { not, swizzle, span: open.span.join(close.span) })
     }
 
     fn instruction(&mut self, token: Token<'a>, prefix: Prefix) {
@@ -349,11 +321,7 @@ impl<'a> Parser<'a> {
         let Some((mut destination, sources)) = self.operands(has_destination) else {
             return;
         };
-        let start = if prefix.span.end > prefix.span.start {
-            prefix.span.start
-        } else {
-            token.span.start
-        };
+        let start = if prefix.span.end > prefix.span.start { prefix.span.start } else { token.span.start };
         let span = Span::new(start, self.statement_end(token, destination, &sources));
         if let Some(error) = self.wrong_count(info, destination.is_some(), sources.len(), span) {
             self.record(error);
@@ -375,29 +343,16 @@ impl<'a> Parser<'a> {
         });
     }
 
-    fn statement_end(
-        &self,
-        token: Token<'_>,
-        destination: Option<Destination>,
-        sources: &[Source],
-    ) -> u32 {
+    fn statement_end(&self, token: Token<'_>, destination: Option<Destination>, sources: &[Source]) -> u32 {
         let operands = destination.map_or(token.span.end, |d| d.span.end);
         sources.last().map_or(operands, |s| s.span.end)
     }
 
-    fn wrong_count(
-        &self,
-        info: &OpInfo,
-        has_destination: bool,
-        sources: usize,
-        span: Span,
-    ) -> Option<SyntaxError> {
+    fn wrong_count(&self, info: &OpInfo, has_destination: bool, sources: usize, span: Span) -> Option<SyntaxError> {
         let destination = usize::from(info.destination != DestinationRule::None);
         let found = usize::from(has_destination) + sources;
-        let wanted = self
-            .version
-            .and_then(|(version, _)| info.source_count(version))
-            .map(|n| destination + usize::from(n));
+        let wanted =
+            self.version.and_then(|(version, _)| info.source_count(version)).map(|n| destination + usize::from(n));
         let right = match wanted {
             Some(wanted) => found == wanted,
             None => found >= destination && found <= MAX_OPERANDS,
@@ -418,12 +373,6 @@ impl<'a> Parser<'a> {
             (_, Some(n)) => format!("`{name}` takes a destination and {} more", n - 1),
             (_, None) => format!("`{name}` takes a destination first"),
         };
-        Some(SyntaxError::new(
-            ErrorKind::OperandCount,
-            span,
-            expected,
-            found.to_string(),
-            help,
-        ))
+        Some(SyntaxError::new(ErrorKind::OperandCount, span, expected, found.to_string(), help))
     }
 }

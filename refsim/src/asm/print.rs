@@ -3,8 +3,7 @@
 use super::declare::usage_suffix;
 use super::{number, word};
 use crate::isa::{
-    ConstantDef, ConstantValue, Declaration, Destination, Instruction, Mask, Modifier, Program,
-    Source, Swizzle,
+    ConstantDef, ConstantValue, Declaration, Destination, Instruction, Mask, Modifier, Program, Source, Swizzle,
 };
 use std::fmt::Write;
 

@@ -16,10 +16,7 @@ pub(super) struct Mnemonic {
 
 /// The table's rows under a mnemonic (two for `if` and `break`).
 fn rows(base: &str) -> impl Iterator<Item = &'static OpInfo> {
-    Opcode::ALL
-        .iter()
-        .map(|opcode| opcode.info())
-        .filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
+    Opcode::ALL.iter().map(|opcode| opcode.info()).filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
 }
 
 /// The first row under a word's base.
@@ -40,9 +37,7 @@ pub(super) fn starts_statement(word: &str) -> bool {
 
 /// Whether the word is `def`, `defi` or `defb`.
 pub(super) fn is_definition(word: &str) -> bool {
-    ["def", "defi", "defb"]
-        .iter()
-        .any(|d| word.eq_ignore_ascii_case(d))
+    ["def", "defi", "defb"].iter().any(|d| word.eq_ignore_ascii_case(d))
 }
 
 /// Whether the word is shaped as a version token is.
@@ -65,14 +60,7 @@ pub(super) fn suffixes<'a>(token: &Token<'a>) -> impl Iterator<Item = (&'a str, 
     })
 }
 
-const SHIFTS: [(&str, i8); 6] = [
-    ("x2", 1),
-    ("x4", 2),
-    ("x8", 3),
-    ("d2", -1),
-    ("d4", -2),
-    ("d8", -3),
-];
+const SHIFTS: [(&str, i8); 6] = [("x2", 1), ("x4", 2), ("x8", 3), ("d2", -1), ("d4", -2), ("d8", -3)];
 
 /// The suffix of a shift, `_x2` for 1 for example; empty for 0 and for what no program can say.
 pub(super) fn shift_suffix(shift: i8) -> &'static str {
@@ -93,13 +81,8 @@ pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
     let Some(first) = rows(base).next() else {
         return Err(unknown_opcode(token, base));
     };
-    let mut mnemonic = Mnemonic {
-        opcode: first.opcode,
-        comparison: None,
-        shift: 0,
-        saturate: false,
-        partial_precision: false,
-    };
+    let mut mnemonic =
+        Mnemonic { opcode: first.opcode, comparison: None, shift: 0, saturate: false, partial_precision: false };
     for (part, span) in suffixes(token) {
         suffix(&mut mnemonic, first.mnemonic, part, span)?;
     }
@@ -192,9 +175,7 @@ fn unknown_opcode(token: &Token<'_>, base: &str) -> SyntaxError {
     let help = match nearest(base) {
         Some(near) => format!("did you mean `{near}`?"),
         None if base.eq_ignore_ascii_case("dp2") => "write `dp2add` with a zero".to_owned(),
-        None => {
-            "no version from ps_1_1 to ps_2_b, vs_1_1 or vs_2_0 has such an instruction".to_owned()
-        }
+        None => "no version from ps_1_1 to ps_2_b, vs_1_1 or vs_2_0 has such an instruction".to_owned(),
     };
     SyntaxError::new(
         ErrorKind::UnknownOpcode,

@@ -1,0 +1,128 @@
+//! Facts about the opcode table and the other types of `refsim::isa`.
+
+use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Span, Stage, Version};
+use std::collections::BTreeMap;
+
+#[test]
+fn rows_stand_under_their_own_opcode_and_in_some_version() {
+    for &opcode in Opcode::ALL {
+        let info = opcode.info();
+        assert_eq!(info.opcode, opcode);
+        assert!(Version::ALL.iter().any(|&v| info.available(v)), "{opcode:?} is nowhere");
+        let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit();
+        assert!(info.mnemonic.bytes().all(plain), "{opcode:?}: suffixes are split off at `_`");
+        assert!(info.mnemonic.as_bytes()[0].is_ascii_lowercase(), "{opcode:?}");
+    }
+}
+
+#[test]
+fn a_mnemonic_is_shared_only_by_a_plain_and_a_comparing_form() {
+    let mut names: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
+    for &opcode in Opcode::ALL {
+        names.entry(opcode.info().mnemonic).or_default().push(opcode.info().comparison);
+    }
+    let shared: Vec<_> = names.iter().filter(|(_, forms)| forms.len() > 1).collect();
+    let both = vec![false, true];
+    assert_eq!(shared, [(&"break", &both), (&"if", &both)]);
+}
+
+#[test]
+fn operands_fit_their_class() {
+    for &opcode in Opcode::ALL {
+        let info = opcode.info();
+        for version in Version::ALL {
+            let Some(sources) = info.source_count(version) else {
+                assert_eq!(info.slot_cost(version), Default::default(), "{opcode:?} {version}");
+                continue;
+            };
+            assert!(sources <= 4, "{opcode:?} {version}");
+            match info.class {
+                OpcodeClass::Marker => assert_eq!(info.destination, DestinationRule::None),
+                OpcodeClass::Flow => assert_eq!(info.destination, DestinationRule::None),
+                OpcodeClass::Arithmetic => {
+                    assert_eq!(info.destination, DestinationRule::Write);
+                    assert!(sources >= 1, "{opcode:?} {version}");
+                }
+                OpcodeClass::Texture => {
+                    assert_eq!(version.stage(), Stage::Pixel, "{opcode:?}");
+                    assert_ne!(info.destination, DestinationRule::None);
+                    assert!(info.slot_cost(version).texture >= 1, "{opcode:?} {version}");
+                }
+            }
+        }
+    }
+    let readers = Opcode::ALL.iter().filter(|o| o.info().destination == DestinationRule::Read);
+    assert_eq!(readers.collect::<Vec<_>>(), [&Opcode::TexKill]);
+}
+
+/// Direct3D's tables of instructions a version, as counts.
+#[test]
+fn versions_have_as_many_operations_as_the_reference_lists() {
+    let count = |v| Opcode::ALL.iter().filter(|o| o.info().available(v)).count();
+    let counts = Version::ALL.map(|v| (v.token(), count(v)));
+    let want = [
+        ("ps_1_1", 22),
+        ("ps_1_2", 28),
+        ("ps_1_3", 29),
+        ("ps_1_4", 16),
+        ("ps_2_0", 31),
+        ("ps_2_a", 49),
+        ("ps_2_b", 31),
+        ("vs_1_1", 24),
+        ("vs_2_0", 43),
+    ];
+    assert_eq!(counts, want);
+}
+
+#[test]
+fn slots_of_the_reference_pages() {
+    let slots = |o: Opcode, v| {
+        let cost = o.info().slot_cost(v);
+        (cost.texture, cost.arithmetic)
+    };
+    for (opcode, version, want) in [
+        (Opcode::TexBemL, Version::Ps1_1, (1, 1)),
+        (Opcode::Cmp, Version::Ps1_2, (0, 2)),
+        (Opcode::Cmp, Version::Ps1_4, (0, 1)),
+        (Opcode::Bem, Version::Ps1_4, (0, 2)),
+        (Opcode::Phase, Version::Ps1_4, (0, 0)),
+        (Opcode::Nop, Version::Ps1_4, (0, 0)),
+        (Opcode::Nop, Version::Ps2_0, (0, 1)),
+        (Opcode::SinCos, Version::Ps2_0, (0, 8)),
+        (Opcode::TexLdB, Version::Ps2_0, (1, 0)),
+        (Opcode::TexLdB, Version::Ps2A, (6, 0)),
+        (Opcode::TexLdP, Version::Ps2B, (3, 0)),
+        (Opcode::TexKill, Version::Ps2A, (2, 0)),
+        (Opcode::Frc, Version::Vs1_1, (0, 3)),
+        (Opcode::Log, Version::Vs1_1, (0, 10)),
+        (Opcode::Lit, Version::Vs2_0, (0, 3)),
+    ] {
+        assert_eq!(slots(opcode, version), want, "{opcode:?} {version}");
+    }
+}
+
+#[test]
+fn version_tokens_read_back() {
+    for version in Version::ALL {
+        assert_eq!(version.token().parse(), Ok(version));
+        assert_eq!(version.token().to_uppercase().replace('_', ".").parse(), Ok(version));
+    }
+    assert!("ps_3_0".parse::<Version>().is_err());
+    assert!("".parse::<Version>().is_err());
+}
+
+#[test]
+fn registers_are_written_as_direct3d_writes_them() {
+    assert_eq!(Register::new(RegisterFile::ColorOut, 2).to_string(), "oC2");
+    assert_eq!(Register::new(RegisterFile::DepthOut, 0).to_string(), "oDepth");
+    assert_eq!(Register::new(RegisterFile::Loop, 0).to_string(), "aL");
+    assert_eq!(Register::new(RegisterFile::Address, 0).to_string(), "a0");
+}
+
+#[test]
+fn spans_join_and_become_source_spans() {
+    let joined = Span::new(7, 9).join(Span::new(2, 4));
+    assert_eq!((joined.start, joined.end), (2, 9));
+    let source = miette::SourceSpan::from(joined);
+    assert_eq!((source.offset(), source.len()), (2, 7));
+}
