@@ -258,7 +258,7 @@ fn decimals_round_to_nearest_even() {
         ("3.4028235e38", 0x7f7f_ffff),
         ("3.4028235677973367e38", 0x7f80_0000),
         ("0x7fc00001", 0x7fc0_0001),
-        ("1e-1000", 0),
+        ("1e-99999999999", 0),
     ] {
         if want == 0x7f80_0000 {
             assert_eq!(kinds(&format!("ps_2_0\ndef c0, {text}, 0, 0, 0")), [ErrorKind::ValueRange]);

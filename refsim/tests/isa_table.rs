@@ -64,12 +64,12 @@ fn versions_have_as_many_operations_as_the_reference_lists() {
         ("ps_1_1", 22),
         ("ps_1_2", 28),
         ("ps_1_3", 29),
-        ("ps_1_4", 16),
-        ("ps_2_0", 31),
+        ("ps_1_4", 17),
+        ("ps_2_0", 32),
         ("ps_2_a", 49),
-        ("ps_2_b", 31),
-        ("vs_1_1", 24),
-        ("vs_2_0", 43),
+        ("ps_2_b", 32),
+        ("vs_1_1", 26),
+        ("vs_2_0", 45),
     ];
     assert_eq!(counts, want);
 }

@@ -75,6 +75,10 @@ fn usage(part: &str, span: Span) -> Parsed<Usage> {
     })
 }
 
+fn values_in_words(count: usize) -> String {
+    if count == 1 { "1 value".to_owned() } else { format!("{count} values") }
+}
+
 impl<'a> Parser<'a> {
     /// Reads a declaration whose word, `dcl` and its suffixes, is taken.
     pub(super) fn declaration(&mut self, token: Token<'a>) {
@@ -161,8 +165,8 @@ impl<'a> Parser<'a> {
                 self.record(SyntaxError::new(
                     ErrorKind::ValueCount,
                     span,
-                    format!("{wanted} after the register of `{lower}`"),
-                    values.len().to_string(),
+                    format!("`{lower}` with {} after its register", values_in_words(wanted)),
+                    values_in_words(values.len()),
                     "a definition gives all components: `def c0, 1, 0, 0, 0`, `defb b0, true`",
                 ));
                 return;
@@ -219,7 +223,10 @@ impl<'a> Parser<'a> {
             Kind::Minus | Kind::Plus => Some(self.next()),
             _ => None,
         };
-        let token = self.next_in_line();
+        let token = self.peek();
+        if matches!(token.kind, Kind::Number | Kind::Word) {
+            self.next();
+        }
         let span = sign.map_or(token.span, |s| s.span.join(token.span));
         let text = format!("{}{}", sign.map_or("", |s| s.text), token.text);
         if file == RegisterFile::ConstantBool {

@@ -224,7 +224,7 @@ impl<'a> Parser<'a> {
         let token = self.peek();
         if token.kind != Kind::Word {
             self.unexpected(token, "an instruction");
-            self.next();
+            self.next_in_line();
             self.skip_line();
             return;
         }

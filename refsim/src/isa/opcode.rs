@@ -76,7 +76,9 @@ impl OpInfo {
     pub const fn slot_cost(&self, version: Version) -> SlotCost {
         let n = self.slots[version as usize];
         match self.class {
-            OpcodeClass::Texture if matches!(self.opcode, Opcode::TexBemL) => SlotCost { texture: n, arithmetic: 1 },
+            OpcodeClass::Texture if n > 0 && matches!(self.opcode, Opcode::TexBemL) => {
+                SlotCost { texture: n, arithmetic: 1 }
+            }
             OpcodeClass::Texture => SlotCost { texture: n, arithmetic: 0 },
             _ => SlotCost { texture: 0, arithmetic: n },
         }
