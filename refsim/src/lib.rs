@@ -4,3 +4,7 @@ pub mod asm;
 pub mod device;
 pub mod isa;
 pub mod num;
+
+pub mod output;
+pub mod raster;
+pub mod texture;

@@ -1,0 +1,290 @@
+//! Blending.
+//!
+//! guess: a fixed-point blender works on values of the target's precision. The source is clamped and rounded into the
+//! target's channels first; `source * factor op destination * factor` is then exact and rounded once more into the
+//! channel. In floating-point targets each product and the sum is one FP32 operation, and the result is converted once.
+
+use crate::num::{self, Format};
+use crate::texture::{
+    Channel, ChannelClass, ChannelValue, SignedTexelMinimum, TargetRounding, TexelFormat, decode, decode_channel,
+    encode, encode_channel, value,
+};
+
+/// What a colour is multiplied by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BlendFactor {
+    /// 0
+    Zero,
+    /// 1
+    One,
+    /// The source component.
+    SrcColor,
+    /// 1 - the source component
+    InvSrcColor,
+    /// Source alpha.
+    SrcAlpha,
+    /// 1 - source alpha
+    InvSrcAlpha,
+    /// Destination alpha; 1 if the target stores none.
+    DestAlpha,
+    /// 1 - destination alpha
+    InvDestAlpha,
+    /// The destination component.
+    DestColor,
+    /// 1 - the destination component
+    InvDestColor,
+    /// `min(source alpha, 1 - destination alpha)` for colours, 1 for alpha.
+    SrcAlphaSat,
+}
+
+impl BlendFactor {
+    /// Every factor.
+    pub const ALL: &'static [Self] = &[
+        Self::Zero,
+        Self::One,
+        Self::SrcColor,
+        Self::InvSrcColor,
+        Self::SrcAlpha,
+        Self::InvSrcAlpha,
+        Self::DestAlpha,
+        Self::InvDestAlpha,
+        Self::DestColor,
+        Self::InvDestColor,
+        Self::SrcAlphaSat,
+    ];
+}
+
+/// How the two products are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BlendOp {
+    /// source + destination
+    #[default]
+    Add,
+    /// source - destination
+    Subtract,
+    /// destination - source
+    ReverseSubtract,
+    /// The smaller of source and destination; factors are not used.
+    Min,
+    /// The larger of source and destination; factors are not used.
+    Max,
+}
+
+/// One blend equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct BlendEquation {
+    /// Factor of the fragment's colour.
+    pub source: BlendFactor,
+    /// Factor of what is in the target.
+    pub destination: BlendFactor,
+    /// How they are combined.
+    pub op: BlendOp,
+}
+
+/// The state of the blender.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct BlendState {
+    /// For red, green and blue.
+    pub color: BlendEquation,
+    /// For alpha.
+    pub alpha: BlendEquation,
+}
+
+impl BlendState {
+    /// The same equation for colour and alpha.
+    pub const fn both(source: BlendFactor, destination: BlendFactor, op: BlendOp) -> Self {
+        let equation = BlendEquation { source, destination, op };
+        Self { color: equation, alpha: equation }
+    }
+}
+
+/// The texel that results from blending a colour, in number format `from`, over the texel `destination`.
+pub fn blend_texel(
+    format: TexelFormat,
+    destination: u128,
+    from: Format,
+    source: [u32; 4],
+    state: &BlendState,
+    rounding: TargetRounding,
+) -> u128 {
+    let record = format.record();
+    let stored = decode(format, destination, SignedTexelMinimum::Clamp);
+    let equation = |component: u8| if component == 3 { &state.alpha } else { &state.color };
+    if record.is_float() {
+        let s = source.map(|bits| num::ops::convert(&from, Format::FP32, bits).bits);
+        let d = stored.to_format(Format::FP32);
+        return record.stored().iter().fold(0, |raw, channel| {
+            let result = blend(equation(channel.stored_from), s, d, usize::from(channel.stored_from));
+            raw | u128::from(encode_channel(*channel, Format::FP32, result, rounding)) << channel.shift
+        });
+    }
+    let s = quantised_source(format, from, source, rounding);
+    let d = stored.0.map(Ratio::of);
+    record.stored().iter().fold(0, |raw, channel| {
+        let result = blend(equation(channel.stored_from), s, d, usize::from(channel.stored_from));
+        raw | u128::from(result.encode(*channel, rounding)) << channel.shift
+    })
+}
+
+/// The source as the target would store it; components that it does not store are unsigned with as many bits as its
+/// widest channel.
+fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], rounding: TargetRounding) -> [Ratio; 4] {
+    let record = format.record();
+    let bits = record.stored().iter().map(|c| c.bits).max().unwrap_or(8);
+    let mut out = [0, 1, 2, 3].map(|i: u8| {
+        let channel = Channel { shift: 0, bits, class: ChannelClass::Unorm, stored_from: i };
+        let code = encode_channel(channel, from, source[usize::from(i)], rounding);
+        Ratio::of(decode_channel(channel, code, SignedTexelMinimum::Clamp))
+    });
+    let raw = encode(format, from, source, rounding);
+    for channel in record.stored() {
+        let code = (raw >> channel.shift) as u32;
+        out[usize::from(channel.stored_from)] = Ratio::of(decode_channel(*channel, code, SignedTexelMinimum::Clamp));
+    }
+    out
+}
+
+/// The arithmetic of a blender.
+trait BlendValue: Copy {
+    const ZERO: Self;
+    const ONE: Self;
+    fn add(self, other: Self) -> Self;
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn is_below(self, other: Self) -> bool;
+}
+
+fn blend<T: BlendValue>(equation: &BlendEquation, source: [T; 4], destination: [T; 4], component: usize) -> T {
+    let (s, d) = (source[component], destination[component]);
+    match equation.op {
+        BlendOp::Min => return if d.is_below(s) { d } else { s },
+        BlendOp::Max => return if s.is_below(d) { d } else { s },
+        _ => {}
+    }
+    // A factor of 0 takes its term out and 1 leaves it alone, so that infinities pass by and -0 stays.
+    let term = |value: T, factor: BlendFactor| match factor {
+        BlendFactor::Zero => None,
+        BlendFactor::One => Some(value),
+        BlendFactor::SrcAlphaSat if component == 3 => Some(value),
+        _ => Some(value.mul(factor_value(factor, source, destination, component))),
+    };
+    let (s, d) = (term(s, equation.source), term(d, equation.destination));
+    match (equation.op, s, d) {
+        (BlendOp::Subtract, Some(s), Some(d)) => s.sub(d),
+        (BlendOp::Subtract, None, Some(d)) => T::ZERO.sub(d),
+        (BlendOp::ReverseSubtract, Some(s), Some(d)) => d.sub(s),
+        (BlendOp::ReverseSubtract, Some(s), None) => T::ZERO.sub(s),
+        (_, Some(s), Some(d)) => s.add(d),
+        (_, Some(one), None) | (_, None, Some(one)) => one,
+        (_, None, None) => T::ZERO,
+    }
+}
+
+fn factor_value<T: BlendValue>(factor: BlendFactor, source: [T; 4], destination: [T; 4], component: usize) -> T {
+    let rest = |value: T| T::ONE.sub(value);
+    match factor {
+        BlendFactor::Zero => T::ZERO,
+        BlendFactor::One => T::ONE,
+        BlendFactor::SrcColor => source[component],
+        BlendFactor::InvSrcColor => rest(source[component]),
+        BlendFactor::SrcAlpha => source[3],
+        BlendFactor::InvSrcAlpha => rest(source[3]),
+        BlendFactor::DestAlpha => destination[3],
+        BlendFactor::InvDestAlpha => rest(destination[3]),
+        BlendFactor::DestColor => destination[component],
+        BlendFactor::InvDestColor => rest(destination[component]),
+        BlendFactor::SrcAlphaSat => {
+            let free = rest(destination[3]);
+            if free.is_below(source[3]) { free } else { source[3] }
+        }
+    }
+}
+
+/// FP32 bits.
+impl BlendValue for u32 {
+    const ZERO: Self = value::ZERO;
+    const ONE: Self = value::ONE;
+
+    fn add(self, other: Self) -> Self {
+        value::add(self, other)
+    }
+
+    fn sub(self, other: Self) -> Self {
+        value::sub(self, other)
+    }
+
+    fn mul(self, other: Self) -> Self {
+        value::mul(self, other)
+    }
+
+    fn is_below(self, other: Self) -> bool {
+        !value::is_nan(self) && !value::is_nan(other) && value::order_key(self) < value::order_key(other)
+    }
+}
+
+/// An exact fraction. Its parts stay small: at most four channels' denominators of 16 bits are multiplied.
+#[derive(Clone, Copy, Debug)]
+struct Ratio {
+    numerator: i128,
+    denominator: i128,
+}
+
+impl Ratio {
+    fn of(value: ChannelValue) -> Self {
+        match value {
+            ChannelValue::Ratio { numerator, denominator } => {
+                Self { numerator: i128::from(numerator), denominator: i128::from(denominator) }
+            }
+            // Not reached: targets of integers have no floats.
+            ChannelValue::Float { .. } => Self::ZERO,
+        }
+    }
+
+    /// The channel bits nearest to the fraction, clamped to the channel's range.
+    fn encode(self, channel: Channel, rounding: TargetRounding) -> u32 {
+        let one = value::ONE;
+        let negative = self.numerator < 0;
+        let size = self.numerator.unsigned_abs();
+        let denominator = self.denominator.unsigned_abs();
+        if size >= denominator {
+            let extreme = if negative { one | 0x8000_0000 } else { one };
+            return encode_channel(channel, Format::FP32, extreme, rounding);
+        }
+        let whole = match channel.class {
+            ChannelClass::Unorm if negative => return 0,
+            ChannelClass::Unorm => u32::MAX >> (32 - channel.bits),
+            ChannelClass::SplitSnorm if negative => 16,
+            _ => (u32::MAX >> (32 - channel.bits)) >> 1,
+        };
+        let half = if rounding == TargetRounding::Nearest { denominator } else { 0 };
+        let code = ((2 * size * u128::from(whole) + half) / (2 * denominator)) as u32;
+        if negative { code.wrapping_neg() & (u32::MAX >> (32 - channel.bits)) } else { code }
+    }
+}
+
+impl BlendValue for Ratio {
+    const ZERO: Self = Self { numerator: 0, denominator: 1 };
+    const ONE: Self = Self { numerator: 1, denominator: 1 };
+
+    fn add(self, other: Self) -> Self {
+        if self.denominator == other.denominator {
+            return Self { numerator: self.numerator + other.numerator, denominator: self.denominator };
+        }
+        Self {
+            numerator: self.numerator * other.denominator + other.numerator * self.denominator,
+            denominator: self.denominator * other.denominator,
+        }
+    }
+
+    fn sub(self, other: Self) -> Self {
+        self.add(Self { numerator: -other.numerator, denominator: other.denominator })
+    }
+
+    fn mul(self, other: Self) -> Self {
+        Self { numerator: self.numerator * other.numerator, denominator: self.denominator * other.denominator }
+    }
+
+    fn is_below(self, other: Self) -> bool {
+        self.numerator * other.denominator < other.numerator * self.denominator
+    }
+}

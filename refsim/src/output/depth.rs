@@ -1,0 +1,269 @@
+//! Depth: formats, comparisons, surfaces.
+
+use super::OutputError;
+use crate::num::Format;
+use crate::texture::TargetRounding;
+use crate::texture::value::{self, Exact};
+
+/// How depth is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum DepthFormat {
+    /// `k / (2^16 - 1)`
+    Unorm16,
+    /// `k / (2^24 - 1)`
+    Unorm24,
+    /// `k / (2^32 - 1)`
+    Unorm32,
+    /// FP32
+    Float32,
+    /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
+    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; nearest even.
+    Float24,
+}
+
+impl DepthFormat {
+    /// Every format.
+    pub const ALL: &'static [Self] = &[Self::Unorm16, Self::Unorm24, Self::Unorm32, Self::Float32, Self::Float24];
+
+    /// The name in profiles and case files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unorm16 => "d16",
+            Self::Unorm24 => "d24",
+            Self::Unorm32 => "d32",
+            Self::Float32 => "d32f",
+            Self::Float24 => "d24f",
+        }
+    }
+
+    /// The stored pattern of a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
+    ///
+    /// Patterns of one depth format order as their depths. `rounding` is for the integer formats; the float formats
+    /// round to nearest, ties to even.
+    pub fn quantise(self, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
+        let (significand, exponent) = match value::exact(from, bits) {
+            Exact::Nan | Exact::Infinite { negative: true } | Exact::Finite { negative: true, .. } => (0, 0),
+            Exact::Infinite { negative: false } => (1, 0),
+            Exact::Finite { significand, exponent, .. } => (significand, exponent),
+        };
+        let nearest = rounding == TargetRounding::Nearest;
+        let unorm = |scale: u64| value::scaled_magnitude(significand, exponent, scale, nearest).min(scale) as u32;
+        match self {
+            Self::Unorm16 => unorm(0xffff),
+            Self::Unorm24 => unorm(0x00ff_ffff),
+            Self::Unorm32 => unorm(0xffff_ffff),
+            Self::Float32 => positive_float(significand, exponent, 8, 23),
+            Self::Float24 => positive_float(significand, exponent, 4, 20),
+        }
+    }
+
+    /// The depth of a stored pattern, rounded into a number format.
+    pub fn to_format(self, stored: u32, format: Format) -> u32 {
+        let ratio = |scale: u32| value::ratio(format, i64::from(stored.min(scale)), u64::from(scale));
+        match self {
+            Self::Unorm16 => ratio(0xffff),
+            Self::Unorm24 => ratio(0x00ff_ffff),
+            Self::Unorm32 => ratio(0xffff_ffff),
+            Self::Float32 => crate::num::ops::convert(&Format::FP32, format, stored).bits,
+            Self::Float24 => {
+                let field = (stored >> 20 & 15) as i32;
+                let fraction = u64::from(stored & 0x000f_ffff);
+                let significand = if field == 0 { fraction } else { fraction | 1 << 20 };
+                let exponent = field.max(1) - 15 - 20;
+                crate::num::from_parts(format, false, u128::from(significand), exponent, false).bits
+            }
+        }
+    }
+}
+
+impl std::str::FromStr for DepthFormat {
+    type Err = OutputError;
+
+    /// Takes our name or the Direct3D one (`D24S8`, `D24X8`, `D16`, `D24FS8`, ...), in any case.
+    fn from_str(text: &str) -> Result<Self, OutputError> {
+        let lower = text.trim().to_ascii_lowercase();
+        match lower.strip_prefix("d3dfmt_").unwrap_or(&lower) {
+            "d16" => Ok(Self::Unorm16),
+            "d24" | "d24s8" | "d24x8" => Ok(Self::Unorm24),
+            "d32" => Ok(Self::Unorm32),
+            "d32f" | "d32f_lockable" => Ok(Self::Float32),
+            "d24f" | "d24fs8" => Ok(Self::Float24),
+            _ => Err(OutputError::UnknownDepthFormat { name: text.chars().take(40).collect() }),
+        }
+    }
+}
+
+impl std::fmt::Display for DepthFormat {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// `min(significand * 2^exponent, 1)` as an unsigned float whose bias makes 1.0 the exponent field
+/// `2^(exponent_bits-1) - 1` (8 bits) or 15 (4 bits).
+fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_bits: u32) -> u32 {
+    let bias = if exponent_bits == 4 { 15 } else { (1 << (exponent_bits - 1)) - 1 };
+    let one = (bias as u32) << mantissa_bits;
+    if significand == 0 {
+        return 0;
+    }
+    let top = exponent + 63 - significand.leading_zeros().cast_signed();
+    if top >= 0 {
+        return one;
+    }
+    // The unit in the last place: that of the number's binade, or of the subnormals.
+    let unit = top.max(1 - bias) - mantissa_bits.cast_signed();
+    let shift = unit - exponent;
+    let kept = if shift <= 0 {
+        significand << shift.unsigned_abs().min(31)
+    } else if shift > 63 {
+        0
+    } else {
+        let (whole, rest, half) = (significand >> shift, significand & ((1 << shift) - 1), 1u64 << (shift - 1));
+        whole + u64::from(rest > half || (rest == half && whole & 1 == 1))
+    };
+    // The hidden bit adds one to the exponent field, so a carry is right as well.
+    let base = ((unit + mantissa_bits.cast_signed() + bias - 1) as u32) << mantissa_bits;
+    (base + kept as u32).min(one)
+}
+
+/// The eight comparisons, of the new value with the stored one (or the alpha reference).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CompareFunction {
+    /// Never passes.
+    Never,
+    /// new < old
+    Less,
+    /// new = old
+    Equal,
+    /// new <= old
+    LessEqual,
+    /// new > old
+    Greater,
+    /// new is not old
+    NotEqual,
+    /// new >= old
+    GreaterEqual,
+    /// Always passes.
+    #[default]
+    Always,
+}
+
+impl CompareFunction {
+    /// Every comparison.
+    pub const ALL: &'static [Self] = &[
+        Self::Never,
+        Self::Less,
+        Self::Equal,
+        Self::LessEqual,
+        Self::Greater,
+        Self::NotEqual,
+        Self::GreaterEqual,
+        Self::Always,
+    ];
+
+    /// Whether the comparison holds for an order; `None` is unordered (a NaN), where only `NotEqual` and `Always` do.
+    pub fn holds(self, order: Option<std::cmp::Ordering>) -> bool {
+        use std::cmp::Ordering::{Equal, Greater, Less};
+        match self {
+            Self::Never => false,
+            Self::Less => order == Some(Less),
+            Self::Equal => order == Some(Equal),
+            Self::LessEqual => matches!(order, Some(Less | Equal)),
+            Self::Greater => order == Some(Greater),
+            Self::NotEqual => order != Some(Equal),
+            Self::GreaterEqual => matches!(order, Some(Greater | Equal)),
+            Self::Always => true,
+        }
+    }
+}
+
+/// The state of the depth test.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct DepthState {
+    /// The comparison of the fragment's depth with the stored one; `None`: no test, and no write either.
+    pub test: Option<CompareFunction>,
+    /// Whether the depth of a fragment that passes is stored.
+    pub write: bool,
+}
+
+/// A depth buffer: one pattern of the format a pixel, row by row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DepthSurface {
+    format: DepthFormat,
+    width: u32,
+    height: u32,
+    data: Vec<u32>,
+}
+
+impl DepthSurface {
+    /// A surface of depth 1, the far plane.
+    ///
+    /// # Errors
+    /// If a side is 0 or above 16384.
+    pub fn new(format: DepthFormat, width: u32, height: u32) -> Result<Self, OutputError> {
+        if !(1..=16_384).contains(&width) || !(1..=16_384).contains(&height) {
+            return Err(OutputError::DepthExtent { width, height });
+        }
+        let one = format.quantise(Format::FP32, value::ONE, TargetRounding::Nearest);
+        Ok(Self { format, width, height, data: vec![one; width as usize * height as usize] })
+    }
+
+    /// The format.
+    pub fn format(&self) -> DepthFormat {
+        self.format
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All patterns, row by row.
+    pub fn data(&self) -> &[u32] {
+        &self.data
+    }
+
+    /// All patterns, to be changed. Patterns beyond the format's width break the order of comparisons.
+    pub fn data_mut(&mut self) -> &mut [u32] {
+        &mut self.data
+    }
+
+    /// The pattern of a pixel, or `None` outside.
+    pub fn get(&self, x: u32, y: u32) -> Option<u32> {
+        let inside = x < self.width && y < self.height;
+        inside.then(|| self.data[y as usize * self.width as usize + x as usize])
+    }
+
+    /// Sets every pixel to a depth given as FP32 bits.
+    pub fn clear(&mut self, depth: u32, rounding: TargetRounding) {
+        self.data.fill(self.format.quantise(Format::FP32, depth, rounding));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_and_specials() {
+        for &format in DepthFormat::ALL {
+            let q = |v: f32| format.quantise(Format::FP32, v.to_bits(), TargetRounding::Nearest);
+            let one = q(1.0);
+            assert_eq!((q(0.0), q(-0.0), q(-3.0), q(f32::NAN), q(f32::NEG_INFINITY)), (0, 0, 0, 0, 0), "{format}");
+            assert_eq!((q(2.0), q(f32::INFINITY), q(f32::MAX)), (one, one, one), "{format}");
+            assert!(q(0.25) < q(0.5) && q(0.5) < one, "{format}: order");
+            assert_eq!(format.to_format(one, Format::FP32), value::ONE, "{format}");
+            assert_eq!(format.name().parse::<DepthFormat>().unwrap(), format);
+        }
+        let q = |v: f32| DepthFormat::Float32.quantise(Format::FP32, v.to_bits(), TargetRounding::Nearest);
+        assert_eq!(q(0.3), 0.3f32.to_bits());
+        assert_eq!(q(1e-40), 1e-40f32.to_bits());
+        assert_eq!(DepthFormat::Float24.quantise(Format::FP32, 0x3f00_0000, TargetRounding::Nearest), 14 << 20);
+    }
+}

@@ -1,0 +1,179 @@
+//! The way of one fragment into the targets.
+
+use super::MOST_TARGETS;
+use super::blend::{BlendState, blend_texel};
+use super::depth::{CompareFunction, DepthState};
+use super::tile::{ColorTile, TargetTile};
+use crate::num::{self, Format};
+use crate::texture::{TargetRounding, encode, value};
+
+/// What a device says about targets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutputRules {
+    /// Format of what pixel programs write.
+    pub format: Format,
+    /// Rounding into colour targets of integers.
+    pub target_rounding: TargetRounding,
+    /// Rounding into depth buffers of integers.
+    pub depth_rounding: TargetRounding,
+}
+
+/// The alpha test: alpha of colour 0 is compared with a reference in the register format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct AlphaTest {
+    /// The comparison that lets a fragment pass.
+    pub function: CompareFunction,
+    /// The reference, FP32 bits; converted to the register format once.
+    pub reference: u32,
+}
+
+/// The components that are written: bit 0 red to bit 3 alpha.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct WriteMask(pub u8);
+
+impl WriteMask {
+    /// Red, green, blue and alpha.
+    pub const ALL: Self = Self(15);
+    /// Nothing.
+    pub const NONE: Self = Self(0);
+
+    /// Whether the component (0 red to 3 alpha) is written.
+    pub const fn has(self, component: u8) -> bool {
+        self.0 >> component & 1 == 1
+    }
+}
+
+impl Default for WriteMask {
+    fn default() -> Self {
+        Self::ALL
+    }
+}
+
+/// The state of the output stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct OutputState {
+    /// Alpha test, if on.
+    pub alpha: Option<AlphaTest>,
+    /// Depth test.
+    pub depth: DepthState,
+    /// Blending, if on.
+    pub blend: Option<BlendState>,
+    /// Write masks of the targets.
+    pub masks: [WriteMask; MOST_TARGETS],
+}
+
+/// What a pixel program leaves behind; numbers in the register format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FragmentOutput {
+    /// A colour for each target.
+    pub colors: [[u32; 4]; MOST_TARGETS],
+    /// Bit `i` is set if colour `i` was written; targets without a colour stay as they are.
+    pub written: u8,
+    /// A depth of the program's own, instead of the interpolated one.
+    pub depth: Option<u32>,
+    /// The program killed the fragment.
+    pub killed: bool,
+}
+
+/// What became of a fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FragmentFate {
+    /// `texkill`.
+    KilledByShader,
+    /// Failed the alpha test.
+    AlphaFailed,
+    /// Failed the depth test.
+    DepthFailed,
+    /// Reached the targets.
+    Passed,
+    /// Was not of this tile; nothing was done.
+    OutsideTile,
+}
+
+impl AlphaTest {
+    /// Whether an alpha in the register format passes. A NaN is equal to nothing.
+    pub fn passes(&self, alpha: u32, format: Format) -> bool {
+        use std::cmp::Ordering::{Equal, Greater, Less};
+        let reference = num::ops::convert(&Format::FP32, format, self.reference).bits;
+        let order = if format.is_nan(alpha) || format.is_nan(reference) {
+            None
+        } else if num::ops::lt(format, alpha, reference).bits != 0 {
+            Some(Less)
+        } else if num::ops::lt(format, reference, alpha).bits != 0 {
+            Some(Greater)
+        } else {
+            Some(Equal)
+        };
+        self.function.holds(order)
+    }
+}
+
+/// Takes a fragment through alpha test, depth test, blending and write masks into a tile.
+///
+/// `depth` is the interpolated depth, FP32 bits. A program's own depth takes its place and is converted from the
+/// register format into the depth format once.
+pub fn merge(
+    tile: &mut TargetTile,
+    (x, y): (u32, u32),
+    fragment: &FragmentOutput,
+    depth: u32,
+    state: &OutputState,
+    rules: &OutputRules,
+) -> FragmentFate {
+    let Some(index) = tile.index(x, y) else { return FragmentFate::OutsideTile };
+    if fragment.killed {
+        return FragmentFate::KilledByShader;
+    }
+    if state.alpha.is_some_and(|test| !test.passes(fragment.colors[0][3], rules.format)) {
+        return FragmentFate::AlphaFailed;
+    }
+    if let (Some(buffer), Some(function)) = (&mut tile.depth, state.depth.test) {
+        let new = match fragment.depth {
+            Some(own) => buffer.format.quantise(rules.format, own, rules.depth_rounding),
+            None => buffer.format.quantise(Format::FP32, depth, rules.depth_rounding),
+        };
+        if let Some(old) = buffer.data.get_mut(index) {
+            if !function.holds(Some(new.cmp(old))) {
+                return FragmentFate::DepthFailed;
+            }
+            if state.depth.write {
+                *old = new;
+            }
+        }
+    }
+    for (i, target) in tile.colors.iter_mut().enumerate() {
+        if let Some(target) = target
+            && fragment.written >> i & 1 == 1
+        {
+            write_color(target, index, fragment.colors[i], state, state.masks[i], rules);
+        }
+    }
+    FragmentFate::Passed
+}
+
+fn write_color(
+    target: &mut ColorTile,
+    index: usize,
+    color: [u32; 4],
+    state: &OutputState,
+    mask: WriteMask,
+    rules: &OutputRules,
+) {
+    let format = target.format;
+    let writes = format.record().stored().iter().filter(|c| mask.has(c.stored_from));
+    let bits = writes.fold(0u128, |bits, c| bits | (u128::from(u32::MAX >> (32 - c.bits)) << c.shift));
+    if bits == 0 {
+        return;
+    }
+    let old = target.raw(index);
+    let new = match &state.blend {
+        Some(blend) => blend_texel(format, old, rules.format, color, blend, rules.target_rounding),
+        None => encode(format, rules.format, color, rules.target_rounding),
+    };
+    target.set_raw(index, old & !bits | new & bits);
+}
+
+/// The alpha reference of Direct3D 8 and 9, an integer of 8 bits: `k / 255` as FP32 bits.
+pub fn alpha_reference(k: u8) -> u32 {
+    value::ratio(Format::FP32, i64::from(k), 255)
+}

@@ -1,0 +1,19 @@
+//! What happens to a shaded fragment: kill, alpha test, depth test, blending, masks, targets.
+//!
+//! The steps of a fragment, in order: (kill by the program) -> alpha test -> depth clamped and quantised, then tested
+//! -> depth written -> each colour quantised, blended, masked, written. docs/numbers.md, "Targets and depth".
+
+mod blend;
+mod depth;
+mod error;
+mod merge;
+mod tile;
+
+pub use blend::{BlendEquation, BlendFactor, BlendOp, BlendState, blend_texel};
+pub use depth::{CompareFunction, DepthFormat, DepthState, DepthSurface};
+pub use error::OutputError;
+pub use merge::{AlphaTest, FragmentFate, FragmentOutput, OutputRules, OutputState, WriteMask, alpha_reference, merge};
+pub use tile::{ColorTile, DepthTile, TargetTile};
+
+/// Colour targets a draw can have.
+pub const MOST_TARGETS: usize = 4;

@@ -1,0 +1,84 @@
+//! From a stream of vertices to triangles.
+
+use super::RasterError;
+
+/// How vertices make primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Primitive {
+    /// Each three vertices a triangle.
+    TriangleList,
+    /// Each vertex from the third on a triangle with its two predecessors.
+    TriangleStrip,
+    /// Each vertex from the third on a triangle with its predecessor and the first.
+    TriangleFan,
+    /// Each four vertices a quad.
+    QuadList,
+    /// Each two vertices from the third on a quad with the two before.
+    QuadStrip,
+    /// Not supported.
+    PointList,
+    /// Not supported.
+    LineList,
+    /// Not supported.
+    LineStrip,
+}
+
+/// The triangles, as vertex indices, that `count` vertices make; vertices left over are ignored.
+///
+/// A quad of vertices 0 1 2 3 is the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are turned so that
+/// all wind alike and their first vertex stays the first: (n, n+2, n+1).
+///
+/// # Errors
+/// For points and lines.
+pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item = [usize; 3]> + Clone, RasterError> {
+    let triangles = match primitive {
+        Primitive::TriangleList => count / 3,
+        Primitive::TriangleStrip | Primitive::TriangleFan => count.saturating_sub(2),
+        Primitive::QuadList => count / 4 * 2,
+        Primitive::QuadStrip => (count / 2).saturating_sub(1) * 2,
+        Primitive::PointList | Primitive::LineList | Primitive::LineStrip => {
+            return Err(RasterError::UnsupportedPrimitive { primitive });
+        }
+    };
+    Ok((0..triangles).map(move |i| triangle(primitive, i)))
+}
+
+/// The `i`th triangle.
+fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
+    // A quad's corners in turn, split along the diagonal from the first.
+    let half = |[a, b, c, d]: [usize; 4]| if i % 2 == 0 { [a, b, c] } else { [a, c, d] };
+    match primitive {
+        Primitive::TriangleStrip if i % 2 == 1 => [i, i + 2, i + 1],
+        Primitive::TriangleStrip => [i, i + 1, i + 2],
+        Primitive::TriangleFan => [0, i + 1, i + 2],
+        Primitive::QuadList => {
+            let first = i / 2 * 4;
+            half([first, first + 1, first + 2, first + 3])
+        }
+        Primitive::QuadStrip => {
+            let first = i / 2 * 2;
+            half([first, first + 1, first + 3, first + 2])
+        }
+        _ => [3 * i, 3 * i + 1, 3 * i + 2],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(primitive: Primitive, count: usize) -> Vec<[usize; 3]> {
+        assemble(primitive, count).unwrap().collect()
+    }
+
+    #[test]
+    fn orders_are_those_of_the_documentation() {
+        assert_eq!(all(Primitive::TriangleList, 7), [[0, 1, 2], [3, 4, 5]]);
+        assert_eq!(all(Primitive::TriangleStrip, 5), [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
+        assert_eq!(all(Primitive::TriangleFan, 4), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(all(Primitive::QuadList, 8), [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]);
+        assert_eq!(all(Primitive::QuadStrip, 6), [[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]);
+        assert_eq!(all(Primitive::TriangleStrip, 1), [[0; 3]; 0]);
+        assert!(assemble(Primitive::LineList, 2).is_err());
+    }
+}

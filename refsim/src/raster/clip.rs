@@ -1,0 +1,124 @@
+//! Clipping in homogeneous coordinates, in FP32 steps.
+
+use super::vertex::{COMPONENTS, Vertex};
+use super::{ClipSpace, setup::GUARD_BAND};
+use crate::texture::value;
+
+/// A vertex in the clipper: position and interpolated components.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClipVertex {
+    pub(crate) position: [u32; 4],
+    pub(crate) components: [u32; COMPONENTS],
+}
+
+impl ClipVertex {
+    pub(crate) fn new(vertex: &Vertex) -> Self {
+        Self { position: vertex.position, components: vertex.components() }
+    }
+}
+
+/// The least w kept: 2^-64. It stands for "w > 0" and keeps 1/w finite.
+const LEAST_W: u32 = (127 - 64) << 23;
+
+/// The planes, each as what must not be below zero.
+#[derive(Clone, Copy, Debug)]
+enum ClipPlane {
+    W,
+    Near,
+    Far,
+    Left,
+    Right,
+    Bottom,
+    Top,
+}
+
+const PLANES: [ClipPlane; 7] = [
+    ClipPlane::W,
+    ClipPlane::Near,
+    ClipPlane::Far,
+    ClipPlane::Left,
+    ClipPlane::Right,
+    ClipPlane::Bottom,
+    ClipPlane::Top,
+];
+
+/// FP32 distance of a position from a plane, in clip space units; negative is outside.
+fn distance(plane: ClipPlane, space: ClipSpace, [x, y, z, w]: [u32; 4]) -> u32 {
+    let band = value::mul(w, GUARD_BAND);
+    match (plane, space) {
+        (ClipPlane::W, _) => value::sub(w, LEAST_W),
+        (ClipPlane::Near, ClipSpace::Direct3d) => z,
+        (ClipPlane::Near, ClipSpace::OpenGl) => value::add(z, w),
+        (ClipPlane::Far, _) => value::sub(w, z),
+        (ClipPlane::Left, _) => value::add(band, x),
+        (ClipPlane::Right, _) => value::sub(band, x),
+        (ClipPlane::Bottom, _) => value::add(band, y),
+        (ClipPlane::Top, _) => value::sub(band, y),
+    }
+}
+
+fn is_outside(distance: u32) -> bool {
+    value::is_negative(distance) || value::is_nan(distance)
+}
+
+/// Corners of a triangle after the seven planes: it gains at most one with each.
+pub(crate) struct Polygon {
+    corners: [ClipVertex; 10],
+    count: usize,
+}
+
+impl Polygon {
+    pub(crate) fn corners(&self) -> &[ClipVertex] {
+        &self.corners[..self.count]
+    }
+
+    fn push(&mut self, corner: ClipVertex) {
+        if let Some(slot) = self.corners.get_mut(self.count) {
+            *slot = corner;
+            self.count += 1;
+        }
+    }
+}
+
+/// Whether no plane cuts the triangle, so that it needs no clipper.
+pub(crate) fn is_inside(triangle: &[&Vertex; 3], space: ClipSpace) -> bool {
+    triangle.iter().all(|v| PLANES.iter().all(|&p| !is_outside(distance(p, space, v.position))))
+}
+
+/// The part of a triangle within all planes (Sutherland and Hodgman): convex, its corners in the order given.
+///
+/// A new corner on the edge from an inside to an outside vertex is `inside + t * (outside - inside)` with
+/// `t = d_inside / (d_inside - d_outside)`, each step in FP32. It does not depend on which way round the edge is
+/// walked, so triangles with a common edge get the same corner. Equal components stay as they are.
+pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
+    let start = triangle.map(ClipVertex::new);
+    let mut polygon = Polygon { corners: [start[0]; 10], count: 0 };
+    start.into_iter().for_each(|corner| polygon.push(corner));
+    for plane in PLANES {
+        let source = Polygon { corners: polygon.corners, count: polygon.count };
+        polygon.count = 0;
+        for (i, corner) in source.corners().iter().enumerate() {
+            let next = &source.corners[(i + 1) % source.count];
+            let (d, d_next) = (distance(plane, space, corner.position), distance(plane, space, next.position));
+            if !is_outside(d) {
+                polygon.push(*corner);
+            }
+            match (is_outside(d), is_outside(d_next)) {
+                (false, true) => polygon.push(crossing(corner, d, next, d_next)),
+                (true, false) => polygon.push(crossing(next, d_next, corner, d)),
+                _ => {}
+            }
+        }
+    }
+    polygon
+}
+
+/// Where the edge from an inside to an outside vertex meets the plane.
+fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside: u32) -> ClipVertex {
+    let t = value::div(d_inside, value::sub(d_inside, d_outside));
+    let between = |a: u32, b: u32| if a == b { a } else { value::add(a, value::mul(t, value::sub(b, a))) };
+    ClipVertex {
+        position: std::array::from_fn(|i| between(inside.position[i], outside.position[i])),
+        components: std::array::from_fn(|i| between(inside.components[i], outside.components[i])),
+    }
+}

@@ -1,0 +1,127 @@
+//! Values of a fragment: weights, then one fixed sequence of rounded steps a component.
+
+use super::setup::{Plane, TriangleSetup};
+use super::vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT};
+use crate::num::{self, Format};
+use crate::texture::value;
+
+/// A set of interpolated components.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ComponentMask(pub u64);
+
+impl ComponentMask {
+    /// No component.
+    pub const NONE: Self = Self(0);
+    /// Every component.
+    pub const ALL: Self = Self((1 << COMPONENTS) - 1);
+
+    /// The set with one component more.
+    pub const fn with(self, component: usize) -> Self {
+        Self(self.0 | (1 << component))
+    }
+
+    /// The set with all of texture coordinate set `set`.
+    pub const fn with_texcoord(self, set: usize) -> Self {
+        Self(self.0 | (15 << (TEXCOORD_COMPONENT + 4 * set)))
+    }
+
+    /// The set with all of colour `color`.
+    pub const fn with_color(self, color: usize) -> Self {
+        Self(self.0 | (15 << (COLOR_COMPONENT + 4 * color)))
+    }
+
+    /// Whether the component is in the set.
+    pub const fn has(self, component: usize) -> bool {
+        self.0 >> component & 1 == 1
+    }
+}
+
+/// What the rasteriser hands a pixel program. All numbers are FP32 bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FragmentInput {
+    /// Texture coordinate sets.
+    pub t: [[u32; 4]; 8],
+    /// Colours as interpolated: not yet clamped or brought to the precision of the colour iterator.
+    pub v: [[u32; 4]; 2],
+    /// Fog factor.
+    pub fog: u32,
+    /// Depth.
+    pub depth: u32,
+}
+
+/// The weights of vertices 1 and 2 at a pixel, FP32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Weights {
+    /// Along the screen: for depth.
+    pub linear: [u32; 2],
+    /// Along the surface: for everything else.
+    pub perspective: [u32; 2],
+}
+
+impl TriangleSetup {
+    /// The weights at a pixel's centre, which may lie outside the triangle.
+    ///
+    /// `l1 = E1/A` and `l2 = E2/A` with the exact integers rounded to FP32 first. Unless all w are equal,
+    /// `g0 = ((1-l1)-l2) * (1/w0)`, `g1 = l1 * (1/w1)`, `g2 = l2 * (1/w2)`, `s = (g0+g1)+g2`, and the weights are
+    /// `g1/s` and `g2/s`. Each step is rounded to FP32.
+    pub fn weights(&self, x: u32, y: u32) -> Weights {
+        let share = |i: usize| value::div(value::from_integer(self.edges[i].at(x, y)), self.area_bits);
+        let linear = [share(1), share(2)];
+        if self.affine {
+            return Weights { linear, perspective: linear };
+        }
+        let [l1, l2] = linear;
+        let l0 = value::sub(value::sub(value::ONE, l1), l2);
+        let [r0, r1, r2] = self.reciprocal_w;
+        let (g0, g1, g2) = (value::mul(l0, r0), value::mul(l1, r1), value::mul(l2, r2));
+        let sum = value::add(value::add(g0, g1), g2);
+        Weights { linear, perspective: [value::div(g1, sum), value::div(g2, sum)] }
+    }
+
+    /// Depth at weights of this triangle, FP32 bits.
+    pub fn depth_at(&self, weights: &Weights) -> u32 {
+        if self.depth_constant { self.depth.base } else { along(&self.depth, weights.linear, Format::FP32) }
+    }
+
+    /// A component at weights of this triangle, FP32 bits; 0 past the last component.
+    ///
+    /// `(a0 + l1*(a1-a0)) + l2*(a2-a0)`, each step rounded to the iterator format. Constant components come as they
+    /// are.
+    pub fn component_at(&self, component: usize, weights: &Weights) -> u32 {
+        let Some(plane) = self.planes.get(component) else { return 0 };
+        if self.constant.has(component) {
+            return plane.base;
+        }
+        let format = self.iterator_format;
+        if format == Format::FP32 {
+            return along(plane, weights.perspective, format);
+        }
+        let converted = weights.perspective.map(|w| num::ops::convert(&Format::FP32, format, w).bits);
+        num::ops::convert(&format, Format::FP32, along(plane, converted, format)).bits
+    }
+
+    /// The inputs of the fragment at pixel (x, y): depth and the components asked for; the others are 0.
+    pub fn interpolate(&self, x: u32, y: u32, needed: ComponentMask) -> FragmentInput {
+        let weights = self.weights(x, y);
+        let mut input = FragmentInput { depth: self.depth_at(&weights), ..FragmentInput::default() };
+        let mut left = needed.0 & ComponentMask::ALL.0;
+        while left != 0 {
+            let component = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let value = self.component_at(component, &weights);
+            match component {
+                FOG_COMPONENT => input.fog = value,
+                COLOR_COMPONENT.. => input.v[(component - COLOR_COMPONENT) / 4][component % 4] = value,
+                _ => input.t[component / 4][component % 4] = value,
+            }
+        }
+        input
+    }
+}
+
+/// `(base + l1 * d1) + l2 * d2`
+fn along(plane: &Plane, [l1, l2]: [u32; 2], format: Format) -> u32 {
+    let add = |a, b| num::ops::add(format, a, b).bits;
+    let mul = |a, b| num::ops::mul(format, a, b).bits;
+    add(add(plane.base, mul(l1, plane.d1)), mul(l2, plane.d2))
+}

@@ -1,0 +1,23 @@
+//! From vertices to fragments: assembly, clipping, set-up, the fill rule, interpolation.
+//!
+//! Positions are snapped to a fixed-point grid once; from there on coverage is decided by exact integers, so that two
+//! triangles with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of
+//! FP32 steps that an executor with host floats can repeat bit for bit. docs/numbers.md, "Interpolation".
+
+mod assembly;
+mod clip;
+mod cover;
+mod error;
+mod interpolate;
+mod setup;
+mod vertex;
+
+pub use assembly::{Primitive, assemble};
+pub use cover::{PixelQuad, QuadIterator};
+pub use error::RasterError;
+pub use interpolate::{ComponentMask, FragmentInput, Weights};
+pub use setup::{
+    ClipSpace, Cull, Dropped, Edge, PixelCenter, Plane, RasterRules, RasterState, SetupReport, TriangleSetup, Viewport,
+    setup,
+};
+pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT, Vertex};

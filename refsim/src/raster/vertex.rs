@@ -1,0 +1,49 @@
+//! What the vertex stage hands over.
+
+/// Number of interpolated components: 8 coordinate sets, 2 colours, fog.
+pub const COMPONENTS: usize = 41;
+/// First component of the texture coordinates: `t[i].c` is `TEXCOORD_COMPONENT + 4 * i + c`.
+pub const TEXCOORD_COMPONENT: usize = 0;
+/// First component of the colours: `v[i].c` is `COLOR_COMPONENT + 4 * i + c`.
+pub const COLOR_COMPONENT: usize = 32;
+/// The component of the fog factor.
+pub const FOG_COMPONENT: usize = 40;
+
+/// A vertex after the vertex program. All numbers are FP32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vertex {
+    /// Position in clip space.
+    pub position: [u32; 4],
+    /// Diffuse and specular colour.
+    pub colors: [[u32; 4]; 2],
+    /// Texture coordinate sets.
+    pub texcoords: [[u32; 4]; 8],
+    /// Fog factor.
+    pub fog: u32,
+    /// Point size; unused as long as there are no points.
+    pub point_size: u32,
+}
+
+impl Default for Vertex {
+    /// Everything 0, the position's w 1.
+    fn default() -> Self {
+        Self { position: [0, 0, 0, 0x3f80_0000], colors: [[0; 4]; 2], texcoords: [[0; 4]; 8], fog: 0, point_size: 0 }
+    }
+}
+
+impl Vertex {
+    /// The interpolated component of this index; 0 past the last.
+    pub fn component(&self, index: usize) -> u32 {
+        match index {
+            0..COLOR_COMPONENT => self.texcoords[index / 4][index % 4],
+            COLOR_COMPONENT..FOG_COMPONENT => self.colors[(index - COLOR_COMPONENT) / 4][index % 4],
+            FOG_COMPONENT => self.fog,
+            _ => 0,
+        }
+    }
+
+    /// All interpolated components in order.
+    pub(crate) fn components(&self) -> [u32; COMPONENTS] {
+        std::array::from_fn(|i| self.component(i))
+    }
+}

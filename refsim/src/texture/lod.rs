@@ -1,0 +1,129 @@
+//! The level of detail: which mip levels a sample reads.
+
+use super::address::cube_axes;
+use super::value::{self, Exact};
+use super::{Image, TextureKind};
+
+/// The level of detail that a sample instruction asks for, before the sampler's bias.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lod {
+    /// Level 0: a read that has no derivatives.
+    #[default]
+    Base,
+    /// FP32 bits: the logarithm to base 2 of texels a pixel, from [`lod_from_derivatives`] plus the bias of the
+    /// instruction, or an explicit level. NaN counts as 0.
+    Level(u32),
+}
+
+/// The level of detail of coordinates that change by `ddx` and `ddy` from one pixel to the next (all FP32 bits).
+///
+/// rho^2 is the larger of the two squared lengths in texels of level 0, `((x*x) + (y*y)) + (z*z)` with each step one
+/// FP32 operation; the result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
+/// squaring of the significand with 62 fraction bits kept. rho = 0 gives -127, an infinite rho 127, NaN 0. On a cube
+/// the derivatives are those of the coordinates on the face of `coordinates`, by the quotient rule.
+pub fn lod_from_derivatives(
+    image: &Image,
+    coordinates: [u32; 4],
+    ddx: [u32; 4],
+    ddy: [u32; 4],
+    fraction_bits: u8,
+) -> u32 {
+    let along_x = squared_length(texels(image, coordinates, ddx));
+    let along_y = squared_length(texels(image, coordinates, ddy));
+    let largest = if value::is_nan(along_x) || value::is_nan(along_y) {
+        value::NAN
+    } else {
+        along_x.max(along_y) // patterns of numbers >= 0 order as the numbers
+    };
+    half_log2(largest, fraction_bits.min(8))
+}
+
+/// A derivative in texels of level 0.
+fn texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
+    let scaled = |c: u32, size: u32| value::mul(c, value::from_integer(i64::from(size)));
+    match image.kind() {
+        TextureKind::Rectangle => [d[0], d[1], value::ZERO],
+        TextureKind::D1 => [scaled(d[0], image.width()), value::ZERO, value::ZERO],
+        TextureKind::D2 => [scaled(d[0], image.width()), scaled(d[1], image.height()), value::ZERO],
+        TextureKind::Volume => {
+            [scaled(d[0], image.width()), scaled(d[1], image.height()), scaled(d[2], image.slices())]
+        }
+        TextureKind::Cube => cube_texels(image, coordinates, d),
+    }
+}
+
+/// d(s/m) = (ds - (s/m) dm) / m, half of which is the change of the face coordinate.
+fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
+    let [x, y, z, _] = coordinates;
+    let (_, s, t, major) = cube_axes([x, y, z]);
+    let moved = [0, 1, 2].map(|i| value::add(value::finite_or_zero(coordinates[i]), d[i]));
+    let (s1, t1, major1) = on_same_face([x, y, z], moved);
+    let change = |c: u32, c1: u32| {
+        let quotient = value::div(c, major);
+        let slope = value::sub(value::sub(c1, c), value::mul(quotient, value::sub(major1, major)));
+        let half = value::mul(value::div(slope, major), value::HALF);
+        value::mul(half, value::from_integer(i64::from(image.width())))
+    };
+    [change(s, s1), change(t, t1), value::ZERO]
+}
+
+/// The signed face axes of `moved` on the face that `direction` selects.
+fn on_same_face(direction: [u32; 3], moved: [u32; 3]) -> (u32, u32, u32) {
+    use super::CubeFace::{NegativeX, NegativeY, NegativeZ, PositiveX, PositiveY, PositiveZ};
+    let flip = |c: u32| c ^ 0x8000_0000;
+    let [x, y, z] = moved;
+    match cube_axes(direction).0 {
+        PositiveX => (flip(z), flip(y), x),
+        NegativeX => (z, flip(y), flip(x)),
+        PositiveY => (x, z, y),
+        NegativeY => (x, flip(z), flip(y)),
+        PositiveZ => (x, flip(y), z),
+        NegativeZ => (flip(x), flip(y), flip(z)),
+    }
+}
+
+fn squared_length([x, y, z]: [u32; 3]) -> u32 {
+    value::add(value::add(value::mul(x, x), value::mul(y, y)), value::mul(z, z))
+}
+
+/// Half the logarithm to base 2 of an FP32 number >= 0, floored to `fraction_bits`, as FP32 bits.
+fn half_log2(bits: u32, fraction_bits: u8) -> u32 {
+    let Exact::Finite { significand, exponent, .. } = value::exact32(bits) else {
+        return if value::is_nan(bits) { value::ZERO } else { value::from_integer(127) };
+    };
+    if significand == 0 {
+        return value::from_integer(-127);
+    }
+    let top = 63 - significand.leading_zeros();
+    let mut result = i64::from(exponent) + i64::from(top);
+    let mut mantissa = u128::from(significand) << (62 - top); // in [1, 2), 62 fraction bits
+    for _ in 0..fraction_bits {
+        mantissa = (mantissa * mantissa) >> 62;
+        let carry = mantissa >> 63;
+        mantissa >>= carry;
+        result = result * 2 + carry as i64;
+    }
+    value::from_fixed(result >> 1, fraction_bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::TexelFormat;
+
+    #[test]
+    fn powers_of_two_are_exact() {
+        let image = Image::new_2d(TexelFormat::L8, 64, 64).unwrap();
+        let lod = |step: f32| {
+            let d = [step.to_bits(), 0, 0, 0];
+            f32::from_bits(lod_from_derivatives(&image, [0; 4], d, [0; 4], 8))
+        };
+        assert_eq!(lod(1.0 / 64.0), 0.0);
+        assert_eq!(lod(4.0 / 64.0), 2.0);
+        assert_eq!(lod(0.5 / 64.0), -1.0);
+        assert_eq!(lod(0.0), -127.0);
+        assert_eq!(lod(f32::NAN), 0.0);
+        // log2(3) = 1.58496..., floored to 1/256.
+        assert_eq!(lod(3.0 / 64.0), 405.0 / 256.0);
+    }
+}

@@ -1,0 +1,333 @@
+//! Samplers: from coordinates to a filtered value in the register format.
+
+use super::address::{AddressMode, cube_coordinates, linear_taps, nearest_index};
+use super::lod::Lod;
+use super::texel::ChannelValue;
+use super::value;
+use super::{Image, SignedTexelMinimum, TargetRounding, Texel, TextureKind, decode, encode};
+use crate::num::{self, Format};
+
+/// How texels of one level are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Filter {
+    /// The texel that holds the point.
+    #[default]
+    Nearest,
+    /// The nearest two along each axis, weighted.
+    Linear,
+}
+
+/// How levels are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum MipFilter {
+    /// Only the largest level allowed.
+    #[default]
+    None,
+    /// The nearest level.
+    Nearest,
+    /// The nearest two levels, weighted.
+    Linear,
+}
+
+/// The state of a sampler.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SamplerState {
+    /// Filter where texels are smaller than pixels (level of detail above 0).
+    pub min: Filter,
+    /// Filter elsewhere.
+    pub mag: Filter,
+    /// Filter between levels.
+    pub mip: MipFilter,
+    /// Addressing along the first axis.
+    pub address_u: AddressMode,
+    /// Addressing along the second axis.
+    pub address_v: AddressMode,
+    /// Addressing along the third axis.
+    pub address_w: AddressMode,
+    /// Border colour, FP32 bits; it is stored into a texel of the image's format (nearest) and read from there.
+    pub border: [u32; 4],
+    /// Added to the level of detail, FP32 bits.
+    pub lod_bias: u32,
+    /// The largest (finest) level that may be read: 0 for all.
+    pub max_mip_level: u8,
+}
+
+impl SamplerState {
+    /// Nearest filtering without mip levels and clamped coordinates: how data textures are read.
+    pub const NEAREST_CLAMP: Self = Self {
+        min: Filter::Nearest,
+        mag: Filter::Nearest,
+        mip: MipFilter::None,
+        address_u: AddressMode::Clamp,
+        address_v: AddressMode::Clamp,
+        address_w: AddressMode::Clamp,
+        border: [0; 4],
+        lod_bias: 0,
+        max_mip_level: 0,
+    };
+}
+
+/// What a device says about sampling.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleRules {
+    /// Format of the result.
+    pub format: Format,
+    /// Fraction bits of filter weights, at most 12.
+    pub filter_fraction_bits: u8,
+    /// Fraction bits of the level of detail, at most 8.
+    pub lod_fraction_bits: u8,
+    /// Meaning of the smallest signed texel.
+    pub signed_texel_minimum: SignedTexelMinimum,
+}
+
+/// What a read of an unbound sampler gives: (0, 0, 0, 1).
+pub fn unbound(format: Format) -> [u32; 4] {
+    let one = value::ratio(format, 1, 1);
+    [0, 0, 0, one]
+}
+
+/// Samples an image; `None` is an unbound sampler. Coordinates are FP32 bits, the result is in `rules.format`.
+///
+/// Texels that are integers are summed exactly with weights of `filter_fraction_bits` and rounded once; texels that
+/// are floats are combined in FP32, `a + w * (b - a)` in two rounded steps, along x, then y, then z, then between
+/// levels, a weight of 0 giving `a` itself. NaN and infinite coordinates count as 0. On a cube the coordinates along
+/// a face are clamped whatever the state says; on a rectangle, wrap and mirror act as clamp.
+pub fn sample(
+    image: Option<&Image>,
+    state: &SamplerState,
+    rules: &SampleRules,
+    coordinates: [u32; 4],
+    lod: Lod,
+) -> [u32; 4] {
+    let Some(image) = image else { return unbound(rules.format) };
+    let pick = pick_levels(image, state, rules, lod);
+    let place = Place::new(image, coordinates);
+    if pick.filter == Filter::Nearest && pick.weight == 0 {
+        return match place.nearest(image, state, pick.levels[0]) {
+            Some((slice, y, x)) => {
+                image.texel(pick.levels[0], slice, y, x, rules.signed_texel_minimum).to_format(rules.format)
+            }
+            None => border_texel(image, state, rules).to_format(rules.format),
+        };
+    }
+    if image.format().record().is_float() {
+        filter_floats(image, state, rules, &place, &pick)
+    } else {
+        filter_integers(image, state, rules, &place, &pick)
+    }
+}
+
+/// A nearest read of level 0: what [`sample`] does for nearest filters without mip levels, by the shortest way.
+pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, coordinates: [u32; 4]) -> [u32; 4] {
+    let texel = match nearest_texel(image, state, coordinates) {
+        Some((slice, y, x)) => image.texel(0, slice, y, x, rules.signed_texel_minimum),
+        None => border_texel(image, state, rules),
+    };
+    texel.to_format(rules.format)
+}
+
+/// Slice, row and column of the texel of level 0 that a nearest read takes; `None` is the border.
+pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4]) -> Option<(u32, u32, u32)> {
+    Place::new(image, coordinates).nearest(image, state, 0)
+}
+
+fn border_texel(image: &Image, state: &SamplerState, rules: &SampleRules) -> Texel {
+    let raw = encode(image.format(), Format::FP32, state.border, TargetRounding::Nearest);
+    decode(image.format(), raw, rules.signed_texel_minimum)
+}
+
+/// The levels to read and the filter within them.
+struct Pick {
+    filter: Filter,
+    levels: [u32; 2],
+    /// Weight of the second level in units of `2^-lod_fraction_bits`; 0 if there is none.
+    weight: u32,
+}
+
+fn pick_levels(image: &Image, state: &SamplerState, rules: &SampleRules, lod: Lod) -> Pick {
+    let bits = u32::from(rules.lod_fraction_bits.min(8));
+    let wanted = match lod {
+        Lod::Base => state.lod_bias,
+        Lod::Level(level) => value::add(level, state.lod_bias),
+    };
+    let lambda = if value::is_nan(wanted) || wanted & 0x7fff_ffff == 0 {
+        0
+    } else if value::is_not_finite(wanted) {
+        if value::is_negative(wanted) { -(128 << bits) } else { 128 << bits }
+    } else {
+        value::scaled_floor(wanted, 1, bits, false).clamp(-(128 << bits), 128 << bits)
+    };
+    let filter = if lambda > 0 { state.min } else { state.mag };
+    let last = image.levels().len() as i64 - 1;
+    let first = i64::from(state.max_mip_level).min(last);
+    let (level, weight) = match state.mip {
+        MipFilter::None => (first, 0),
+        MipFilter::Nearest => (((lambda + ((1 << bits) >> 1)) >> bits).clamp(first, last), 0),
+        MipFilter::Linear => {
+            let clamped = lambda.clamp(first << bits, last << bits);
+            (clamped >> bits, clamped & ((1 << bits) - 1))
+        }
+    };
+    Pick { filter, levels: [level as u32, (level + 1).min(last) as u32], weight: weight as u32 }
+}
+
+/// A point on an image: coordinates along up to three axes, and the face of a cube.
+struct Place {
+    coordinates: [u32; 3],
+    face: u32,
+    kind: TextureKind,
+}
+
+impl Place {
+    fn new(image: &Image, [x, y, z, _]: [u32; 4]) -> Self {
+        let kind = image.kind();
+        let (coordinates, face) = match kind {
+            TextureKind::Cube => {
+                let (face, u, v) = cube_coordinates([x, y, z]);
+                ([u, v, 0], face as u32)
+            }
+            _ => ([x, y, z], 0),
+        };
+        Self { coordinates, face, kind }
+    }
+
+    /// Number of axes along which texels lie.
+    fn axes(&self) -> usize {
+        match self.kind {
+            TextureKind::D1 => 1,
+            TextureKind::D2 | TextureKind::Rectangle | TextureKind::Cube => 2,
+            TextureKind::Volume => 3,
+        }
+    }
+
+    /// Mode, extent and scale of an axis at a level.
+    fn axis(&self, image: &Image, state: &SamplerState, level: u32, axis: usize) -> (AddressMode, u32, u32) {
+        let l = image.levels()[level as usize];
+        let size = [l.width, l.height, l.slices][axis];
+        let asked = [state.address_u, state.address_v, state.address_w][axis];
+        match self.kind {
+            TextureKind::Cube => (AddressMode::Clamp, size, size),
+            TextureKind::Rectangle if asked == AddressMode::Border => (AddressMode::Border, size, 1),
+            TextureKind::Rectangle => (AddressMode::Clamp, size, 1),
+            _ => (asked, size, size),
+        }
+    }
+
+    /// Slice, row and column of the nearest texel of a level.
+    fn nearest(&self, image: &Image, state: &SamplerState, level: u32) -> Option<(u32, u32, u32)> {
+        let mut index = [0, 0, self.face];
+        for (axis, slot) in index.iter_mut().enumerate().take(self.axes()) {
+            let (mode, size, scale) = self.axis(image, state, level, axis);
+            *slot = nearest_index(mode, self.coordinates[axis], size, scale)?;
+        }
+        Some((index[2], index[1], index[0]))
+    }
+
+    /// The taps along each axis of a level. Unused axes have one tap of full weight.
+    fn taps(
+        &self,
+        image: &Image,
+        state: &SamplerState,
+        filter: Filter,
+        level: u32,
+        bits: u8,
+    ) -> [([Option<u32>; 2], u32); 3] {
+        let mut taps = [([Some(0), None], 0), ([Some(0), None], 0), ([Some(self.face), None], 0)];
+        for (axis, slot) in taps.iter_mut().enumerate().take(self.axes()) {
+            let (mode, size, scale) = self.axis(image, state, level, axis);
+            *slot = match filter {
+                Filter::Nearest => ([nearest_index(mode, self.coordinates[axis], size, scale), None], 0),
+                Filter::Linear => linear_taps(mode, self.coordinates[axis], size, scale, bits),
+            };
+        }
+        taps
+    }
+}
+
+/// The texel of tap `corner` (bit 0 along x, bit 1 along y, bit 2 along z).
+fn corner_texel(
+    image: &Image,
+    level: u32,
+    taps: &[([Option<u32>; 2], u32); 3],
+    corner: usize,
+    rules: &SampleRules,
+    border: Texel,
+) -> Texel {
+    let index = |axis: usize| taps[axis].0[corner >> axis & 1];
+    match (index(2), index(1), index(0)) {
+        (Some(slice), Some(y), Some(x)) => image.texel(level, slice, y, x, rules.signed_texel_minimum),
+        _ => border,
+    }
+}
+
+/// The exact weighted sum, rounded once.
+fn filter_integers(image: &Image, state: &SamplerState, rules: &SampleRules, place: &Place, pick: &Pick) -> [u32; 4] {
+    let bits = rules.filter_fraction_bits.min(12);
+    let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
+    let border = border_texel(image, state, rules);
+    let mut sums = [0i64; 4];
+    let mut denominators = [1u64; 4];
+    let level_weights = [(1u64 << lod_bits) - u64::from(pick.weight), u64::from(pick.weight)];
+    for (level, level_weight) in pick.levels.into_iter().zip(level_weights) {
+        if level_weight == 0 {
+            continue;
+        }
+        let taps = place.taps(image, state, pick.filter, level, bits);
+        for corner in 0..8 {
+            let weight = (0..3).fold(level_weight, |product, axis| {
+                let second = u64::from(taps[axis].1);
+                product * if corner >> axis & 1 == 1 { second } else { (1 << bits) - second }
+            });
+            if weight == 0 {
+                continue;
+            }
+            let texel = corner_texel(image, level, &taps, corner, rules, border);
+            for (i, channel) in texel.0.into_iter().enumerate() {
+                if let ChannelValue::Ratio { numerator, denominator } = channel {
+                    sums[i] += weight.cast_signed() * numerator;
+                    denominators[i] = u64::from(denominator);
+                }
+            }
+        }
+    }
+    let shift = 3 * u32::from(bits) + lod_bits;
+    [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
+}
+
+/// FP32 steps along x, y, z and between the levels.
+fn filter_floats(image: &Image, state: &SamplerState, rules: &SampleRules, place: &Place, pick: &Pick) -> [u32; 4] {
+    let bits = rules.filter_fraction_bits.min(12);
+    let border = border_texel(image, state, rules);
+    let at_level = |level: u32| {
+        let taps = place.taps(image, state, pick.filter, level, bits);
+        let weights = [0, 1, 2].map(|axis: usize| taps[axis].1);
+        let mut values = [[0; 4]; 8];
+        for (corner, out) in values.iter_mut().enumerate() {
+            if (0..3).all(|axis| corner >> axis & 1 == 0 || weights[axis] != 0) {
+                *out = corner_texel(image, level, &taps, corner, rules, border).to_format(Format::FP32);
+            }
+        }
+        for (axis, &weight) in weights.iter().enumerate() {
+            for pair in 0..4 >> axis {
+                values[pair] = lerp(values[2 * pair], values[2 * pair + 1], weight, bits);
+            }
+        }
+        values[0]
+    };
+    let first = at_level(pick.levels[0]);
+    let result = if pick.weight == 0 {
+        first
+    } else {
+        lerp(first, at_level(pick.levels[1]), pick.weight, rules.lod_fraction_bits.min(8))
+    };
+    result.map(|bits| num::ops::convert(&Format::FP32, rules.format, bits).bits)
+}
+
+/// `a + w * (b - a)` for a weight in units of `2^-bits`; `a` itself for weight 0.
+fn lerp(a: [u32; 4], b: [u32; 4], weight: u32, bits: u8) -> [u32; 4] {
+    if weight == 0 {
+        return a;
+    }
+    let w = value::from_fixed(i64::from(weight), bits);
+    [0, 1, 2, 3].map(|i| value::add(a[i], value::mul(w, value::sub(b[i], a[i]))))
+}

@@ -1,0 +1,203 @@
+//! Texels to values and back: exact decoding, one rounding when a value enters a register or a target.
+
+use super::format::{Channel, ChannelClass, ComponentSource};
+use super::value::{self, Exact};
+use super::{SignedTexelMinimum, TargetRounding, TexelFormat};
+use crate::num::{self, Format};
+
+/// The exact value of one component of a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChannelValue {
+    /// `numerator / denominator`, not reduced; the denominator is that of the channel.
+    Ratio {
+        /// At most 32 bits in size.
+        numerator: i64,
+        /// At least 1.
+        denominator: u32,
+    },
+    /// A floating-point pattern of a format.
+    Float {
+        /// The format.
+        format: Format,
+        /// The pattern.
+        bits: u32,
+    },
+}
+
+impl ChannelValue {
+    /// The constant 0.
+    pub const ZERO: Self = Self::Ratio { numerator: 0, denominator: 1 };
+    /// The constant 1.
+    pub const ONE: Self = Self::Ratio { numerator: 1, denominator: 1 };
+
+    /// The value rounded once into `format`.
+    pub fn to_format(self, format: Format) -> u32 {
+        match self {
+            Self::Ratio { numerator, denominator } => value::ratio(format, numerator, u64::from(denominator)),
+            Self::Float { format: from, bits } => num::ops::convert(&from, format, bits).bits,
+        }
+    }
+}
+
+/// Red, green, blue and alpha of a texel, exactly, with what is not stored filled in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Texel(pub [ChannelValue; 4]);
+
+impl Texel {
+    /// The four values, each rounded once into `format`.
+    pub fn to_format(self, format: Format) -> [u32; 4] {
+        self.0.map(|c| c.to_format(format))
+    }
+}
+
+/// The bits of a channel within a texel read as a little-endian integer.
+pub(crate) fn channel_bits(channel: Channel, raw: u128) -> u32 {
+    (raw >> channel.shift) as u32 & mask(channel.bits)
+}
+
+fn mask(bits: u8) -> u32 {
+    if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
+}
+
+/// What a channel's whole range is divided by: `2^n - 1`, `2^(n-1) - 1`, or 240 for the split form.
+pub(crate) fn denominator(channel: Channel) -> u32 {
+    match channel.class {
+        ChannelClass::Unorm => mask(channel.bits),
+        ChannelClass::Snorm => mask(channel.bits - 1).max(1),
+        ChannelClass::SplitSnorm => 240,
+        ChannelClass::Float(_) => 1,
+    }
+}
+
+/// The exact value of the bits of one channel.
+pub fn decode_channel(channel: Channel, bits: u32, minimum: SignedTexelMinimum) -> ChannelValue {
+    let bits = bits & mask(channel.bits);
+    let denominator = denominator(channel);
+    let spare = 32 - u32::from(channel.bits);
+    let signed = i64::from((bits << spare).cast_signed() >> spare);
+    let numerator = match channel.class {
+        ChannelClass::Unorm => i64::from(bits),
+        ChannelClass::Snorm => match minimum {
+            SignedTexelMinimum::Clamp => signed.max(-i64::from(denominator)),
+            SignedTexelMinimum::BelowMinusOne => signed,
+        },
+        // k/15 above and k/16 below zero, over their common denominator.
+        ChannelClass::SplitSnorm => signed * if signed < 0 { 15 } else { 16 },
+        ChannelClass::Float(format) => return ChannelValue::Float { format, bits },
+    };
+    ChannelValue::Ratio { numerator, denominator }
+}
+
+/// The exact value of a texel given as a little-endian integer.
+pub fn decode(format: TexelFormat, raw: u128, minimum: SignedTexelMinimum) -> Texel {
+    let record = format.record();
+    Texel(record.components.map(|source| match source {
+        ComponentSource::Zero => ChannelValue::ZERO,
+        ComponentSource::One => ChannelValue::ONE,
+        ComponentSource::Channel(i) => {
+            let channel = record.channels[usize::from(i)];
+            decode_channel(channel, channel_bits(channel, raw), minimum)
+        }
+    }))
+}
+
+/// The channel bits that stand for a value: clamped to the channel's range, scaled, rounded once. NaN gives 0 in
+/// normalised channels; -1 is the least that a signed channel is given.
+pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
+    if let ChannelClass::Float(format) = channel.class {
+        return num::ops::convert(&from, format, bits).bits & mask(channel.bits);
+    }
+    let signed = channel.class != ChannelClass::Unorm;
+    let nearest = rounding == TargetRounding::Nearest;
+    let (negative, significand, exponent) = match value::exact(from, bits) {
+        Exact::Nan => return 0,
+        Exact::Infinite { negative } => (negative, 1, 0),
+        Exact::Finite { negative, significand, exponent } => (negative, significand, exponent),
+    };
+    if negative && !signed {
+        return 0;
+    }
+    let scale = match channel.class {
+        ChannelClass::SplitSnorm => {
+            if negative {
+                16
+            } else {
+                15
+            }
+        }
+        _ => denominator(channel),
+    };
+    let scale = u64::from(scale);
+    let magnitude = value::scaled_magnitude(significand, exponent, scale, nearest).min(scale) as u32;
+    if negative { magnitude.wrapping_neg() & mask(channel.bits) } else { magnitude }
+}
+
+/// The texel, as a little-endian integer, that stands for red, green, blue and alpha given in format `from`.
+///
+/// Components that the format does not store are dropped; luminance is taken from red.
+pub fn encode(format: TexelFormat, from: Format, values: [u32; 4], rounding: TargetRounding) -> u128 {
+    format.record().stored().iter().fold(0, |raw, &channel| {
+        let bits = encode_channel(channel, from, values[usize::from(channel.stored_from)], rounding);
+        raw | u128::from(bits) << channel.shift
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ratio_of(format: TexelFormat, raw: u128, component: usize, minimum: SignedTexelMinimum) -> (i64, u32) {
+        match decode(format, raw, minimum).0[component] {
+            ChannelValue::Ratio { numerator, denominator } => (numerator, denominator),
+            float @ ChannelValue::Float { .. } => panic!("expected a ratio, found {float:?}"),
+        }
+    }
+
+    #[test]
+    fn smallest_signed_texel_follows_the_switch() {
+        let raw = 0x80;
+        assert_eq!(ratio_of(TexelFormat::Rg8Snorm, raw, 0, SignedTexelMinimum::Clamp), (-127, 127));
+        assert_eq!(ratio_of(TexelFormat::Rg8Snorm, raw, 0, SignedTexelMinimum::BelowMinusOne), (-128, 127));
+        assert_eq!(ratio_of(TexelFormat::Rg16Snorm, 0x8000, 0, SignedTexelMinimum::Clamp), (-32767, 32767));
+    }
+
+    // Wine's probes of L6V5U5: 5-bit v gives v/15 above zero and v/16 below.
+    #[test]
+    fn split_channels_divide_by_fifteen_and_sixteen() {
+        let clamp = SignedTexelMinimum::Clamp;
+        for k in -16i64..16 {
+            let raw = (k & 31) as u128;
+            let (n, d) = ratio_of(TexelFormat::L6v5u5, raw, 0, clamp);
+            let (want_n, want_d) = if k < 0 { (k, 16) } else { (k, 15) };
+            assert_eq!(n * want_d, want_n * i64::from(d), "{k}");
+        }
+    }
+
+    #[test]
+    fn low_half_of_v16u16_is_red() {
+        assert_eq!(ratio_of(TexelFormat::Rg16Snorm, 0x0001_7fff, 0, SignedTexelMinimum::Clamp).0, 0x7fff);
+        assert_eq!(ratio_of(TexelFormat::Rg16Snorm, 0x0001_7fff, 1, SignedTexelMinimum::Clamp).0, 1);
+    }
+
+    #[test]
+    fn what_is_not_stored_has_its_default() {
+        let clamp = SignedTexelMinimum::Clamp;
+        assert_eq!(decode(TexelFormat::Rg16, 0, clamp).0[2..], [ChannelValue::ONE; 2]);
+        assert_eq!(decode(TexelFormat::A8, 0xff, clamp).0[..3], [ChannelValue::ZERO; 3]);
+        assert_eq!(decode(TexelFormat::Bgr565, 0, clamp).0[3], ChannelValue::ONE);
+        assert_eq!(decode(TexelFormat::R16f, 0, clamp).0[1..], [ChannelValue::ONE; 3]);
+    }
+
+    #[test]
+    fn halves_round_up_or_are_cut() {
+        let fp32 = Format::FP32;
+        let channel = TexelFormat::Rgba8.record().channels[0];
+        let half = value::HALF; // 127.5
+        assert_eq!(encode_channel(channel, fp32, half, TargetRounding::Nearest), 128);
+        assert_eq!(encode_channel(channel, fp32, half, TargetRounding::Truncate), 127);
+        assert_eq!(encode_channel(channel, fp32, value::NAN, TargetRounding::Nearest), 0);
+        assert_eq!(encode_channel(channel, fp32, 0x7f80_0000, TargetRounding::Nearest), 255);
+        let signed = TexelFormat::Rg8Snorm.record().channels[0];
+        assert_eq!(encode_channel(signed, fp32, 0xff80_0000, TargetRounding::Nearest), 0x81);
+    }
+}

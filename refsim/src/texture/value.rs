@@ -1,0 +1,200 @@
+//! The exact value behind a bit pattern, and the FP32 steps that the fixed-function rooms share.
+//!
+//! The one door from texture, raster and output to [`crate::num`].
+
+use crate::num::{self, Format};
+
+/// FP32 zero.
+pub(crate) const ZERO: u32 = 0;
+/// FP32 one.
+pub(crate) const ONE: u32 = 0x3f80_0000;
+/// FP32 one half.
+pub(crate) const HALF: u32 = 0x3f00_0000;
+/// The canonical FP32 NaN.
+pub(crate) const NAN: u32 = 0x7fc0_0000;
+
+pub(crate) fn add(a: u32, b: u32) -> u32 {
+    num::ops::add(Format::FP32, a, b).bits
+}
+
+pub(crate) fn sub(a: u32, b: u32) -> u32 {
+    num::ops::sub(Format::FP32, a, b).bits
+}
+
+pub(crate) fn mul(a: u32, b: u32) -> u32 {
+    num::ops::mul(Format::FP32, a, b).bits
+}
+
+pub(crate) fn div(a: u32, b: u32) -> u32 {
+    num::ops::div(Format::FP32, a, b).bits
+}
+
+/// Whether an FP32 pattern is a NaN or an infinity.
+pub(crate) fn is_not_finite(bits: u32) -> bool {
+    bits & 0x7f80_0000 == 0x7f80_0000
+}
+
+/// Whether an FP32 pattern is a NaN.
+pub(crate) fn is_nan(bits: u32) -> bool {
+    bits & 0x7fff_ffff > 0x7f80_0000
+}
+
+/// An FP32 pattern with infinities and NaN replaced by 0.
+pub(crate) fn finite_or_zero(bits: u32) -> u32 {
+    if is_not_finite(bits) { ZERO } else { bits }
+}
+
+/// Whether the FP32 pattern is below zero (-0 and NaN are not).
+pub(crate) fn is_negative(bits: u32) -> bool {
+    bits > 0x8000_0000 && !is_nan(bits)
+}
+
+/// A key that orders finite FP32 patterns as their values, both zeros alike.
+pub(crate) fn order_key(bits: u32) -> i64 {
+    let magnitude = i64::from(bits & 0x7fff_ffff);
+    if bits >> 31 == 1 { -magnitude } else { magnitude }
+}
+
+/// The integer rounded to FP32, to nearest, ties to even: what the host's `as f32` gives.
+pub(crate) fn from_integer(value: i64) -> u32 {
+    if value == 0 {
+        return ZERO;
+    }
+    let sign = if value < 0 { 0x8000_0000 } else { 0 };
+    let magnitude = value.unsigned_abs();
+    let top = 63 - magnitude.leading_zeros();
+    let mut significand = if top <= 23 {
+        magnitude << (23 - top)
+    } else {
+        let shift = top - 23;
+        let (kept, rest, half) = (magnitude >> shift, magnitude & ((1 << shift) - 1), 1u64 << (shift - 1));
+        kept + u64::from(rest > half || (rest == half && kept & 1 == 1))
+    };
+    let mut exponent = top + 127;
+    if significand == 1 << 24 {
+        significand >>= 1;
+        exponent += 1;
+    }
+    sign | (exponent << 23) | (significand as u32 & 0x007f_ffff)
+}
+
+/// The exact value of a bit pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exact {
+    /// Not a number.
+    Nan,
+    /// An infinity.
+    Infinite {
+        /// Below zero.
+        negative: bool,
+    },
+    /// `significand * 2^exponent`
+    Finite {
+        /// Below zero (or -0).
+        negative: bool,
+        /// At most 32 bits.
+        significand: u64,
+        /// Power of two.
+        exponent: i32,
+    },
+}
+
+/// The exact value of a pattern of any format.
+pub(crate) fn exact(format: Format, bits: u32) -> Exact {
+    match num::unpack(&format, bits) {
+        num::Unpacked::Nan { .. } => Exact::Nan,
+        num::Unpacked::Inf { sign } => Exact::Infinite { negative: sign },
+        num::Unpacked::Finite { sign, sig, exp } => Exact::Finite { negative: sign, significand: sig, exponent: exp },
+    }
+}
+
+/// The exact value of an FP32 pattern.
+pub(crate) fn exact32(bits: u32) -> Exact {
+    let negative = bits >> 31 == 1;
+    let field = (bits >> 23 & 0xff) as i32;
+    let fraction = u64::from(bits & 0x007f_ffff);
+    match field {
+        255 if fraction != 0 => Exact::Nan,
+        255 => Exact::Infinite { negative },
+        0 => Exact::Finite { negative, significand: fraction, exponent: -149 },
+        _ => Exact::Finite { negative, significand: fraction | 0x0080_0000, exponent: field - 150 },
+    }
+}
+
+/// `floor(value * factor * 2^fraction_bits)` for a finite FP32 pattern; with `round`, halves up instead of down.
+///
+/// `factor` is at most 2^16 and `fraction_bits` at most 16; a result past 2^62 in size saturates there.
+pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bool) -> i64 {
+    let Exact::Finite { negative, significand, exponent } = exact32(bits) else {
+        return 0;
+    };
+    if significand == 0 {
+        return 0;
+    }
+    let product = i128::from(significand) * i128::from(factor);
+    let signed = if negative { -product } else { product };
+    // One more bit below the point than asked for, so that a half can be added before the floor.
+    let shift = exponent + fraction_bits as i32 + 1;
+    let doubled = if shift >= 0 {
+        if shift > 64 { signed.signum() << 100 } else { signed << shift }
+    } else if shift < -120 {
+        signed >> 120
+    } else {
+        signed >> -shift
+    };
+    let result = (doubled + i128::from(round)) >> 1;
+    result.clamp(-(1 << 62), 1 << 62) as i64
+}
+
+/// `value * scale` rounded to an integer, for `value` already known to be at most one in size.
+///
+/// Halves go away from zero under `nearest`; otherwise the fraction is cut off.
+pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, scale: u64, nearest: bool) -> u64 {
+    let product = u128::from(significand) * u128::from(scale);
+    if exponent >= 0 {
+        return (product << exponent.min(40)).min(u128::from(scale)) as u64;
+    }
+    let shift = exponent.unsigned_abs();
+    if shift > 100 {
+        return 0;
+    }
+    let half = if nearest { 1u128 << (shift - 1) } else { 0 };
+    ((product + half) >> shift) as u64
+}
+
+/// `value / 2^bits` as FP32, exact for values below 2^24 in size and `bits` at most 16.
+pub(crate) fn from_fixed(value: i64, bits: u8) -> u32 {
+    if value == 0 { ZERO } else { from_integer(value) - (u32::from(bits) << 23) }
+}
+
+/// The exact ratio `numerator / denominator` rounded once into `format`.
+pub(crate) fn ratio(format: Format, numerator: i64, denominator: u64) -> u32 {
+    num::from_ratio(format, numerator < 0, u128::from(numerator.unsigned_abs()), u128::from(denominator)).bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integers_round_as_the_host_does() {
+        let mut value = 1i64;
+        for step in 0..4000i64 {
+            value = value.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(step);
+            let v = value >> (step % 60);
+            assert_eq!(from_integer(v), (v as f32).to_bits(), "{v}");
+        }
+    }
+
+    #[test]
+    fn floors_are_floors() {
+        let bits = |v: f32| v.to_bits();
+        assert_eq!(scaled_floor(bits(-0.25), 4, 0, false), -1);
+        assert_eq!(scaled_floor(bits(-0.26), 4, 0, false), -2);
+        assert_eq!(scaled_floor(bits(0.999), 4, 0, false), 3);
+        assert_eq!(scaled_floor(bits(0.125), 4, 0, true), 1);
+        assert_eq!(scaled_floor(bits(-1e-40), 2048, 8, false), -1);
+        assert_eq!(scaled_floor(bits(1e-40), 2048, 8, true), 0);
+        assert_eq!(scaled_floor(bits(f32::MAX), 2048, 8, true), 1 << 62);
+    }
+}
