@@ -4,7 +4,6 @@ pub mod asm;
 pub mod device;
 pub mod isa;
 pub mod num;
-
 pub mod output;
 pub mod raster;
 pub mod texture;

@@ -4,6 +4,7 @@ use super::MOST_TARGETS;
 use super::blend::{BlendState, blend_texel};
 use super::depth::{CompareFunction, DepthState};
 use super::tile::{ColorTile, TargetTile};
+use crate::device::Rules;
 use crate::num::{self, Format};
 use crate::texture::{TargetRounding, encode, value};
 
@@ -16,6 +17,12 @@ pub struct OutputRules {
     pub target_rounding: TargetRounding,
     /// Rounding into depth buffers of integers.
     pub depth_rounding: TargetRounding,
+}
+
+impl From<&Rules> for OutputRules {
+    fn from(rules: &Rules) -> Self {
+        Self { format: rules.format, target_rounding: rules.target_rounding, depth_rounding: rules.depth_rounding }
+    }
 }
 
 /// The alpha test: alpha of colour 0 is compared with a reference in the register format.

@@ -4,6 +4,7 @@ use super::RasterError;
 use super::clip::{ClipVertex, clip, is_inside};
 use super::interpolate::ComponentMask;
 use super::vertex::{COMPONENTS, Vertex};
+use crate::device::Rules;
 use crate::num::{self, Format};
 use crate::texture::{Region, value};
 
@@ -21,6 +22,12 @@ pub struct RasterRules {
     pub subpixel_bits: u8,
     /// Format in which components are interpolated. The weights are FP32 in any case.
     pub iterator_format: Format,
+}
+
+impl From<&Rules> for RasterRules {
+    fn from(rules: &Rules) -> Self {
+        Self { subpixel_bits: rules.subpixel_bits, iterator_format: rules.iterator_format }
+    }
 }
 
 /// The part of a target that clip space maps to.

@@ -5,6 +5,7 @@ use super::lod::Lod;
 use super::texel::ChannelValue;
 use super::value;
 use super::{Image, SignedTexelMinimum, TargetRounding, Texel, TextureKind, decode, encode};
+use crate::device::Rules;
 use crate::num::{self, Format};
 
 /// How texels of one level are combined.
@@ -78,6 +79,17 @@ pub struct SampleRules {
     pub lod_fraction_bits: u8,
     /// Meaning of the smallest signed texel.
     pub signed_texel_minimum: SignedTexelMinimum,
+}
+
+impl From<&Rules> for SampleRules {
+    fn from(rules: &Rules) -> Self {
+        Self {
+            format: rules.format,
+            filter_fraction_bits: rules.filter_fraction_bits,
+            lod_fraction_bits: rules.lod_fraction_bits,
+            signed_texel_minimum: rules.signed_texel_minimum,
+        }
+    }
 }
 
 /// What a read of an unbound sampler gives: (0, 0, 0, 1).
