@@ -4,5 +4,6 @@
 
 pub mod cli;
 pub mod geom;
+pub mod io;
 pub mod report;
 pub mod scene;

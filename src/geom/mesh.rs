@@ -1,6 +1,6 @@
 //! Triangle meshes with shared vertices.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use thiserror::Error;
 
@@ -213,7 +213,7 @@ impl Mesh {
 #[derive(Debug, Default)]
 pub(super) struct Welder {
     positions: Vec<[f32; 3]>,
-    index: HashMap<[u32; 3], u32>,
+    index: BTreeMap<[u32; 3], u32>,
 }
 
 impl Welder {

@@ -2,3 +2,4 @@
 
 mod geometry;
 mod ground_truth;
+mod models;

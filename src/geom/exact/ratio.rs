@@ -44,7 +44,7 @@ fn round(num: &BigUint, den: &BigUint, bits: u32, lowest: i64, top: i64) -> Opti
         return Some((0, lowest));
     }
     // num / den lies in (2^(length - 1), 2^(length + 1)).
-    let length = num.bits() as i64 - den.bits() as i64;
+    let length = num.bits().cast_signed() - den.bits().cast_signed();
     let limit = 1_u64 << bits;
     let mut unit = (length - i64::from(bits)).max(lowest);
     loop {

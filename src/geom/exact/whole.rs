@@ -11,7 +11,7 @@ type Vector = [BigInt; 3];
 /// A finite f32 as `mantissa * 2^exponent`.
 fn split(value: f32) -> (i64, i32) {
     let bits = value.to_bits();
-    let field = (bits >> 23 & 0xff) as i32;
+    let field = (bits >> 23 & 0xff).cast_signed();
     let fraction = i64::from(bits & 0x7f_ffff);
     let (mantissa, exponent) = if field == 0 { (fraction, -149) } else { (fraction | 0x80_0000, field - 150) };
     (if bits >> 31 == 1 { -mantissa } else { mantissa }, exponent)

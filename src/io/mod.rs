@@ -1,0 +1,28 @@
+//! Files in and out: models, rays and hits, and the writing that never leaves half a file.
+
+pub mod atomic;
+pub mod obj;
+pub mod rays;
+
+pub use atomic::{FileSet, WriteError, write_file};
+pub use obj::{ObjError, load_obj, parse_obj, write_obj};
+pub use rays::{RaysError, load_rays, parse_rays, write_hits};
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The whole of a file of at most `limit` bytes, or `None` when it is longer.
+fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= limit).then_some(bytes))
+}
+
+/// A piece of bad input as messages quote it: escaped, and cut to 40 characters.
+fn quoted(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    let cut: String = text.chars().take(40).collect();
+    let more = if cut.len() < text.len() { "..." } else { "" };
+    format!("`{}{more}`", cut.escape_debug())
+}

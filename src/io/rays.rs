@@ -1,0 +1,200 @@
+//! Rays and hits as comma-separated tables.
+//!
+//! Rays: the header `ox,oy,oz,dx,dy,dz`, then a ray a line. Numbers are rounded to the nearest f32; directions are not renormalised.
+//! Refused are numbers that are not finite, or overflow f32, and a direction of zero.
+//!
+//! Hits: the header `ray,triangle,t`, then a line a ray in the order of the rays. `triangle` counts from 0 in the order of the mesh
+//! file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the same f32.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::{quoted, read_limited};
+use crate::geom::classify::Candidate;
+use crate::geom::{Ray, RayError};
+
+/// Longest file that is read, in bytes (1 GiB).
+pub const MAX_BYTES: u64 = 1 << 30;
+
+/// The columns of a ray table.
+const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
+
+/// Why a file is no table of rays. Lines count from 1, the header's.
+#[derive(Debug, Error)]
+pub enum RaysError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the rays {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file is longer than [`MAX_BYTES`].
+    #[error("{}: expected a table of at most {MAX_BYTES} bytes, found more", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The first line is not the header.
+    #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// What stands there.
+        found: String,
+    },
+    /// A line does not have six fields.
+    #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} fields", path.display())]
+    Fields {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// How many there are.
+        found: usize,
+    },
+    /// A field is not a number.
+    #[error("{}:{line}: expected a number for {column}, found {found}", path.display())]
+    Number {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// The column's name.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// The six numbers are no ray.
+    #[error("{}:{line}: {source}", path.display())]
+    Ray {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: u64,
+        /// Why not.
+        source: RayError,
+    },
+    /// The table's syntax is broken.
+    #[error("{}: {source}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What the csv reader says, with the line.
+        source: csv::Error,
+    },
+}
+
+/// Reads rays from a file.
+///
+/// # Errors
+/// [`RaysError`], with the path, and the line where there is one.
+pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
+    let read = read_limited(path, MAX_BYTES).map_err(|source| RaysError::Read { path: path.into(), source })?;
+    let bytes = read.ok_or_else(|| RaysError::TooLong { path: path.into() })?;
+    parse_rays(&bytes, path)
+}
+
+/// Reads rays from bytes; `name` stands for the file in messages. A table without rays is fine.
+///
+/// # Errors
+/// [`RaysError`], with the line where there is one.
+pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let mut records = reader.byte_records();
+    let broken = |source| RaysError::Table { path: name.into(), source };
+    let header = records.next().transpose().map_err(broken)?.unwrap_or_default();
+    if !header.iter().eq(HEADER.map(str::as_bytes)) {
+        let found = header.iter().collect::<Vec<_>>().join(&b',');
+        return Err(RaysError::Header { path: name.into(), found: quoted(&found) });
+    }
+    records.map(|record| ray(&record.map_err(broken)?, name)).collect()
+}
+
+fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
+    let line = record.position().map_or(0, csv::Position::line);
+    if record.len() != HEADER.len() {
+        return Err(RaysError::Fields { path: name.into(), line, found: record.len() });
+    }
+    let mut numbers = [0.0_f32; 6];
+    for ((number, field), column) in numbers.iter_mut().zip(record).zip(HEADER) {
+        let parsed = std::str::from_utf8(field).ok().and_then(|text| text.parse().ok());
+        *number = parsed.ok_or_else(|| RaysError::Number { path: name.into(), line, column, found: quoted(field) })?;
+    }
+    let [ox, oy, oz, dx, dy, dz] = numbers;
+    Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|source| RaysError::Ray { path: name.into(), line, source })
+}
+
+/// Writes rays in the form that [`parse_rays`] reads back bit for bit.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "{}", HEADER.join(","))?;
+    for ray in rays {
+        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin(), ray.direction());
+        writeln!(out, "{ox},{oy},{oz},{dx},{dy},{dz}")?;
+    }
+    Ok(())
+}
+
+/// Writes one line a ray: its number from 0, the triangle or -1, and t or `inf`.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_hits(hits: &[Candidate], out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "ray,triangle,t")?;
+    for (ray, hit) in hits.iter().enumerate() {
+        match hit.triangle {
+            Some(triangle) => writeln!(out, "{ray},{triangle},{}", hit.t)?,
+            None => writeln!(out, "{ray},-1,inf")?,
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        parse_rays(text.as_bytes(), Path::new("r.csv")).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn reads_what_it_writes() {
+        let rays = vec![
+            Ray::new([0.1, -0.0, 1e-45], [3.0e38, 1.0 / 3.0, -2.0]).expect("a ray"),
+            Ray::new([0.0; 3], [0.0, 0.0, -1.0]).expect("a ray"),
+        ];
+        let mut text = Vec::new();
+        write_rays(&rays, &mut text).expect("written");
+        let back = parse_rays(&text, Path::new("r.csv")).expect("rays");
+        assert_eq!(back, rays);
+        assert_eq!(back[0].origin()[1].to_bits(), (-0.0_f32).to_bits());
+    }
+
+    #[test]
+    fn errors_say_where_and_what() {
+        assert_eq!(message(""), "r.csv:1: expected the header `ox,oy,oz,dx,dy,dz`, found ``");
+        assert_eq!(message("ox,oy,oz\n"), "r.csv:1: expected the header `ox,oy,oz,dx,dy,dz`, found `ox,oy,oz`");
+        let with = |line: &str| message(&format!("ox,oy,oz,dx,dy,dz\r\n0,0,0, 0,0,1\n{line}\n"));
+        assert_eq!(with("1,2,3"), "r.csv:3: expected 6 numbers (ox,oy,oz,dx,dy,dz), found 3 fields");
+        assert_eq!(with("1,2,3,4,five,6"), "r.csv:3: expected a number for dy, found `five`");
+        assert_eq!(with("1,2,3,0,0,0"), "r.csv:3: expected a direction, found (0, 0, 0)");
+        assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected six finite numbers, found origin y not finite");
+        assert_eq!(with("1,2,3,0,0,1e39"), "r.csv:3: expected six finite numbers, found direction z not finite");
+        assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().starts_with("cannot read the rays /no/such.csv: "));
+    }
+
+    #[test]
+    fn hits_read_back_to_the_same_bits() {
+        let hits = [Candidate { triangle: Some(7), t: 0.1 }, Candidate { triangle: None, t: 3.0 }];
+        let mut text = Vec::new();
+        write_hits(&hits, &mut text).expect("written");
+        assert_eq!(text, b"ray,triangle,t\n0,7,0.1\n1,-1,inf\n");
+    }
+}

@@ -1,0 +1,141 @@
+//! The model reader: what it writes it reads back, and no bytes make it panic.
+
+use std::path::Path;
+
+use crossbar::geom::classify::Candidate;
+use crossbar::geom::{Mesh, Sides, exact, teapot};
+use crossbar::io::{load_obj, load_rays, parse_obj, parse_rays, write_hits, write_obj};
+use proptest::prelude::*;
+
+const GOOD: &str = "# good\nmtllib a.mtl\no thing\nv 0 0 0\nv 1.5 0 -0\nv 1e-3 +1 0 1\nv -1 0 .5 1 0 0\nvt 0 0\nvn 0 0 1\n\
+                    usemtl red\ng part\ns 1\nf 1 2 3\nf 1/1/1 2//1 3/1 4\nf -1 -2 \\\n-3\nl 1 2\np 1\n";
+
+fn soup(mesh: &Mesh) -> Vec<[[u32; 3]; 3]> {
+    mesh.iter_corners().map(|corners| corners.map(|corner| corner.map(f32::to_bits))).collect()
+}
+
+fn round_trip(mesh: &Mesh) -> Mesh {
+    let mut text = Vec::new();
+    write_obj(mesh, &mut text).expect("written");
+    parse_obj(&text, Path::new("m.obj")).expect("a mesh")
+}
+
+/// A good file with some bytes replaced, put in or left out, or lines made of the words that the reader knows.
+fn mutated() -> impl Strategy<Value = Vec<u8>> {
+    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), 1..12);
+    edits.prop_map(|edits| {
+        let mut bytes = GOOD.as_bytes().to_vec();
+        for (place, kind, byte) in edits {
+            let at = place.index(bytes.len());
+            match kind {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte),
+                _ => drop(bytes.remove(at)),
+            }
+        }
+        bytes
+    })
+}
+
+fn word() -> impl Strategy<Value = String> {
+    const KNOWN: [&str; 29] = [
+        "v", "f", "vt", "vn", "o", "g", "usemtl", "mtllib", "\n", "\n", "\n", "\\\n", "#", "0", "1", "2", "-1", "3/1/1", "1//", "/", "1e39",
+        "nan", "inf", "-0", "1e-45", "9223372036854775807", "-9223372036854775808", "18446744073709551616", "é",
+    ];
+    prop::sample::select(&KNOWN[..]).prop_map(str::to_owned)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = parse_obj(&bytes, Path::new("m.obj"));
+        let _ = parse_rays(&bytes, Path::new("r.csv"));
+        let mut table = b"ox,oy,oz,dx,dy,dz\n".to_vec();
+        table.extend(&bytes);
+        let _ = parse_rays(&table, Path::new("r.csv"));
+    }
+
+    #[test]
+    fn mutated_models_do_no_harm(bytes in mutated()) {
+        if let Ok(mesh) = parse_obj(&bytes, Path::new("m.obj")) {
+            prop_assert_eq!(soup(&round_trip(&mesh)), soup(&mesh));
+        }
+    }
+
+    #[test]
+    fn known_words_in_any_order_do_no_harm(words in prop::collection::vec(word(), 0..60)) {
+        if let Ok(mesh) = parse_obj(words.join(" ").as_bytes(), Path::new("m.obj")) {
+            prop_assert_eq!(round_trip(&mesh), mesh);
+        }
+    }
+
+    #[test]
+    fn meshes_read_back_to_the_same_bits(
+        numbers in prop::collection::vec(any::<[u32; 3]>(), 3..20),
+        picks in prop::collection::vec(any::<[prop::sample::Index; 3]>(), 1..20),
+    ) {
+        let finite = |bits: u32| Some(f32::from_bits(bits)).filter(|value| value.is_finite()).unwrap_or(0.0);
+        let positions: Vec<_> = numbers.iter().map(|place| place.map(finite)).collect();
+        let triangles = picks.iter().map(|corners| corners.map(|corner| corner.index(positions.len()) as u32)).collect();
+        let mesh = Mesh::new(positions, triangles).expect("a mesh");
+        let back = round_trip(&mesh);
+        prop_assert_eq!(soup(&back), soup(&mesh));
+        prop_assert_eq!(&round_trip(&back), &back, "numbered by first use, it stays as it is");
+    }
+}
+
+#[test]
+fn the_good_model_is_good() {
+    assert_eq!(parse_obj(GOOD.as_bytes(), Path::new("m.obj")).expect("a mesh").len(), 4);
+}
+
+#[test]
+fn a_teapot_read_back_is_as_watertight() {
+    let mesh = teapot::teapot(3).expect("a teapot");
+    let back = round_trip(&mesh);
+    assert_eq!(soup(&back), soup(&mesh));
+    assert_eq!(back.boundary_edge_count(), mesh.boundary_edge_count());
+}
+
+#[test]
+fn the_fixture_is_the_teapot_at_rate_two() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/teapot_2.obj");
+    let mut text = Vec::new();
+    write_obj(&teapot::teapot(2).expect("a teapot"), &mut text).expect("written");
+    if std::env::var_os("CROSSBAR_BLESS").is_some() {
+        std::fs::write(&path, &text).expect("written");
+    }
+    assert_eq!(std::fs::read(&path).expect("the fixture"), text, "run with CROSSBAR_BLESS=1 to write {}", path.display());
+}
+
+#[test]
+fn the_square_is_hit_as_its_fixture_says() {
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
+    let mesh = load_obj(&fixtures.join("models/square.obj")).expect("a mesh");
+    let rays = load_rays(&fixtures.join("rays/square.csv")).expect("rays");
+    let hits: Vec<Candidate> = exact::nearest_all(&mesh, &rays, Sides::Front)
+        .into_iter()
+        .map(|hit| match hit {
+            Some(hit) => Candidate { triangle: Some(hit.triangle), t: hit.t.to_f32() },
+            None => Candidate { triangle: None, t: f32::INFINITY },
+        })
+        .collect();
+    let mut text = Vec::new();
+    write_hits(&hits, &mut text).expect("written");
+    let expected = std::fs::read_to_string(fixtures.join("rays/square_front.csv")).expect("the fixture");
+    assert_eq!(String::from_utf8(text).expect("text"), expected);
+}
+
+#[test]
+fn every_bad_model_is_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/bad");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(&folder).expect("the folder") {
+        let path = entry.expect("an entry").path();
+        assert!(load_obj(&path).is_err(), "{}", path.display());
+        seen += 1;
+    }
+    assert_eq!(seen, 5);
+}
