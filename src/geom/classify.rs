@@ -109,14 +109,21 @@ fn whole_units(value: f32) -> BigUint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::exact::{self, Sides};
     use crate::geom::Ray;
+    use crate::geom::exact::{self, Sides};
 
     /// Two triangles that share an edge in z = 0, one that touches a corner, one far off.
     fn scene() -> Mesh {
         let positions = vec![
-            [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0],
-            [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [5.0, 5.0, 5.0], [6.0, 5.0, 5.0], [5.0, 6.0, 5.0],
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [5.0, 5.0, 5.0],
+            [6.0, 5.0, 5.0],
+            [5.0, 6.0, 5.0],
         ];
         Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [6, 7, 8]]).expect("a mesh")
     }

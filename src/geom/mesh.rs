@@ -262,7 +262,8 @@ mod tests {
 
     #[test]
     fn contact_is_by_place() {
-        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+        let positions =
+            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5], [1, 1, 2]]).expect("a mesh");
         assert_eq!(mesh.contact(0, 1), Contact::Vertex);
         assert_eq!(mesh.contact(1, 2), Contact::None);

@@ -165,6 +165,38 @@ mod tests {
         assert!(mesh.positions().contains(&[2.8, 0.0, 2.4]), "the spout's tip");
     }
 
+    /// The places of a run of patches' control points, after a map.
+    fn places(patches: std::ops::Range<usize>, map: impl Fn([i32; 3]) -> [i32; 3]) -> Vec<[i32; 3]> {
+        let mut places: Vec<_> =
+            PATCHES[patches].iter().flatten().map(|&number| map(POINTS[usize::from(number) - 1])).collect();
+        places.sort_unstable();
+        places
+    }
+
+    #[test]
+    fn every_part_is_its_own_mirror_image() {
+        for first in (0..32).step_by(4) {
+            let patches = first..first + 4;
+            assert_eq!(
+                places(patches.clone(), |at| at),
+                places(patches, |[x, y, z]| [x, -y, z]),
+                "patches from {first}"
+            );
+        }
+    }
+
+    #[test]
+    fn turned_parts_have_four_like_quarters() {
+        for first in [0, 4, 8, 20, 24, 28] {
+            let patches = first..first + 4;
+            assert_eq!(
+                places(patches.clone(), |at| at),
+                places(patches, |[x, y, z]| [-y, x, z]),
+                "patches from {first}"
+            );
+        }
+    }
+
     #[test]
     fn rates_outside_are_refused() {
         assert_eq!(teapot(0), Err(TeapotError::Rate { found: 0 }));

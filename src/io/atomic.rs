@@ -59,7 +59,11 @@ fn stage_in(folder: &Path) -> Result<TempDir, WriteError> {
 }
 
 /// Writes the file at `staged`; errors name `path`.
-fn fill_file(staged: &Path, path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+fn fill_file(
+    staged: &Path,
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
     let write = || {
         let mut out = BufWriter::new(File::create(staged)?);
         fill(&mut out)?;
@@ -123,7 +127,11 @@ impl FileSet {
     ///
     /// # Errors
     /// [`WriteError`].
-    pub fn write(&mut self, name: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+    pub fn write(
+        &mut self,
+        name: &Path,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), WriteError> {
         let staged = self.stage(name)?;
         fill_file(&staged, &self.folder.join(name), fill)
     }
@@ -180,7 +188,8 @@ mod tests {
 
     fn listing(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).expect("a folder");
-        let mut names: Vec<_> = entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
         names.sort();
         names
     }
@@ -215,7 +224,10 @@ mod tests {
         set.write(Path::new("sub/b.txt"), |out| out.write_all(b"b")).expect("written");
         assert!(!folder.join("a.txt").exists());
         assert_eq!(set.commit().expect("places"), [folder.join("a.txt"), folder.join("sub/b.txt")]);
-        assert_eq!((listing(&folder), listing(&folder.join("sub"))), (vec!["a.txt".into(), "sub".into()], vec!["b.txt".into()]));
+        assert_eq!(
+            (listing(&folder), listing(&folder.join("sub"))),
+            (vec!["a.txt".into(), "sub".into()], vec!["b.txt".into()])
+        );
     }
 
     #[test]

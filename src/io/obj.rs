@@ -214,7 +214,10 @@ impl Pass<'_> {
             let place = match index {
                 0 => None,
                 1.. => usize::try_from(index).ok(),
-                _ => usize::try_from(index.unsigned_abs()).ok().and_then(|back| (vertices + 1).checked_sub(back)).filter(|&at| at > 0),
+                _ => usize::try_from(index.unsigned_abs())
+                    .ok()
+                    .and_then(|back| (vertices + 1).checked_sub(back))
+                    .filter(|&at| at > 0),
             };
             let Some(place) = place else {
                 return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, index, vertices });
@@ -281,19 +284,44 @@ mod tests {
     fn errors_say_where_and_what() {
         let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         assert_eq!(message("v 0 0 0"), "m.obj: expected at least one face (a line `f 1 2 3`), found none");
-        assert_eq!(message("v 0 nan 0\nf 1 1 1"), "m.obj:1: expected a finite number within the range of f32, found `nan`");
+        assert_eq!(
+            message("v 0 nan 0\nf 1 1 1"),
+            "m.obj:1: expected a finite number within the range of f32, found `nan`"
+        );
         assert_eq!(message("\nv 0 1e39 0"), "m.obj:2: expected a finite number within the range of f32, found `1e39`");
         assert_eq!(message("v 0 0"), "m.obj:1: expected a vertex `v x y z`, found `v 0 0`");
         assert_eq!(message("v 0 0 0 2"), "m.obj:1: expected a vertex without a weight other than 1, found `2`");
-        assert_eq!(message(&format!("{triangle}f 1 2")), "m.obj:4: expected a face of at least three corners `f 1 2 3`, found `f 1 2`");
-        assert_eq!(message(&format!("{triangle}f 1 2 4")), "m.obj:4: a face uses vertex 4, expected 1 to 3 (or -1 to -3)");
-        assert_eq!(message(&format!("{triangle}f 1 2 -4")), "m.obj:4: a face uses vertex -4, expected 1 to 3 (or -1 to -3)");
-        assert_eq!(message(&format!("{triangle}f 0 1 2")), "m.obj:4: a face uses vertex 0, expected 1 to 3 (or -1 to -3)");
+        assert_eq!(
+            message(&format!("{triangle}f 1 2")),
+            "m.obj:4: expected a face of at least three corners `f 1 2 3`, found `f 1 2`"
+        );
+        assert_eq!(
+            message(&format!("{triangle}f 1 2 4")),
+            "m.obj:4: a face uses vertex 4, expected 1 to 3 (or -1 to -3)"
+        );
+        assert_eq!(
+            message(&format!("{triangle}f 1 2 -4")),
+            "m.obj:4: a face uses vertex -4, expected 1 to 3 (or -1 to -3)"
+        );
+        assert_eq!(
+            message(&format!("{triangle}f 0 1 2")),
+            "m.obj:4: a face uses vertex 0, expected 1 to 3 (or -1 to -3)"
+        );
         let far = message(&format!("{triangle}f 1 2 9223372036854775807"));
         assert!(far.starts_with("m.obj:4: a face uses vertex 9223372036854775807"), "{far}");
-        assert!(message(&format!("{triangle}f 1 2 -9223372036854775808")).starts_with("m.obj:4: a face uses vertex -9"));
-        assert_eq!(message(&format!("{triangle}f 1 2 x")), "m.obj:4: expected a corner `1`, `1/1`, `1//1` or `1/1/1`, found `x`");
-        assert!(load_obj(Path::new("/no/such/file.obj")).unwrap_err().to_string().starts_with("cannot read the model /no/such/file.obj: "));
+        assert!(
+            message(&format!("{triangle}f 1 2 -9223372036854775808")).starts_with("m.obj:4: a face uses vertex -9")
+        );
+        assert_eq!(
+            message(&format!("{triangle}f 1 2 x")),
+            "m.obj:4: expected a corner `1`, `1/1`, `1//1` or `1/1/1`, found `x`"
+        );
+        assert!(
+            load_obj(Path::new("/no/such/file.obj"))
+                .unwrap_err()
+                .to_string()
+                .starts_with("cannot read the model /no/such/file.obj: ")
+        );
     }
 
     #[test]

@@ -103,7 +103,8 @@ pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
 /// # Errors
 /// [`RaysError`], with the line where there is one.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
     let mut records = reader.byte_records();
     let broken = |source| RaysError::Table { path: name.into(), source };
     let header = records.next().transpose().map_err(broken)?.unwrap_or_default();
@@ -187,7 +188,12 @@ mod tests {
         assert_eq!(with("1,2,3,0,0,0"), "r.csv:3: expected a direction, found (0, 0, 0)");
         assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected six finite numbers, found origin y not finite");
         assert_eq!(with("1,2,3,0,0,1e39"), "r.csv:3: expected six finite numbers, found direction z not finite");
-        assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().starts_with("cannot read the rays /no/such.csv: "));
+        assert!(
+            load_rays(Path::new("/no/such.csv"))
+                .unwrap_err()
+                .to_string()
+                .starts_with("cannot read the rays /no/such.csv: ")
+        );
     }
 
     #[test]

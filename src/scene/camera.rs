@@ -63,7 +63,14 @@ impl Camera {
     ///
     /// # Errors
     /// [`CameraError`] for figures that make no picture.
-    pub fn new(eye: [f32; 3], target: [f32; 3], up: [f32; 3], tan_half_height: f32, width: u32, height: u32) -> Result<Self, CameraError> {
+    pub fn new(
+        eye: [f32; 3],
+        target: [f32; 3],
+        up: [f32; 3],
+        tan_half_height: f32,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, CameraError> {
         for (what, found) in [("eye", eye), ("target", target), ("up", up)] {
             if !found.iter().all(|value| value.is_finite()) {
                 return Err(CameraError::NotFinite { what, found });

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crossbar::geom::Mesh;
 use crossbar::geom::exact::{Sides, Tracer};
 use crossbar::geom::teapot::{self, Part};
-use crossbar::geom::Mesh;
 use crossbar::scene::Camera;
 
 const RATES: [u32; 6] = [1, 2, 3, 4, 8, 16];

@@ -30,7 +30,9 @@ fn sides() -> impl Strategy<Value = Sides> {
 
 /// A ray of any kind: free, or from a point towards a mix of the corners (a corner, an edge, the inside, the plane).
 fn ray_at(triangle: [[f32; 3]; 3]) -> impl Strategy<Value = Ray> {
-    let weights = prop::array::uniform3(prop_oneof![2 => Just(0.0_f32), 2 => Just(1.0_f32), 1 => Just(0.5_f32), 2 => -0.5_f32..1.5]);
+    let weights = prop::array::uniform3(
+        prop_oneof![2 => Just(0.0_f32), 2 => Just(1.0_f32), 1 => Just(0.5_f32), 2 => -0.5_f32..1.5],
+    );
     (vector(), vector(), weights, 0_u8..5).prop_filter_map("a ray", move |(origin, free, weights, kind)| {
         let mix = |axis: usize| {
             let sum: f32 = weights.iter().sum();

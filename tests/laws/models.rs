@@ -39,8 +39,35 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
 
 fn word() -> impl Strategy<Value = String> {
     const KNOWN: [&str; 29] = [
-        "v", "f", "vt", "vn", "o", "g", "usemtl", "mtllib", "\n", "\n", "\n", "\\\n", "#", "0", "1", "2", "-1", "3/1/1", "1//", "/", "1e39",
-        "nan", "inf", "-0", "1e-45", "9223372036854775807", "-9223372036854775808", "18446744073709551616", "é",
+        "v",
+        "f",
+        "vt",
+        "vn",
+        "o",
+        "g",
+        "usemtl",
+        "mtllib",
+        "\n",
+        "\n",
+        "\n",
+        "\\\n",
+        "#",
+        "0",
+        "1",
+        "2",
+        "-1",
+        "3/1/1",
+        "1//",
+        "/",
+        "1e39",
+        "nan",
+        "inf",
+        "-0",
+        "1e-45",
+        "9223372036854775807",
+        "-9223372036854775808",
+        "18446744073709551616",
+        "é",
     ];
     prop::sample::select(&KNOWN[..]).prop_map(str::to_owned)
 }
@@ -107,7 +134,12 @@ fn the_fixture_is_the_teapot_at_rate_two() {
     if std::env::var_os("CROSSBAR_BLESS").is_some() {
         std::fs::write(&path, &text).expect("written");
     }
-    assert_eq!(std::fs::read(&path).expect("the fixture"), text, "run with CROSSBAR_BLESS=1 to write {}", path.display());
+    assert_eq!(
+        std::fs::read(&path).expect("the fixture"),
+        text,
+        "run with CROSSBAR_BLESS=1 to write {}",
+        path.display()
+    );
 }
 
 #[test]

@@ -159,10 +159,8 @@ mod tests {
 
     #[test]
     fn a_ray_through_an_edge_is_unclear() {
-        let triangle = [[0.1, 0.1, 0.3], [1.0, 0.2, 0.7], [0.3, 1.0, 0.9]];
-        let ray = Ray::new([0.4, 0.5, 5.0], [0.15 - 0.4, 0.1 + 0.1 / 18.0 - 0.5, 0.32 - 5.0]).expect("a ray");
-        assert!(matches!(guess(&ray, &triangle, Sides::Both), Guess::Unclear | Guess::Hit { .. } | Guess::Miss));
-        let corner = Ray::new([0.1, 0.1, 5.0], [0.0, 0.0, -1.0]).expect("a ray");
-        assert!(matches!(guess(&corner, &triangle, Sides::Both), Guess::Unclear | Guess::Hit { .. }));
+        let triangle = [[0.1, 0.1, 0.0], [0.7, 0.7, 0.3], [0.1, 0.9, 0.2]];
+        let ray = Ray::new([0.4, 0.4, 5.0], [0.0, 0.0, -1.0]).expect("a ray");
+        assert_eq!(guess(&ray, &triangle, Sides::Both), Guess::Unclear);
     }
 }

@@ -25,9 +25,7 @@ pub fn to_f64(num: &BigUint, den: &BigUint) -> f64 {
     match round(num, den, 53, -1074, 1024) {
         None => f64::INFINITY,
         Some((mantissa, _)) if mantissa < 1 << 52 => f64::from_bits(mantissa),
-        Some((mantissa, unit)) => {
-            f64::from_bits(((unit + 1075) as u64) << 52 | (mantissa & 0xf_ffff_ffff_ffff))
-        }
+        Some((mantissa, unit)) => f64::from_bits(((unit + 1075) as u64) << 52 | (mantissa & 0xf_ffff_ffff_ffff)),
     }
 }
 
@@ -69,11 +67,7 @@ fn round(num: &BigUint, den: &BigUint, bits: u32, lowest: i64, top: i64) -> Opti
 
 /// Numerator and denominator of `num / den * 2^-unit`.
 fn scaled(num: &BigUint, den: &BigUint, unit: i64) -> (BigUint, BigUint) {
-    if unit < 0 {
-        (num << unit.unsigned_abs(), den.clone())
-    } else {
-        (num.clone(), den << unit.unsigned_abs())
-    }
+    if unit < 0 { (num << unit.unsigned_abs(), den.clone()) } else { (num.clone(), den << unit.unsigned_abs()) }
 }
 
 /// The number as 64 bits, if it fits.

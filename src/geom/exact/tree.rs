@@ -55,7 +55,9 @@ impl<'a> Tracer<'a> {
         let corners: Vec<_> = mesh.iter_corners().collect();
         let mut items: Vec<(u32, [f64; 3])> = (0..)
             .zip(&corners)
-            .map(|(id, triangle)| (id, [0, 1, 2].map(|axis| triangle.iter().map(|corner| f64::from(corner[axis])).sum())))
+            .map(|(id, triangle)| {
+                (id, [0, 1, 2].map(|axis| triangle.iter().map(|corner| f64::from(corner[axis])).sum()))
+            })
             .collect();
         let mut nodes = Vec::with_capacity(items.len());
         if !items.is_empty() {

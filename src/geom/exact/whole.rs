@@ -38,11 +38,7 @@ fn sub(a: &Vector, b: &Vector) -> Vector {
 }
 
 fn cross(a: &Vector, b: &Vector) -> Vector {
-    [
-        &a[1] * &b[2] - &a[2] * &b[1],
-        &a[2] * &b[0] - &a[0] * &b[2],
-        &a[0] * &b[1] - &a[1] * &b[0],
-    ]
+    [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
 fn dot(a: &Vector, b: &Vector) -> BigInt {
