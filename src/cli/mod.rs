@@ -5,9 +5,11 @@
 //! input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
+mod devices;
 mod error;
 mod out;
 mod progress;
+mod size;
 
 use std::{io::Write as _, process::ExitCode};
 
@@ -16,6 +18,7 @@ use clap::{Parser, Subcommand};
 pub use error::{OutputError, Problem};
 pub use out::Out;
 pub use progress::Progress;
+pub use size::{BadSize, Size};
 
 /// What `main` returns when the check that was asked for failed.
 const CHECK_FAILED: u8 = 1;
@@ -65,6 +68,7 @@ Examples:
 #[derive(Debug, Subcommand)]
 enum Command {
     Alu(alu::Args),
+    Devices(devices::Args),
 }
 
 /// Runs the program on the arguments of the process.
@@ -104,5 +108,6 @@ pub fn main() -> ExitCode {
 fn run(command: Command, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::Alu(args) => alu::run(&args, out),
+        Command::Devices(args) => devices::run(&args, out),
     }
 }

@@ -27,6 +27,11 @@ impl Out {
         self.json
     }
 
+    /// Columns of the terminal that this goes to, if it goes to one.
+    pub fn columns(&self) -> Option<u16> {
+        terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0)
+    }
+
     /// From here on a closed pipe does not end the command: it runs to its verdict.
     pub const fn outlive_reader(&mut self) {
         self.outlive_reader = true;

@@ -114,13 +114,19 @@ impl Table {
         &self.rows
     }
 
-    /// The table for a terminal or a log, without the title: plain characters, columns as wide as they need to be.
+    /// The table for a log or another program, without the title: one line a row, columns as wide as they need to be.
     pub fn text(&self) -> String {
+        self.laid_out(comfy_table::Table::new().set_content_arrangement(ContentArrangement::Disabled))
+    }
+
+    /// The table for a terminal of so many columns, without the title: long entries go over several lines.
+    pub fn text_within(&self, columns: u16) -> String {
         let mut table = comfy_table::Table::new();
-        table
-            .load_style(presets::ASCII_MARKDOWN)
-            .set_content_arrangement(ContentArrangement::Disabled)
-            .set_header(&self.headings);
+        self.laid_out(table.set_content_arrangement(ContentArrangement::Dynamic).set_width(columns))
+    }
+
+    fn laid_out(&self, table: &mut comfy_table::Table) -> String {
+        table.load_style(presets::ASCII_MARKDOWN).set_header(&self.headings);
         for row in &self.rows {
             table.add_row(row.iter().map(|cell| {
                 let alignment = if cell.is_number() { CellAlignment::Right } else { CellAlignment::Left };

@@ -42,6 +42,8 @@ fn usage() {
         &["alu", "add", "--format", "fp16", "--exact"],
         &["alu", "mulAdd", "--format", "fp16", "--exhaustive"],
         &["alu", "add", "--format", "fp24", "--exhaustive"],
+        &["devices", "r2000"],
+        &["devices", "ideal-fp17"],
         &["nothing-of-the-kind"],
     ] {
         refused(arguments, "");
@@ -50,11 +52,13 @@ fn usage() {
 
 #[test]
 fn messages() {
-    let cases: [(&str, &[&str], &str); 5] = [
+    let cases: [(&str, &[&str], &str); 7] = [
         ("bad_format", &["alu", "add", "--format", "fp17"], ""),
         ("convert_without_to", &["alu", "convert", "--format", "fp16"], ""),
         ("exhaustive_three_operands", &["alu", "mulAdd", "--format", "fp16", "--exhaustive"], ""),
         ("exhaustive_too_wide", &["alu", "add", "--format", "fp24", "--exhaustive"], ""),
+        ("unknown_device", &["devices", "r2000"], ""),
+        ("bad_ideal_format", &["devices", "ideal-fp17"], ""),
         ("bad_hex", &["alu", "sqrt", "--format", "fp16"], "0x3C00\n"),
     ];
     for (name, arguments, input) in cases {

@@ -2,7 +2,7 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] = &["alu"];
+const COMMANDS: &[&str] = &["alu", "devices"];
 
 #[test]
 fn program() {

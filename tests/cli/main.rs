@@ -2,6 +2,7 @@
 
 mod alu;
 mod bad_input;
+mod devices;
 mod help;
 
 use std::{

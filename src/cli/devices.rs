@@ -1,0 +1,150 @@
+//! `crossbar devices`: the profiles, and where every figure of one is from.
+
+use refsim::device::{FigureRow, Profile, Switch};
+use serde_json::{Value, json};
+
+use super::{Out, OutputError, Verdict};
+use crate::report::{Cell, Table};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar devices
+      every card with what its pixel programs can do
+  crossbar devices r200
+      all figures of the Radeon 8500 with sources, and the open questions as switches
+  crossbar devices ideal-fp24 --json
+      an unlimited card with 24-bit floats, for machines";
+
+/// Show the device profiles: limits, and every figure with its source and how sure it is
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// A device, or ideal-FORMAT; all devices if left out
+    name: Option<String>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.name {
+        Some(name) => one(&Profile::named(name)?, out)?,
+        None => all(out)?,
+    }
+    Ok(Verdict::Done)
+}
+
+/// The cards side by side.
+fn all(out: &mut Out) -> miette::Result<()> {
+    let profiles = Profile::card_names().into_iter().map(Profile::named).collect::<Result<Vec<_>, _>>()?;
+    if out.json() {
+        let rows: Vec<Value> = profiles.iter().map(summary).collect();
+        return Ok(out.document(&rows)?);
+    }
+    let mut table = Table::new(
+        "Devices",
+        &["device", "card", "programs", "pixel format", "temporaries", "constants", "samplers", "targets", "switches"],
+    );
+    for profile in &profiles {
+        let limits = &profile.limits;
+        table.push([
+            profile.name.as_str().into(),
+            profile.title.as_str().into(),
+            versions(profile).into(),
+            profile.rules.format.to_string().into(),
+            limits.temporaries.into(),
+            limits.constants.into(),
+            limits.samplers.into(),
+            limits.render_targets.into(),
+            profile.switches().len().into(),
+        ]);
+    }
+    show(&table, out)?;
+    out.line("")?;
+    out.line("Besides these there is ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
+    out.line("no limits, no time. `crossbar devices NAME` shows every figure of a device with its source.")?;
+    Ok(())
+}
+
+fn versions(profile: &Profile) -> String {
+    let tokens: Vec<&str> = profile.limits.versions.iter().map(|version| version.token()).collect();
+    tokens.join(" ")
+}
+
+fn summary(profile: &Profile) -> Value {
+    let limits = &profile.limits;
+    json!({
+        "name": profile.name,
+        "title": profile.title,
+        "versions": limits.versions.iter().map(|version| version.token()).collect::<Vec<_>>(),
+        "format": profile.rules.format.to_string(),
+        "temporaries": limits.temporaries,
+        "constants": limits.constants,
+        "samplers": limits.samplers,
+        "render_targets": limits.render_targets,
+        "switches": profile.switches().len(),
+    })
+}
+
+/// Everything about one device.
+fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
+    if out.json() {
+        return Ok(out.document(&json!({
+            "name": profile.name,
+            "title": profile.title,
+            "figures": profile.figures().iter().map(figure_json).collect::<Vec<_>>(),
+            "switches": profile.switches().iter().map(switch_json).collect::<Vec<_>>(),
+        }))?);
+    }
+    out.line(format_args!("{}: {}", profile.name, profile.title))?;
+    out.line("")?;
+    let mut figures = Table::new("Figures", &["figure", "value", "unit", "confidence", "source"]);
+    for row in profile.figures() {
+        let confidence = row.confidence.to_string();
+        figures.push([row.key, row.value, row.unit, confidence, row.source].map(Cell::from));
+    }
+    show(&figures, out)?;
+    if profile.switches().is_empty() {
+        return Ok(());
+    }
+    out.line("")?;
+    out.line("Switches: open questions of the hardware. Set one in a case file under [switches].")?;
+    let mut switches = Table::new("Switches", &["switch", "now", "values", "confidence", "decides", "source"]);
+    for switch in profile.switches() {
+        switches.push([
+            switch.name.as_str().into(),
+            switch.current.as_str().into(),
+            switch.values.join(" ").into(),
+            switch.confidence.to_string().into(),
+            switch.meaning.as_str().into(),
+            switch.source.as_str().into(),
+        ]);
+    }
+    show(&switches, out)?;
+    Ok(())
+}
+
+/// Folded to the terminal where there is one; one line a row anywhere else.
+fn show(table: &Table, out: &mut Out) -> Result<(), OutputError> {
+    let text = out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
+    out.line(text)
+}
+
+fn figure_json(row: &FigureRow) -> Value {
+    json!({
+        "key": row.key,
+        "value": row.value,
+        "unit": row.unit,
+        "source": row.source,
+        "confidence": row.confidence.to_string(),
+    })
+}
+
+fn switch_json(switch: &Switch) -> Value {
+    json!({
+        "name": switch.name,
+        "values": switch.values,
+        "current": switch.current,
+        "default": switch.default,
+        "meaning": switch.meaning,
+        "source": switch.source,
+        "confidence": switch.confidence.to_string(),
+    })
+}

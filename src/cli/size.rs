@@ -1,0 +1,54 @@
+//! `512x384` on the command line.
+
+use std::{fmt, str::FromStr};
+
+/// Longest side of a picture, in pixels.
+const LONGEST: u32 = 16384;
+
+/// The size of a picture in pixels, each side 1 to 16384.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// The text is no size.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected a size as `512x512`, each side 1 to {LONGEST}, found `{0}`")]
+pub struct BadSize(String);
+
+impl FromStr for Size {
+    type Err = BadSize;
+
+    fn from_str(text: &str) -> Result<Self, BadSize> {
+        let side = |digits: &str| {
+            let plain = digits.bytes().all(|byte| byte.is_ascii_digit());
+            digits.parse().ok().filter(|side| plain && (1..=LONGEST).contains(side))
+        };
+        text.split_once(['x', 'X'])
+            .and_then(|(width, height)| Some(Self { width: side(width)?, height: side(height)? }))
+            .ok_or_else(|| BadSize(text.chars().take(40).collect()))
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        assert_eq!("1X1".parse(), Ok(Size { width: 1, height: 1 }));
+        for text in ["", "640", "640x", "x480", "0x5", "5x0", "640x480x3", "-1x5", "+1x5", "640 x 480", "16385x1"] {
+            assert!(text.parse::<Size>().is_err(), "`{text}` is no size");
+        }
+    }
+}

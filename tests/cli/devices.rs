@@ -1,0 +1,55 @@
+//! `crossbar devices`: every figure with its source.
+
+use serde_json::Value;
+
+use crate::crossbar;
+
+fn json(arguments: &[&str]) -> Value {
+    let ran = crossbar(arguments, "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+#[test]
+fn all_devices_are_listed() {
+    let listed = json(&["devices", "--json"]);
+    let names: Vec<&str> = listed.as_array().expect("a list").iter().filter_map(|d| d["name"].as_str()).collect();
+    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200"]);
+    let text = crossbar(&["devices"], "").stdout;
+    for name in names {
+        assert!(text.contains(&format!("| {name} ")), "{name} stands in the table:\n{text}");
+    }
+}
+
+#[test]
+fn every_figure_has_a_source_and_a_confidence() {
+    for name in ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "ideal-s3.12:rtz"] {
+        let device = json(&["devices", name, "--json"]);
+        let figures = device["figures"].as_array().expect("a list");
+        assert!(!figures.is_empty(), "{name} has figures");
+        for figure in figures {
+            assert_ne!(figure["source"], "", "{name}: {figure}");
+            let confidence = figure["confidence"].as_str().unwrap_or_default();
+            assert!(["documented", "measured", "derived", "guess"].contains(&confidence), "{name}: {figure}");
+        }
+    }
+}
+
+#[test]
+fn the_text_shows_figures_and_switches() {
+    let text = crossbar(&["devices", "r200"], "").stdout;
+    for expected in ["ATI Radeon 8500", "limits.temporaries", "documented", "guess", "texdepth-denominator", "raw min1"]
+    {
+        assert!(text.contains(expected), "`{expected}` stands in\n{text}");
+    }
+}
+
+#[test]
+fn an_ideal_device_has_the_format_of_its_name() {
+    let device = json(&["devices", "ideal-e7m16", "--json"]);
+    let format = device["figures"]
+        .as_array()
+        .and_then(|figures| figures.iter().find(|figure| figure["key"] == "rules.format"))
+        .map(|figure| figure["value"].clone());
+    assert_eq!(format, Some(Value::from("e7m16")));
+}
