@@ -1,0 +1,164 @@
+//! Constants on their way from the host to the registers: clamped, stored, converted once a draw, for every executor.
+
+use crate::device::{ConstantStorage, Rules};
+use crate::isa::{ConstantValue, Program, RegisterFile};
+use crate::num::{self, Format};
+
+/// Integer and boolean constant registers, of each.
+const FLOW_CONSTANTS: usize = 16;
+/// Float constants that a program may name at most (vs_2_0).
+const FLOAT_CONSTANTS: usize = 256;
+/// 1.0 in single precision.
+const FP32_ONE: u32 = 0x3f80_0000;
+
+/// The constants of one stage as the host sets them. What is not set is zero; what the program defines itself
+/// (`def`, `defi`, `defb`) wins.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Constants {
+    /// `c0` on, as single precision patterns. Those beyond c255 are not reachable.
+    pub float: Vec<[u32; 4]>,
+    /// `i0` to `i15`.
+    pub int: Vec<[i32; 4]>,
+    /// `b0` to `b15`.
+    pub boolean: Vec<bool>,
+}
+
+/// Constants as instructions read them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ResolvedConstants {
+    /// `c#` in the register format; as many as are set or defined, the rest being zero.
+    pub float: Vec<[u32; 4]>,
+    /// `i#`
+    pub int: [[i32; 4]; FLOW_CONSTANTS],
+    /// `b#`
+    pub boolean: [bool; FLOW_CONSTANTS],
+}
+
+impl ResolvedConstants {
+    /// The constants of a pixel program: clamped to [-1, 1] in ps_1_x, then stored as the device stores constants,
+    /// then converted into the register format.
+    pub fn pixel(program: &Program, rules: &Rules, host: &Constants) -> Self {
+        let clamp = program.version.is_ps_1_x();
+        Self::resolve(program, host, |bits| {
+            let bits = if clamp { clamped_to_one(bits) } else { bits };
+            match rules.constant_storage {
+                ConstantStorage::Register => num::ops::convert(&Format::FP32, rules.format, bits).bits,
+                ConstantStorage::Snorm8 => snorm8(rules.format, bits),
+            }
+        })
+    }
+
+    /// The constants of a vertex program, converted into the vertex format.
+    pub fn vertex(program: &Program, rules: &Rules, host: &Constants) -> Self {
+        Self::resolve(program, host, |bits| {
+            num::ops::convert(&Format::FP32, rules.vertex_format, bits).bits
+        })
+    }
+
+    fn resolve(program: &Program, host: &Constants, convert: impl Fn(u32) -> u32) -> Self {
+        let mut out = Self {
+            float: host
+                .float
+                .iter()
+                .take(FLOAT_CONSTANTS)
+                .map(|c| c.map(&convert))
+                .collect(),
+            int: [[0; 4]; FLOW_CONSTANTS],
+            boolean: [false; FLOW_CONSTANTS],
+        };
+        for (to, from) in out.int.iter_mut().zip(&host.int) {
+            *to = *from;
+        }
+        for (to, from) in out.boolean.iter_mut().zip(&host.boolean) {
+            *to = *from;
+        }
+        for definition in &program.constants {
+            let number = usize::from(definition.register.index);
+            match definition.value {
+                ConstantValue::Float(value) if definition.register.file == RegisterFile::Constant => {
+                    if number >= out.float.len() && number < FLOAT_CONSTANTS {
+                        out.float.resize(number + 1, [0; 4]);
+                    }
+                    if let Some(slot) = out.float.get_mut(number) {
+                        *slot = value.map(&convert);
+                    }
+                }
+                ConstantValue::Float(_) => {}
+                ConstantValue::Int(value) => {
+                    if let Some(slot) = out.int.get_mut(number) {
+                        *slot = value;
+                    }
+                }
+                ConstantValue::Bool(value) => {
+                    if let Some(slot) = out.boolean.get_mut(number) {
+                        *slot = value;
+                    }
+                }
+            }
+        }
+        out
+    }
+}
+
+/// A single precision pattern clamped to [-1, 1]; NaN stays.
+fn clamped_to_one(bits: u32) -> u32 {
+    let magnitude = bits & 0x7fff_ffff;
+    if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 {
+        (bits & 0x8000_0000) | FP32_ONE
+    } else {
+        bits
+    }
+}
+
+/// A single precision pattern stored as sign and 8-bit magnitude `k / 255`, k to the nearest with halves away from
+/// zero, clamped to [-1, 1], and then rounded into `format`. NaN is stored as 0.
+fn snorm8(format: Format, bits: u32) -> u32 {
+    let k = unorm_steps(bits & 0x7fff_ffff, 255);
+    num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
+}
+
+/// The single precision pattern `bits`, clamped to [0, 1], as the nearest of `steps + 1` evenly spaced integers from 0
+/// to `steps` (below 2^24), halves up. NaN gives 0.
+pub fn unorm_steps(bits: u32, steps: u32) -> u32 {
+    let magnitude = bits & 0x7fff_ffff;
+    if bits >> 31 == 1 || magnitude > 0x7f80_0000 {
+        return 0;
+    }
+    if magnitude >= FP32_ONE {
+        return steps;
+    }
+    let field = magnitude >> 23;
+    let (significand, exponent) = match field {
+        0 => (magnitude, 1),
+        _ => ((magnitude & 0x007f_ffff) | 0x0080_0000, field),
+    };
+    // value = significand / 2^down with 24 <= down <= 149; the nearest integer of value * steps is
+    // floor((2 * significand * steps + 2^down) / 2^(down + 1)).
+    let down = 150 - exponent;
+    if down > 64 {
+        return 0;
+    }
+    let doubled = 2 * u128::from(significand) * u128::from(steps) + (1u128 << down);
+    u32::try_from(doubled >> (down + 1)).unwrap_or(steps)
+}
+
+/// A colour `v#` as the pixel program gets it: the interpolated single precision value clamped to [0, 1], taken
+/// through the colour iterator's precision, converted into the register format. NaN gives 0.
+pub fn delivered_color(rules: &Rules, bits: u32) -> u32 {
+    use crate::device::ColorIterator;
+    match rules.color_iterator {
+        ColorIterator::Unorm(width) => {
+            let steps = (1u32 << width.clamp(1, 16)) - 1;
+            num::from_ratio(rules.format, false, u128::from(unorm_steps(bits, steps)), u128::from(steps)).bits
+        }
+        ColorIterator::Full => {
+            let magnitude = bits & 0x7fff_ffff;
+            let clamped = match bits >> 31 {
+                1 => 0,
+                _ if magnitude > 0x7f80_0000 => 0,
+                _ => magnitude.min(FP32_ONE),
+            };
+            num::ops::convert(&Format::FP32, rules.format, clamped).bits
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! Arithmetic of one format under the rules of one device: a thin layer over [`crate::num::ops`] that chooses the
+//! rounding sequence the profile asks for and collects the exception flags.
+
+use crate::device::{LrpMode, MadMode, Rules};
+use crate::num::{self, Flags, Format, ops};
+
+/// Operations in `format`, under `rules`, with the flags raised since they were last taken.
+pub(crate) struct Alu<'r> {
+    rules: &'r Rules,
+    legacy_zero: bool,
+    /// Format of operands and results.
+    pub(crate) format: Format,
+    /// Flags raised since [`Self::take_flags`].
+    pub(crate) flags: Flags,
+}
+
+impl<'r> Alu<'r> {
+    /// Pixel arithmetic in `format`.
+    pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
+        Self {
+            rules,
+            legacy_zero: rules.zero_times_anything,
+            format,
+            flags: Flags::empty(),
+        }
+    }
+
+    /// Vertex and address arithmetic in `format`: as pixel arithmetic, without the legacy rule for zero.
+    pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
+        Self {
+            legacy_zero: false,
+            ..Self::new(rules, format)
+        }
+    }
+
+    /// The flags raised so far; none are left.
+    pub(crate) fn take_flags(&mut self) -> Flags {
+        std::mem::replace(&mut self.flags, Flags::empty())
+    }
+
+    fn keep(&mut self, outcome: num::Outcome) -> u32 {
+        self.flags |= outcome.flags;
+        outcome.bits
+    }
+
+    /// One (the largest number in formats that have no one).
+    pub(crate) fn one(&self) -> u32 {
+        self.format.one()
+    }
+
+    /// One half, rounded once.
+    pub(crate) fn half(&self) -> u32 {
+        num::from_ratio(self.format, false, 1, 2).bits
+    }
+
+    /// `bits` of format `from` in this format, rounded once.
+    pub(crate) fn from_format(&mut self, from: Format, bits: u32) -> u32 {
+        if from == self.format {
+            return bits;
+        }
+        let outcome = ops::convert(&from, self.format, bits);
+        self.keep(outcome)
+    }
+
+    /// [`Self::from_format`] that makes a NaN canonical and flushes subnormals even where the formats are the same: for
+    /// values that no operation has made yet.
+    pub(crate) fn convert(&mut self, from: Format, bits: u32) -> u32 {
+        let outcome = ops::convert(&from, self.format, bits);
+        self.keep(outcome)
+    }
+
+    /// `bits` of this format in format `to`, rounded once.
+    pub(crate) fn into_format(&mut self, to: Format, bits: u32) -> u32 {
+        if to == self.format {
+            return bits;
+        }
+        let outcome = ops::convert(&self.format, to, bits);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn add(&mut self, a: u32, b: u32) -> u32 {
+        let outcome = ops::add(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn sub(&mut self, a: u32, b: u32) -> u32 {
+        let outcome = ops::sub(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    /// The operands of a product. With the legacy rule `zero_times_anything`, a zero beside an infinity or a NaN
+    /// turns both into +0, so that the product is +0.
+    fn factors(&self, a: u32, b: u32) -> (u32, u32) {
+        let f = &self.format;
+        let zero = f.is_zero(a) || f.is_zero(b);
+        if self.legacy_zero && zero && !(f.is_finite(a) && f.is_finite(b)) {
+            (0, 0)
+        } else {
+            (a, b)
+        }
+    }
+
+    pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
+        let (a, b) = self.factors(a, b);
+        let outcome = ops::mul(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn div(&mut self, a: u32, b: u32) -> u32 {
+        let outcome = ops::div(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    /// `a * b + c`: product and sum rounded one after the other, or the exact result rounded once, as the rules say.
+    pub(crate) fn mad(&mut self, a: u32, b: u32, c: u32) -> u32 {
+        match self.rules.mad {
+            MadMode::TwoRoundings => {
+                let product = self.mul(a, b);
+                self.add(product, c)
+            }
+            MadMode::Fused => {
+                let (a, b) = self.factors(a, b);
+                let outcome = ops::fused_mad(self.format, a, b, c);
+                self.keep(outcome)
+            }
+        }
+    }
+
+    /// The dot product of equally long vectors (at most 4 terms), summed in the order the rules name.
+    pub(crate) fn dot(&mut self, a: &[u32], b: &[u32]) -> u32 {
+        let n = a.len().min(b.len()).min(4);
+        let mut terms = [(0, 0); 4];
+        for (term, (&x, &y)) in terms.iter_mut().zip(a.iter().zip(b)) {
+            *term = self.factors(x, y);
+        }
+        let outcome = ops::dot(self.format, self.rules.dot, &terms[..n]);
+        self.keep(outcome)
+    }
+
+    /// `factor * (a - b) + b`, the last two steps as one [`Self::mad`], or `factor * a + (1 - factor) * b` with each
+    /// step rounded, as the rules say.
+    pub(crate) fn lrp(&mut self, factor: u32, a: u32, b: u32) -> u32 {
+        match self.rules.lrp {
+            LrpMode::SubMulAdd => {
+                let difference = self.sub(a, b);
+                self.mad(factor, difference, b)
+            }
+            LrpMode::TwoProducts => {
+                let first = self.mul(factor, a);
+                let rest = self.sub(self.one(), factor);
+                let second = self.mul(rest, b);
+                self.add(first, second)
+            }
+        }
+    }
+
+    pub(crate) fn min(&mut self, a: u32, b: u32) -> u32 {
+        let outcome = ops::min(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn max(&mut self, a: u32, b: u32) -> u32 {
+        let outcome = ops::max(self.format, a, b);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn neg(&mut self, a: u32) -> u32 {
+        let outcome = ops::neg(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn abs(&mut self, a: u32) -> u32 {
+        let outcome = ops::abs(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn floor(&mut self, a: u32) -> u32 {
+        let outcome = ops::floor(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn frc(&mut self, a: u32) -> u32 {
+        let outcome = ops::frc(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn rcp(&mut self, a: u32) -> u32 {
+        let outcome = ops::rcp(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn rsq(&mut self, a: u32) -> u32 {
+        let outcome = ops::rsq(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn exp2(&mut self, a: u32) -> u32 {
+        let outcome = ops::exp2(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn log2(&mut self, a: u32) -> u32 {
+        let outcome = ops::log2(self.format, a);
+        self.keep(outcome)
+    }
+
+    /// Multiplies by two to the power `shift`.
+    pub(crate) fn scale(&mut self, a: u32, shift: i8) -> u32 {
+        if shift == 0 {
+            return a;
+        }
+        let outcome = ops::scale(self.format, a, i32::from(shift));
+        self.keep(outcome)
+    }
+
+    pub(crate) fn saturate(&mut self, a: u32) -> u32 {
+        let outcome = ops::saturate01(self.format, a);
+        self.keep(outcome)
+    }
+
+    /// `condition >= 0 ? a : b`
+    pub(crate) fn cmp(&mut self, condition: u32, a: u32, b: u32) -> u32 {
+        let outcome = ops::cmp(self.format, condition, a, b);
+        self.keep(outcome)
+    }
+
+    /// `condition > 0.5 ? a : b`
+    pub(crate) fn cnd(&mut self, condition: u32, a: u32, b: u32) -> u32 {
+        let outcome = ops::cnd(self.format, condition, a, b);
+        self.keep(outcome)
+    }
+
+    /// `a < b`; false for NaN.
+    pub(crate) fn less(&self, a: u32, b: u32) -> bool {
+        ops::lt_quiet(self.format, a, b).bits != 0
+    }
+
+    /// `a <= b`; false for NaN.
+    pub(crate) fn less_or_equal(&self, a: u32, b: u32) -> bool {
+        ops::le_quiet(self.format, a, b).bits != 0
+    }
+
+    /// `a == b`; false for NaN.
+    pub(crate) fn equal(&self, a: u32, b: u32) -> bool {
+        ops::eq(self.format, a, b).bits != 0
+    }
+}

@@ -1,0 +1,232 @@
+//! Flow control by lane masks over the resolved jump structure.
+
+use super::interpreter::Interpreter;
+use crate::exec::Observer;
+use crate::isa::{Instruction, Modifier, Opcode, RegisterFile, Source};
+
+/// Passes of a loop at most: the range of a card's loop counter. Larger counts are cut, negative ones are 0.
+const LOOP_LIMIT: i32 = 255;
+
+/// What an open block remembers.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Frame {
+    /// `if`
+    If {
+        /// Lanes that run again after `endif`.
+        restore: u8,
+        /// Lanes that take `else`.
+        otherwise: u8,
+    },
+    /// `rep`, `loop`
+    Loop {
+        /// Lanes that have not left by `break`.
+        live: u8,
+        /// Lanes that run again after the loop.
+        restore: u8,
+        /// Passes still to do, this one included.
+        left: i32,
+        /// What `aL` grows by.
+        step: i32,
+        /// `aL` outside.
+        outer_counter: i32,
+    },
+    /// `call`
+    Call {
+        /// Lanes that run again after the call.
+        restore: u8,
+        /// The instruction after the call.
+        back: usize,
+    },
+}
+
+impl<O: Observer> Interpreter<'_, '_, O> {
+    /// Executes the flow instruction `at`; returns where the program goes on, or `None` if it ends.
+    pub(super) fn flow(&mut self, at: usize, instruction: &Instruction) -> Option<usize> {
+        let target = self.prepared.flow.target(at);
+        match instruction.opcode {
+            Opcode::If | Opcode::IfC => {
+                let taken = self.condition(instruction);
+                let otherwise = self.active & !taken;
+                self.frames.push(Frame::If { restore: self.active, otherwise });
+                self.active = taken;
+                Some(if taken == 0 { target } else { at + 1 })
+            }
+            Opcode::Else => {
+                if let Some(Frame::If { otherwise, .. }) = self.frames.last() {
+                    self.active = *otherwise;
+                }
+                Some(if self.active == 0 { target } else { at + 1 })
+            }
+            Opcode::EndIf => {
+                if let Some(&Frame::If { restore, .. }) = self.frames.last() {
+                    self.active = restore;
+                    self.frames.pop();
+                }
+                Some(at + 1)
+            }
+            Opcode::Rep | Opcode::Loop => Some(self.enter_loop(at, target, instruction)),
+            Opcode::EndRep | Opcode::EndLoop => Some(self.end_pass(at, target)),
+            Opcode::Break => {
+                self.leave_loop(self.active);
+                Some(at + 1)
+            }
+            Opcode::BreakC | Opcode::BreakP => {
+                let leaving = self.condition(instruction);
+                self.leave_loop(leaving);
+                Some(at + 1)
+            }
+            Opcode::Call | Opcode::CallNz => Some(self.call(at, target, instruction)),
+            Opcode::Ret => self.ret(at),
+            // Running into a label ends the subroutine before it, or the main program.
+            Opcode::Label => self.return_from_call(),
+            _ => Some(at + 1),
+        }
+    }
+
+    /// The active lanes in which a condition holds.
+    fn condition(&mut self, instruction: &Instruction) -> u8 {
+        let mut holds = 0;
+        for lane in self.active_lanes() {
+            let truth = match instruction.opcode {
+                Opcode::IfC | Opcode::BreakC => self.compare_sources(lane, instruction),
+                Opcode::CallNz => instruction.sources.get(1).is_some_and(|s| self.truth(lane, s)),
+                _ => instruction.sources.first().is_some_and(|s| self.truth(lane, s)),
+            };
+            holds |= u8::from(truth) << lane;
+        }
+        holds
+    }
+
+    /// A boolean operand: `b#` or a component of `p0`, perhaps inverted.
+    fn truth(&self, lane: usize, source: &Source) -> bool {
+        let value = match source.register.file {
+            RegisterFile::Predicate => self.lanes[lane].predicate[usize::from(source.swizzle.0[0] & 3)],
+            RegisterFile::ConstantBool => {
+                let number = usize::from(source.register.index);
+                self.prepared.constants.boolean.get(number).copied().unwrap_or(false)
+            }
+            _ => false,
+        };
+        value != (source.modifier == Modifier::Not)
+    }
+
+    fn enter_loop(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
+        let counter = match instruction.opcode {
+            Opcode::Loop => instruction.sources.get(1),
+            _ => instruction.sources.first(),
+        };
+        let number = counter.map_or(usize::MAX, |s| usize::from(s.register.index));
+        let [count, start, step, _] = self.prepared.constants.int.get(number).copied().unwrap_or_default();
+        let left = count.clamp(0, LOOP_LIMIT);
+        if left == 0 || self.active == 0 {
+            return target + 1;
+        }
+        let with_counter = instruction.opcode == Opcode::Loop;
+        self.frames.push(Frame::Loop {
+            live: self.active,
+            restore: self.active,
+            left,
+            step: if with_counter { step } else { 0 },
+            outer_counter: self.loop_counter,
+        });
+        if with_counter {
+            self.loop_counter = start;
+        }
+        at + 1
+    }
+
+    /// `endrep`, `endloop` at `at`, whose loop starts at `start`.
+    fn end_pass(&mut self, at: usize, start: usize) -> usize {
+        let Some(Frame::Loop { live, restore, left, step, outer_counter }) = self.frames.last_mut() else {
+            return at + 1;
+        };
+        *left -= 1;
+        if *left > 0 && *live != 0 {
+            self.active = *live;
+            self.loop_counter = self.loop_counter.wrapping_add(*step);
+            return start + 1;
+        }
+        self.active = *restore;
+        self.loop_counter = *outer_counter;
+        self.frames.pop();
+        at + 1
+    }
+
+    /// Takes `lanes` out of everything up to and including the innermost loop's passes.
+    fn leave_loop(&mut self, lanes: u8) {
+        let in_loop = self
+            .frames
+            .iter()
+            .rev()
+            .take_while(|f| !matches!(f, Frame::Call { .. }))
+            .any(|f| matches!(f, Frame::Loop { .. }));
+        if !in_loop {
+            return;
+        }
+        self.active &= !lanes;
+        for frame in self.frames.iter_mut().rev() {
+            match frame {
+                Frame::If { restore, otherwise } => {
+                    *restore &= !lanes;
+                    *otherwise &= !lanes;
+                }
+                Frame::Loop { live, .. } => {
+                    *live &= !lanes;
+                    return;
+                }
+                Frame::Call { .. } => return,
+            }
+        }
+    }
+
+    /// `call`, `callnz`. Calls lead forward only, as on the cards, so that every program ends; one that leads
+    /// back is passed over.
+    fn call(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
+        let entering = match instruction.opcode {
+            Opcode::CallNz => self.condition(instruction),
+            _ => self.active,
+        };
+        if entering == 0 || target <= at || target >= self.prepared.program.instructions.len() {
+            return at + 1;
+        }
+        self.frames.push(Frame::Call { restore: self.active, back: at + 1 });
+        self.active = entering;
+        target + 1
+    }
+
+    /// `ret`: the active lanes are done with the subroutine, or with the program.
+    fn ret(&mut self, at: usize) -> Option<usize> {
+        match self.frames.last() {
+            None => return None,
+            Some(Frame::Call { .. }) => return self.return_from_call(),
+            Some(_) => {}
+        }
+        let done = self.active;
+        self.active = 0;
+        for frame in self.frames.iter_mut().rev() {
+            match frame {
+                Frame::If { restore, otherwise } => {
+                    *restore &= !done;
+                    *otherwise &= !done;
+                }
+                Frame::Loop { live, restore, .. } => {
+                    *live &= !done;
+                    *restore &= !done;
+                }
+                Frame::Call { .. } => break,
+            }
+        }
+        Some(at + 1)
+    }
+
+    /// Ends the innermost subroutine and returns where its caller goes on; `None` in the main program.
+    pub(super) fn return_from_call(&mut self) -> Option<usize> {
+        while let Some(frame) = self.frames.pop() {
+            if let Frame::Call { restore, back } = frame {
+                self.active = restore;
+                return Some(back);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,340 @@
+//! The machine that runs a program on four lanes in lockstep: arithmetic, stores, and who is told.
+//!
+//! A vertex runs as a quad of which one lane is active. Lanes masked off by flow control keep their registers; helper
+//! lanes (outside the primitive) run like the others, so that differences between lanes exist, and are dropped at
+//! the end.
+
+use super::alu::Alu;
+use super::flow::Frame;
+use super::operation::{self, Context, Vector};
+use super::registers::{Registers, finished, operand};
+use crate::event::SAMPLERS;
+use super::prepared::Prepared;
+use crate::exec::{Observer, Step};
+use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
+use crate::num::{Flags, Format};
+
+/// Lanes of a quad: (0, 0), (1, 0), (0, 1), (1, 1).
+pub(super) const LANES: usize = 4;
+
+/// Four lanes on their way through a program.
+pub(super) struct Interpreter<'p, 'a, O> {
+    pub(super) prepared: &'p Prepared<'a>,
+    pub(super) lanes: [Registers; LANES],
+    /// Interpolated coordinates `t#`, single precision patterns, before any conversion.
+    pub(super) coordinates: [[Vector; 8]; LANES],
+    /// Dot products left by `texm3x2pad` and `texm3x3pad`, single precision.
+    pub(super) padded: [[u32; 2]; LANES],
+    /// How many of them are waiting.
+    pub(super) pads: usize,
+    /// Arithmetic in the register format.
+    pub(super) full: Alu<'a>,
+    /// Arithmetic of `_pp` instructions, where the device has any.
+    partial: Option<Alu<'a>>,
+    /// Single precision arithmetic of texture addresses.
+    pub(super) address: Alu<'a>,
+    /// Lanes that flow control lets run, a bit each.
+    pub(super) active: u8,
+    /// Lanes that are fragments of the primitive.
+    pub(super) covered: u8,
+    /// Lanes that `texkill` removed.
+    pub(super) killed: u8,
+    /// Depth that the program decided, by lane.
+    pub(super) depth: [Option<(Format, u32)>; LANES],
+    pub(super) loop_counter: i32,
+    pub(super) frames: Vec<Frame>,
+    /// Instruction slots executed while at least one lane was active.
+    pub(super) slots: u64,
+    pub(super) fetches: [u64; SAMPLERS],
+    flags: [Flags; LANES],
+    pub(super) observer: &'p mut O,
+}
+
+impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
+    pub(super) fn new(prepared: &'p Prepared<'a>, active: u8, observer: &'p mut O) -> Self {
+        let rules = prepared.rules;
+        let pixel = prepared.is_pixel();
+        let unit = |format| if pixel { Alu::new(rules, format) } else { Alu::plain(rules, format) };
+        Self {
+            prepared,
+            lanes: [const { Registers::new() }; LANES],
+            coordinates: [[[0; 4]; 8]; LANES],
+            padded: [[0; 2]; LANES],
+            pads: 0,
+            full: unit(prepared.format),
+            partial: rules.partial.filter(|_| pixel).map(unit),
+            address: Alu::plain(rules, Format::FP32),
+            active,
+            covered: active,
+            killed: 0,
+            depth: [None; LANES],
+            loop_counter: 0,
+            frames: Vec::new(),
+            slots: 0,
+            fetches: [0; SAMPLERS],
+            flags: [Flags::empty(); LANES],
+            observer,
+        }
+    }
+
+    /// Runs the program to its end.
+    pub(super) fn run(&mut self) {
+        let program = self.prepared.program;
+        let mut at = 0;
+        loop {
+            let Some(instruction) = program.instructions.get(at) else {
+                match self.return_from_call() {
+                    Some(back) => at = back,
+                    None => return,
+                }
+                continue;
+            };
+            if self.active != 0 {
+                let cost = instruction.opcode.info().slot_cost(program.version);
+                self.slots += u64::from(cost.arithmetic) + u64::from(cost.texture);
+            }
+            at = match instruction.opcode.info().class {
+                OpcodeClass::Flow => match self.flow(at, instruction) {
+                    Some(next) => next,
+                    None => return,
+                },
+                OpcodeClass::Marker => {
+                    if instruction.opcode == Opcode::Phase {
+                        self.phase();
+                    }
+                    at + 1
+                }
+                OpcodeClass::Texture => {
+                    if self.active != 0 {
+                        self.texture(at, instruction);
+                    }
+                    at + 1
+                }
+                OpcodeClass::Arithmetic => self.arithmetic(at, instruction),
+            };
+        }
+    }
+
+    /// Numbers of the active lanes.
+    pub(super) fn active_lanes(&self) -> impl Iterator<Item = usize> + use<'p, 'a, O> {
+        let active = self.active;
+        (0..LANES).filter(move |&lane| active >> lane & 1 == 1)
+    }
+
+    /// `phase`: colour survives, the alpha of every temporary is lost. Lost means zero, a defined value where the
+    /// card had none.
+    fn phase(&mut self) {
+        for lane in &mut self.lanes {
+            for register in &mut lane.temp {
+                register[3] = 0;
+            }
+        }
+    }
+
+    /// One arithmetic instruction, or a co-issued pair whose members both read what stood before the pair. Returns
+    /// where the program goes on.
+    fn arithmetic(&mut self, at: usize, instruction: &Instruction) -> usize {
+        let program = self.prepared.program;
+        let partner = program
+            .instructions
+            .get(at + 1)
+            .filter(|_| self.prepared.flow.pairs_with_next(at));
+        let next = if partner.is_some() { at + 2 } else { at + 1 };
+        if self.active == 0 {
+            return next;
+        }
+        let mut results = [[0; 4]; LANES];
+        let mut paired = [[0; 4]; LANES];
+        for lane in self.active_lanes() {
+            results[lane] = self.result(lane, instruction);
+            if let Some(partner) = partner {
+                let kept = self.flags[lane];
+                paired[lane] = self.result(lane, partner);
+                self.flags[lane] |= kept;
+            }
+        }
+        for lane in self.active_lanes() {
+            self.store(at, lane, instruction, results[lane]);
+            if let Some(partner) = partner {
+                self.store(at + 1, lane, partner, paired[lane]);
+            }
+        }
+        next
+    }
+
+    /// The result of an arithmetic instruction in one lane, ready to be stored.
+    fn result(&mut self, lane: usize, instruction: &Instruction) -> Vector {
+        let Some(destination) = &instruction.destination else {
+            return [0; 4];
+        };
+        let opcode = instruction.opcode;
+        let wanted = operation::read_mask(opcode, destination.mask);
+        if matches!(opcode, Opcode::Dsx | Opcode::Dsy) {
+            return self.difference(lane, instruction, destination);
+        }
+        let bump = match opcode {
+            Opcode::Bem => self.prepared.bump_in_format(destination.register.index),
+            _ => [0; 4],
+        };
+        let registers = self.prepared.format;
+        let mut s = [[0; 4]; 3];
+        for (slot, source) in s.iter_mut().zip(&instruction.sources) {
+            *slot = self.source(lane, source, wanted, destination.partial_precision);
+        }
+        let rows = matrix_rows(opcode);
+        let mut matrix = [[0; 4]; 4];
+        if let (Some((count, _)), Some(source)) = (rows, instruction.sources.get(1)) {
+            for (row, slot) in (0..count).zip(&mut matrix) {
+                let mut source = *source;
+                source.register.index = source.register.index.saturating_add(row);
+                *slot = self.source(lane, &source, wanted, destination.partial_precision);
+            }
+        }
+        let alu = match &mut self.partial {
+            Some(partial) if destination.partial_precision => partial,
+            _ => &mut self.full,
+        };
+        let raw = match rows {
+            Some((_, terms)) => {
+                let mut product = [0; 4];
+                for i in destination.mask.components() {
+                    product[i] = alu.dot(&s[0][..terms], &matrix[i][..terms]);
+                }
+                product
+            }
+            None => {
+                let context = Context { bump, mask: destination.mask };
+                operation::compute(alu, opcode, &s, &context)
+            }
+        };
+        let done = match opcode {
+            // A comparison mask or an address: no number of the register format, nothing to finish.
+            Opcode::Setp => {
+                let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
+                let mut truth = [0; 4];
+                for i in destination.mask.components() {
+                    truth[i] = u32::from(compare(alu, comparison, s[0][i], s[1][i]));
+                }
+                truth
+            }
+            Opcode::Mova => s[0],
+            _ if destination.register.file == RegisterFile::Address => s[0],
+            _ => finished(alu, registers, destination, raw),
+        };
+        self.flags[lane] = alu.take_flags();
+        done
+    }
+
+    /// An operand of one lane in the format of the operation.
+    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, partial: bool) -> Vector {
+        let prepared = self.prepared;
+        let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
+        let alu = match &mut self.partial {
+            Some(unit) if partial => unit,
+            _ => &mut self.full,
+        };
+        operand(alu, prepared.format, source, value, wanted)
+    }
+
+    /// `dsx`, `dsy`: the difference across the quad's row or column, the same for both lanes of it. Lanes masked off
+    /// take part with what their registers hold.
+    fn difference(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Vector {
+        let Some(source) = instruction.sources.first() else {
+            return [0; 4];
+        };
+        let (low, high) = match instruction.opcode {
+            Opcode::Dsx => (lane & 2, lane | 1),
+            _ => (lane & 1, lane | 2),
+        };
+        let pp = destination.partial_precision;
+        let from = self.source(low, source, destination.mask, pp);
+        let to = self.source(high, source, destination.mask, pp);
+        let alu = match &mut self.partial {
+            Some(partial) if pp => partial,
+            _ => &mut self.full,
+        };
+        let mut out = [0; 4];
+        for i in destination.mask.components() {
+            out[i] = alu.sub(to[i], from[i]);
+        }
+        let done = finished(alu, self.prepared.format, destination, out);
+        self.flags[lane] = alu.take_flags();
+        done
+    }
+
+    /// Writes a finished result where the instruction says, as far as its mask and predicate allow, and tells the
+    /// observer.
+    pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, value: Vector) {
+        let Some(destination) = &instruction.destination else {
+            return;
+        };
+        let registers = &mut self.lanes[lane];
+        let mut mask = destination.mask;
+        if let Some(predicate) = &instruction.predicate {
+            for i in destination.mask.components() {
+                let bit = registers.predicate[usize::from(predicate.swizzle.0[i] & 3)];
+                if bit == predicate.not {
+                    mask.0 &= !(1 << i);
+                }
+            }
+        }
+        match destination.register.file {
+            RegisterFile::Predicate => {
+                for i in mask.components() {
+                    registers.predicate[i] = value[i] != 0;
+                }
+            }
+            RegisterFile::Address => {
+                for i in mask.components() {
+                    registers.address[i] = super::address_value(&mut self.full, instruction.opcode, value[i]);
+                }
+            }
+            _ => registers.write(&destination.register, mask, value),
+        }
+        self.tell(at, lane, Some((mask, value)));
+    }
+
+    /// Tells the observer that a lane has executed an instruction.
+    pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Vector)>) {
+        let flags = std::mem::take(&mut self.flags[lane]) | self.address.take_flags();
+        if O::ACTIVE {
+            let (mask, value) = written.unwrap_or((Mask(0), [0; 4]));
+            self.observer.executed(&Step { instruction: at, lane, mask, value, flags });
+        }
+    }
+
+    /// Compares the first components of two operands of one lane (`if_`, `break_`).
+    pub(super) fn compare_sources(&mut self, lane: usize, instruction: &Instruction) -> bool {
+        let [a, b] = [instruction.sources.first(), instruction.sources.get(1)];
+        let (Some(a), Some(b)) = (a, b) else {
+            return false;
+        };
+        let x = self.source(lane, a, Mask(1), false)[0];
+        let y = self.source(lane, b, Mask(1), false)[0];
+        compare(&self.full, instruction.comparison.unwrap_or(Comparison::Eq), x, y)
+    }
+}
+
+/// A comparison of two numbers. Only `ne` holds where a NaN takes part.
+fn compare(alu: &Alu<'_>, comparison: Comparison, a: u32, b: u32) -> bool {
+    match comparison {
+        Comparison::Gt => alu.less(b, a),
+        Comparison::Lt => alu.less(a, b),
+        Comparison::Ge => alu.less_or_equal(b, a),
+        Comparison::Le => alu.less_or_equal(a, b),
+        Comparison::Eq => alu.equal(a, b),
+        Comparison::Ne => !alu.equal(a, b),
+    }
+}
+
+/// Rows of a matrix product and the terms of each row's dot product.
+fn matrix_rows(opcode: Opcode) -> Option<(u16, usize)> {
+    match opcode {
+        Opcode::M3x2 => Some((2, 3)),
+        Opcode::M3x3 => Some((3, 3)),
+        Opcode::M3x4 => Some((4, 3)),
+        Opcode::M4x3 => Some((3, 4)),
+        Opcode::M4x4 => Some((4, 4)),
+        _ => None,
+    }
+}

@@ -1,0 +1,117 @@
+//! Operations that cards carry out as several rounded steps. Each function's documentation states the sequence; it
+//! is a definition, because no source tells what the cards did.
+
+use super::alu::Alu;
+use super::operation::Vector;
+use crate::num;
+
+/// `bem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, each `+ M*x` a `mad` under the rules; z and w give 0.
+///
+/// `bump` is `[M00, M01, M10, M11]` of the destination's stage. Source: Direct3D, "bem - ps".
+pub(super) fn bem(alu: &mut Alu<'_>, base: &Vector, offset: &Vector, bump: &[u32; 4]) -> Vector {
+    let mut row = |base: u32, m_r: u32, m_g: u32| {
+        let first = alu.mad(m_r, offset[0], base);
+        alu.mad(m_g, offset[1], first)
+    };
+    [row(base[0], bump[0], bump[2]), row(base[1], bump[1], bump[3]), 0, 0]
+}
+
+/// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 and NV30's `pow(0, 0) = NaN`
+/// suggest. What `log2` makes of a negative base (its magnitude, or NaN) is the format's rule for special values.
+/// Source: Direct3D, "pow - ps".
+pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
+    let log = alu.log2(base);
+    let product = alu.mul(exponent, log);
+    alu.exp2(product)
+}
+
+/// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. The card's third component has ten
+/// good bits; here it has all. Source: Direct3D, "expp - vs".
+pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Vector {
+    let floor = alu.floor(w);
+    [alu.exp2(floor), alu.frc(w), alu.exp2(w), alu.one()]
+}
+
+/// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once. For w = 0
+/// the first and third component are `log2(0)` and the second is 1. Source: Direct3D, "logp - vs".
+pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Vector {
+    let magnitude = alu.abs(w);
+    let log = alu.log2(magnitude);
+    if alu.format.is_zero(magnitude) {
+        return [log, alu.one(), log, alu.one()];
+    }
+    let exponent = alu.floor(log);
+    let back = alu.neg(exponent);
+    let scale = alu.exp2(back);
+    [exponent, alu.mul(magnitude, scale), log, alu.one()]
+}
+
+/// `crs`: a product and a `mad` a component, `a.y*b.z + -(a.z*b.y)` and so on cyclically; w gives 0.
+///
+/// Source: Direct3D, "crs - ps" (two slots: `mul`, then `mad` with the negated product).
+pub(super) fn crs(alu: &mut Alu<'_>, a: &Vector, b: &Vector) -> Vector {
+    let mut component = |i: usize, j: usize| {
+        let product = alu.mul(a[j], b[i]);
+        let negated = alu.neg(product);
+        alu.mad(a[i], b[j], negated)
+    };
+    [component(1, 2), component(2, 0), component(0, 1), 0]
+}
+
+/// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number where d is zero; all four components times f.
+///
+/// Source: Direct3D, "nrm - ps" (the factor is `FLT_MAX` for a zero vector).
+pub(super) fn nrm(alu: &mut Alu<'_>, a: &Vector) -> Vector {
+    let d = alu.dot(&a[..3], &a[..3]);
+    let factor = if alu.format.is_zero(d) {
+        alu.format.max_finite()
+    } else {
+        alu.rsq(d)
+    };
+    [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
+}
+
+/// `sgn`: -1, 0 or 1; 0 for NaN.
+pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
+    if alu.less(0, a) {
+        alu.one()
+    } else if alu.less(a, 0) {
+        alu.neg(alu.one())
+    } else {
+        0
+    }
+}
+
+/// `sincos`: `(cos x, sin x, 0, 0)` by Taylor series of the half angle, whose coefficients are the two constant
+/// operands (`D3DSINCOSCONST1` and `2`), so that their rounding into the register format counts.
+///
+/// With `q = x*x`, every `+` below a `mad` under the rules, every `*` outside a `mad` a `mul`:
+/// `s = (((q*p.x + p.w)*q + r.x)*q + r.w) * x` (sin x/2), `c = ((q*p.y + p.z)*q + r.y)*q + r.z` (cos x/2),
+/// `sin = t + t` with `t = s*c`, `cos = r.z - (u + u)` with `u = s*s`. Source: Direct3D, "sincos - ps".
+pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Vector, r: &Vector) -> Vector {
+    let q = alu.mul(x, x);
+    let mut s = alu.mad(q, p[0], p[3]);
+    s = alu.mad(s, q, r[0]);
+    s = alu.mad(s, q, r[3]);
+    s = alu.mul(s, x);
+    let mut c = alu.mad(q, p[1], p[2]);
+    c = alu.mad(c, q, r[1]);
+    c = alu.mad(c, q, r[2]);
+    let t = alu.mul(s, c);
+    let sine = alu.add(t, t);
+    let u = alu.mul(s, s);
+    let twice = alu.add(u, u);
+    [alu.sub(r[2], twice), sine, 0, 0]
+}
+
+/// `lit`: `(1, max(x, 0), x > 0 and y > 0 ? y^w : 0, 1)`, w clamped to +-127.9961 (32767/256) and the power as in
+/// [`pow`]. Source: Direct3D, "lit - vs".
+pub(super) fn lit(alu: &mut Alu<'_>, a: &Vector) -> Vector {
+    let limit = num::from_ratio(alu.format, false, 32767, 256).bits;
+    let lowest = alu.neg(limit);
+    let clamped = alu.max(a[3], lowest);
+    let power = alu.min(clamped, limit);
+    let lit = alu.less(0, a[0]);
+    let specular = if lit && alu.less(0, a[1]) { pow(alu, a[1], power) } else { 0 };
+    [alu.one(), if lit { a[0] } else { 0 }, specular, alu.one()]
+}

@@ -1,0 +1,88 @@
+//! What each arithmetic operation computes, for one lane: operands after swizzle and source modifier in, result
+//! before shift, saturation and write mask out. Read beside the Direct3D shader assembly reference, whose
+//! instruction pages carry the same names.
+
+use super::alu::Alu;
+use super::macros;
+use crate::isa::{Mask, Opcode};
+
+/// Four components of one register.
+pub(crate) type Vector = [u32; 4];
+
+/// What an operation may need besides its operands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Context {
+    /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the register format (`bem`).
+    pub(crate) bump: [u32; 4],
+    /// The components wanted. Component-wise operations leave the others zero and raise no flags for them.
+    pub(crate) mask: Mask,
+}
+
+/// Computes `opcode` on `s`, operands that the operation lacks being zero.
+///
+/// Operations that need more than their operands' values (`dsx`, `dsy`, `setp`, `mova`, the matrix products and all
+/// texture and flow operations) are computed elsewhere; here they give zero.
+pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Vector; 3], context: &Context) -> Vector {
+    let [a, b, c] = *s;
+    let mask = context.mask;
+    match opcode {
+        Opcode::Mov => a,
+        Opcode::Add => each(mask, |i| alu.add(a[i], b[i])),
+        Opcode::Sub => each(mask, |i| alu.sub(a[i], b[i])),
+        Opcode::Mul => each(mask, |i| alu.mul(a[i], b[i])),
+        Opcode::Mad => each(mask, |i| alu.mad(a[i], b[i], c[i])),
+        Opcode::Lrp => each(mask, |i| alu.lrp(a[i], b[i], c[i])),
+        Opcode::Dp3 => [alu.dot(&a[..3], &b[..3]); 4],
+        Opcode::Dp4 => [alu.dot(&a, &b); 4],
+        Opcode::Dp2Add => {
+            let dot = alu.dot(&a[..2], &b[..2]);
+            [alu.add(dot, c[0]); 4]
+        }
+        Opcode::Cnd => each(mask, |i| alu.cnd(a[i], b[i], c[i])),
+        Opcode::Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
+        Opcode::Bem => macros::bem(alu, &a, &b, &context.bump),
+        Opcode::Abs => each(mask, |i| alu.abs(a[i])),
+        Opcode::Min => each(mask, |i| alu.min(a[i], b[i])),
+        Opcode::Max => each(mask, |i| alu.max(a[i], b[i])),
+        Opcode::Sge => each(mask, |i| if alu.less_or_equal(b[i], a[i]) { alu.one() } else { 0 }),
+        Opcode::Slt => each(mask, |i| if alu.less(a[i], b[i]) { alu.one() } else { 0 }),
+        Opcode::Frc => each(mask, |i| alu.frc(a[i])),
+        Opcode::Rcp => [alu.rcp(a[0]); 4],
+        Opcode::Rsq => [alu.rsq(a[0]); 4],
+        Opcode::Exp => [alu.exp2(a[0]); 4],
+        Opcode::Log => [alu.log2(a[0]); 4],
+        Opcode::Pow => [macros::pow(alu, a[0], b[0]); 4],
+        Opcode::Expp => macros::expp(alu, a[3]),
+        Opcode::Logp => macros::logp(alu, a[3]),
+        Opcode::Crs => macros::crs(alu, &a, &b),
+        Opcode::Nrm => macros::nrm(alu, &a),
+        Opcode::Sgn => each(mask, |i| macros::sgn(alu, a[i])),
+        Opcode::SinCos => macros::sincos(alu, a[0], &b, &c),
+        Opcode::Dst => [alu.one(), alu.mul(a[1], b[1]), a[2], b[3]],
+        Opcode::Lit => macros::lit(alu, &a),
+        _ => [0; 4],
+    }
+}
+
+/// The components of `mask`, each from its number; zero elsewhere.
+fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Vector {
+    let mut vector = [0; 4];
+    for i in mask.components() {
+        vector[i] = component(i);
+    }
+    vector
+}
+
+/// Which components of its operands an operation looks at when it writes `mask`.
+pub(crate) fn read_mask(opcode: Opcode, mask: Mask) -> Mask {
+    match opcode {
+        Opcode::Mov | Opcode::Add | Opcode::Sub | Opcode::Mul | Opcode::Mad | Opcode::Lrp => mask,
+        Opcode::Cnd | Opcode::Cmp | Opcode::Abs | Opcode::Min | Opcode::Max => mask,
+        Opcode::Sge | Opcode::Slt | Opcode::Frc | Opcode::Sgn | Opcode::Mova | Opcode::Setp => mask,
+        Opcode::Dsx | Opcode::Dsy => mask,
+        Opcode::Dp3 | Opcode::Crs | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
+        Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow => Mask(0b0001),
+        Opcode::Expp | Opcode::Logp => Mask::ALPHA,
+        _ => Mask::ALL,
+    }
+}

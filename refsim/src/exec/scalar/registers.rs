@@ -1,0 +1,161 @@
+//! The registers of one lane, and how instructions read and write them.
+
+use super::alu::Alu;
+use super::operation::Vector;
+use crate::exec::ResolvedConstants;
+use crate::isa::{Destination, Mask, Modifier, Register, RegisterFile, Relative, Source};
+use crate::num::Format;
+
+/// Temporaries that a program can name, the largest file of any version.
+const TEMPORARIES: usize = 32;
+
+/// Everything that one fragment or vertex can name, as patterns of the register format. All starts at zero, which is
+/// therefore what reading an unwritten register gives.
+#[derive(Clone)]
+pub(super) struct Registers {
+    pub(super) temp: [Vector; TEMPORARIES],
+    /// `v#`
+    pub(super) input: [Vector; 16],
+    /// `t#` as arithmetic sees them: texture results in ps_1_1 to 1_3, coordinates in ps_2_x.
+    pub(super) texture: [Vector; 8],
+    pub(super) color_out: [Vector; 4],
+    /// What was written to `oDepth`, if anything was.
+    pub(super) depth_out: Option<u32>,
+    pub(super) position: Vector,
+    pub(super) fog: Vector,
+    pub(super) point_size: Vector,
+    pub(super) diffuse: [Vector; 2],
+    pub(super) texcoord: [Vector; 8],
+    pub(super) predicate: [bool; 4],
+    pub(super) address: [i32; 4],
+}
+
+impl Registers {
+    pub(super) const fn new() -> Self {
+        Self {
+            temp: [[0; 4]; TEMPORARIES],
+            input: [[0; 4]; 16],
+            texture: [[0; 4]; 8],
+            color_out: [[0; 4]; 4],
+            depth_out: None,
+            position: [0; 4],
+            fog: [0; 4],
+            point_size: [0; 4],
+            diffuse: [[0; 4]; 2],
+            texcoord: [[0; 4]; 8],
+            predicate: [false; 4],
+            address: [0; 4],
+        }
+    }
+
+    /// The register's number with relative addressing resolved; `None` if it is negative.
+    fn number(&self, register: &Register, loop_counter: i32) -> Option<usize> {
+        let offset = match register.relative {
+            None => 0,
+            Some(Relative::Address(component)) => self.address[usize::from(component & 3)],
+            Some(Relative::Loop) => loop_counter,
+        };
+        usize::try_from(i64::from(register.index) + i64::from(offset)).ok()
+    }
+
+    /// The value of a register before swizzle and modifiers. A register outside its file, constants with a relative
+    /// address above all, reads as zero, and so does a file that holds no numbers.
+    pub(super) fn value(&self, register: &Register, constants: &ResolvedConstants, loop_counter: i32) -> Vector {
+        let Some(number) = self.number(register, loop_counter) else {
+            return [0; 4];
+        };
+        let file: &[Vector] = match register.file {
+            RegisterFile::Temp => &self.temp,
+            RegisterFile::Input => &self.input,
+            RegisterFile::Texture => &self.texture,
+            RegisterFile::Constant => &constants.float,
+            _ => &[],
+        };
+        file.get(number).copied().unwrap_or_default()
+    }
+
+    /// Writes the components of `mask`; a register outside its file is not written.
+    pub(super) fn write(&mut self, register: &Register, mask: Mask, value: Vector) {
+        let number = usize::from(register.index);
+        let slot = match register.file {
+            RegisterFile::Temp => self.temp.get_mut(number),
+            RegisterFile::Texture => self.texture.get_mut(number),
+            RegisterFile::ColorOut => self.color_out.get_mut(number),
+            RegisterFile::DiffuseOut => self.diffuse.get_mut(number),
+            RegisterFile::TexCoordOut => self.texcoord.get_mut(number),
+            RegisterFile::PositionOut => Some(&mut self.position),
+            RegisterFile::FogOut => Some(&mut self.fog),
+            RegisterFile::PointSizeOut => Some(&mut self.point_size),
+            RegisterFile::DepthOut => {
+                // A scalar: the lowest component of the mask carries it.
+                if let Some(component) = mask.components().next() {
+                    self.depth_out = Some(value[component]);
+                }
+                None
+            }
+            _ => None,
+        };
+        if let Some(slot) = slot {
+            for i in mask.components() {
+                slot[i] = value[i];
+            }
+        }
+    }
+}
+
+/// An operand as an operation sees it: converted into the operation's format where that differs from the registers'
+/// (`_pp`), swizzled, modified. Components outside `wanted` are zero.
+pub(super) fn operand(alu: &mut Alu<'_>, registers: Format, source: &Source, value: Vector, wanted: Mask) -> Vector {
+    let mut out = [0; 4];
+    for i in wanted.components() {
+        let raw = value[usize::from(source.swizzle.0[i] & 3)];
+        let converted = alu.from_format(registers, raw);
+        out[i] = modified(alu, source.modifier, converted);
+    }
+    out
+}
+
+/// One component after its source modifier. Each step rounds once; negation comes last.
+///
+/// Division (`_dz`, `_dw`) is a matter of texture addressing and logical negation one of predicates; neither
+/// changes anything here.
+pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
+    match modifier {
+        Modifier::None | Modifier::Dz | Modifier::Dw | Modifier::Not => x,
+        Modifier::Negate => alu.neg(x),
+        Modifier::Invert => alu.sub(alu.one(), x),
+        Modifier::Bias => alu.sub(x, alu.half()),
+        Modifier::BiasNegate => {
+            let biased = alu.sub(x, alu.half());
+            alu.neg(biased)
+        }
+        Modifier::Bx2 => {
+            let biased = alu.sub(x, alu.half());
+            alu.scale(biased, 1)
+        }
+        Modifier::Bx2Negate => {
+            let biased = alu.sub(x, alu.half());
+            let doubled = alu.scale(biased, 1);
+            alu.neg(doubled)
+        }
+        Modifier::X2 => alu.scale(x, 1),
+        Modifier::X2Negate => {
+            let doubled = alu.scale(x, 1);
+            alu.neg(doubled)
+        }
+    }
+}
+
+/// A result on its way into a register: shift, then saturation, then conversion into the registers' format where
+/// the operation had another (`_pp`).
+pub(super) fn finished(alu: &mut Alu<'_>, registers: Format, destination: &Destination, result: Vector) -> Vector {
+    let mut out = [0; 4];
+    for i in destination.mask.components() {
+        let mut x = alu.scale(result[i], destination.shift);
+        if destination.saturate {
+            x = alu.saturate(x);
+        }
+        out[i] = alu.into_format(registers, x);
+    }
+    out
+}

@@ -1,0 +1,401 @@
+//! Texture instructions. Addresses are single precision whatever the register format: coordinates `t#` reach a
+//! sampler unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is
+//! single precision with one rounding a step and dot products in the device's order.
+
+use super::interpreter::{Interpreter, LANES};
+use super::operation::Vector;
+use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
+use crate::exec::Observer;
+use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
+use crate::num::{Format, Overflow, ops};
+use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
+
+/// Single precision 1.0.
+const ONE: u32 = 0x3f80_0000;
+
+/// One vector for each lane.
+type Quad = [Vector; LANES];
+
+/// How a read finds its level of detail.
+enum Detail {
+    /// From the differences of the coordinates across the quad.
+    Implicit,
+    /// As [`Detail::Implicit`], plus a bias a lane.
+    Biased([u32; LANES]),
+    /// From derivatives that the program gives, along x and y.
+    Gradients(Box<[Quad; 2]>),
+}
+
+impl<O: Observer> Interpreter<'_, '_, O> {
+    /// Executes a texture instruction in the active lanes.
+    pub(super) fn texture(&mut self, at: usize, instruction: &Instruction) {
+        let Some(destination) = &instruction.destination else {
+            return;
+        };
+        match instruction.opcode {
+            Opcode::TexKill => self.texkill(at, instruction, destination),
+            Opcode::TexDepth => self.texdepth(at, destination),
+            Opcode::TexM3x2Depth => self.texm3x2depth(at, instruction, destination),
+            Opcode::TexM3x2Pad | Opcode::TexM3x3Pad => self.pad(at, instruction, destination),
+            Opcode::TexCoord | Opcode::TexCrd | Opcode::TexDp3 | Opcode::TexM3x3 => {
+                self.without_texel(at, instruction, destination);
+            }
+            _ => self.with_texel(at, instruction, destination),
+        }
+    }
+
+    /// Instructions that read a texel.
+    fn with_texel(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
+        let version = self.prepared.program.version;
+        let stage = match instruction.sources.get(1) {
+            Some(sampler) if version.is_ps_2() => usize::from(sampler.register.index),
+            _ => usize::from(destination.register.index),
+        };
+        let mut coordinates = [[0; 4]; LANES];
+        for lane in 0..LANES {
+            coordinates[lane] = self.coordinates_of(lane, instruction, destination);
+        }
+        self.pads = 0;
+        let detail = match instruction.opcode {
+            Opcode::TexLdB => Detail::Biased([0, 1, 2, 3].map(|lane: usize| coordinates[lane][3])),
+            Opcode::TexLdD => Detail::Gradients(Box::new([
+                self.gradient(instruction.sources.get(2)),
+                self.gradient(instruction.sources.get(3)),
+            ])),
+            _ => Detail::Implicit,
+        };
+        for lane in self.active_lanes() {
+            let mut texel = self.fetch(stage, lane, &coordinates, &detail);
+            if instruction.opcode == Opcode::TexBemL {
+                texel = self.brightened(lane, instruction, stage, texel);
+            }
+            let value = self.through_partial(destination, texel);
+            self.store(at, lane, instruction, value);
+        }
+    }
+
+    /// Where a lane reads, single precision.
+    fn coordinates_of(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Vector {
+        let own = self.coordinate_set(lane, destination.register.index);
+        let Some(source) = instruction.sources.first() else {
+            return own; // tex
+        };
+        match instruction.opcode {
+            Opcode::TexLd if self.prepared.program.version == Version::Ps1_4 => self.selected(lane, source),
+            Opcode::TexLdP => {
+                let [x, y, z, w] = self.address_of(lane, source);
+                [self.address.div(x, w), self.address.div(y, w), self.address.div(z, w), w]
+            }
+            Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdD => self.address_of(lane, source),
+            Opcode::TexReg2Ar => {
+                let v = self.in_single(lane, source);
+                [v[3], v[0], 0, ONE]
+            }
+            Opcode::TexReg2Gb => {
+                let v = self.in_single(lane, source);
+                [v[1], v[2], 0, ONE]
+            }
+            Opcode::TexReg2Rgb => {
+                let v = self.in_single(lane, source);
+                [v[0], v[1], v[2], ONE]
+            }
+            Opcode::TexBem | Opcode::TexBemL => self.bumped(lane, own, source, destination.register.index),
+            Opcode::TexDp3Tex => [self.row(lane, own, source), 0, 0, ONE],
+            Opcode::TexM3x2Tex => [self.padded[lane][0], self.row(lane, own, source), 0, ONE],
+            Opcode::TexM3x3Tex => {
+                let [x, y] = self.padded[lane];
+                [x, y, self.row(lane, own, source), ONE]
+            }
+            Opcode::TexM3x3Spec => {
+                let normal = self.normal(lane, own, source);
+                let eye = match instruction.sources.get(1) {
+                    Some(eye) => self.in_single(lane, eye),
+                    None => [0; 4],
+                };
+                self.reflected(normal, [eye[0], eye[1], eye[2]])
+            }
+            Opcode::TexM3x3VSpec => {
+                let normal = self.normal(lane, own, source);
+                let stage = destination.register.index;
+                let w = |back: u16| self.coordinate_set(lane, stage.saturating_sub(back))[3];
+                let eye = [w(2), w(1), w(0)];
+                self.reflected(normal, eye)
+            }
+            _ => own,
+        }
+    }
+
+    /// Interpolated coordinate set `number`; zeros where there is none.
+    fn coordinate_set(&self, lane: usize, number: u16) -> Vector {
+        self.coordinates[lane].get(usize::from(number)).copied().unwrap_or_default()
+    }
+
+    /// A register after its source modifier, converted to single precision.
+    fn in_single(&mut self, lane: usize, source: &Source) -> Vector {
+        let format = self.prepared.format;
+        self.source(lane, source, Mask::ALL, false).map(|x| ops::convert(&format, Format::FP32, x).bits)
+    }
+
+    /// A coordinate operand: `t#` as interpolated, anything else converted to single precision.
+    fn address_of(&mut self, lane: usize, source: &Source) -> Vector {
+        if source.register.file == RegisterFile::Texture {
+            let set = self.coordinate_set(lane, source.register.index);
+            source.swizzle.0.map(|c| set[usize::from(c & 3)])
+        } else {
+            self.in_single(lane, source)
+        }
+    }
+
+    /// The operand of `texld` and `texcrd` in ps_1_4, where `_dz` and `_dw` divide: x and y by z (w), each 1.0 where
+    /// the divisor is zero; the third and fourth component, undefined on the cards, are 0 then.
+    fn selected(&mut self, lane: usize, source: &Source) -> Vector {
+        let plain = Source { modifier: Modifier::None, ..*source };
+        let [x, y, z, w] = self.address_of(lane, &plain);
+        let divisor = match source.modifier {
+            Modifier::Dz => z,
+            Modifier::Dw => w,
+            _ => return [x, y, z, w],
+        };
+        if divisor & 0x7fff_ffff == 0 {
+            return [ONE, ONE, 0, 0];
+        }
+        [self.address.div(x, divisor), self.address.div(y, divisor), 0, 0]
+    }
+
+    /// `texbem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, with the matrix of the destination's stage.
+    fn bumped(&mut self, lane: usize, own: Vector, source: &Source, stage: u16) -> Vector {
+        let offset = self.in_single(lane, source);
+        let m = self.prepared.bump(stage).matrix;
+        let unit = &mut self.address;
+        let mut moved = |base: u32, m_r: u32, m_g: u32| {
+            let first = unit.mul(m_r, offset[0]);
+            let sum = unit.add(base, first);
+            let second = unit.mul(m_g, offset[1]);
+            unit.add(sum, second)
+        };
+        [moved(own[0], m[0], m[2]), moved(own[1], m[1], m[3]), own[2], own[3]]
+    }
+
+    /// `texbeml`: all four channels times `b * scale + offset`, the factor computed in single precision with two
+    /// roundings and then converted into the register format.
+    fn brightened(&mut self, lane: usize, instruction: &Instruction, stage: usize, texel: Vector) -> Vector {
+        let Some(source) = instruction.sources.first() else {
+            return texel;
+        };
+        let blue = self.in_single(lane, source)[2];
+        let bump = self.prepared.bump(u16::try_from(stage).unwrap_or(u16::MAX));
+        let scaled = self.address.mul(blue, bump.luminance_scale);
+        let single = self.address.add(scaled, bump.luminance_offset);
+        let factor = self.full.convert(Format::FP32, single);
+        texel.map(|x| self.full.mul(x, factor))
+    }
+
+    /// One row of a texture matrix: the coordinate set dotted with the source register.
+    fn row(&mut self, lane: usize, own: Vector, source: &Source) -> u32 {
+        let vector = self.in_single(lane, source);
+        self.address.dot(&own[..3], &vector[..3])
+    }
+
+    /// The three rows: two padded, one new.
+    fn normal(&mut self, lane: usize, own: Vector, source: &Source) -> [u32; 3] {
+        let [x, y] = self.padded[lane];
+        [x, y, self.row(lane, own, source)]
+    }
+
+    /// The eye ray reflected at the normal: `(2 (n.e) / (n.n)) n - e`; in steps `q = dp3(n, e) / dp3(n, n)`, `q + q`,
+    /// times n, minus e.
+    fn reflected(&mut self, n: [u32; 3], e: [u32; 3]) -> Vector {
+        let unit = &mut self.address;
+        let (ne, nn) = (unit.dot(&n, &e), unit.dot(&n, &n));
+        let q = unit.div(ne, nn);
+        let twice = unit.add(q, q);
+        let mut out = [0, 0, 0, ONE];
+        for i in 0..3 {
+            let along = unit.mul(twice, n[i]);
+            out[i] = unit.sub(along, e[i]);
+        }
+        out
+    }
+
+    /// Derivatives that `texldd` is given, all lanes.
+    fn gradient(&mut self, source: Option<&Source>) -> Quad {
+        let mut out = [[0; 4]; LANES];
+        if let Some(source) = source {
+            for (lane, slot) in out.iter_mut().enumerate() {
+                *slot = self.in_single(lane, source);
+            }
+        }
+        out
+    }
+
+    /// Reads a texel for one lane and counts it. An unbound sampler gives (0, 0, 0, 1).
+    fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Vector {
+        let prepared = self.prepared;
+        if self.covered >> lane & 1 == 1
+            && let Some(count) = self.fetches.get_mut(stage)
+        {
+            *count += 1;
+        }
+        let Some(binding) = prepared.sampler(stage) else {
+            return unbound(prepared.format);
+        };
+        let lod = if binding.needs_detail() {
+            let (ddx, ddy) = match detail {
+                Detail::Gradients(gradients) => (gradients[0][lane], gradients[1][lane]),
+                _ => (
+                    self.across(coordinates, lane & 2, lane | 1),
+                    self.across(coordinates, lane & 1, lane | 2),
+                ),
+            };
+            let bits = prepared.rules.lod_fraction_bits;
+            let level = lod_from_derivatives(binding.image, coordinates[lane], ddx, ddy, bits);
+            Lod::Level(match detail {
+                Detail::Biased(bias) => self.address.add(level, bias[lane]),
+                _ => level,
+            })
+        } else {
+            Lod::Base
+        };
+        sample(Some(binding.image), &binding.state, &prepared.sample_rules, coordinates[lane], lod)
+    }
+
+    fn across(&mut self, coordinates: &Quad, from: usize, to: usize) -> Vector {
+        let (a, b) = (coordinates[from], coordinates[to]);
+        [0, 1, 2, 3].map(|i: usize| self.address.sub(b[i], a[i]))
+    }
+
+    /// `_pp` on a texture read: the texel is rounded through the partial format.
+    fn through_partial(&mut self, destination: &Destination, texel: Vector) -> Vector {
+        let format = self.prepared.format;
+        match self.prepared.rules.partial {
+            Some(partial) if destination.partial_precision => texel.map(|x| {
+                let narrowed = ops::convert(&format, partial, x).bits;
+                ops::convert(&partial, format, narrowed).bits
+            }),
+            _ => texel,
+        }
+    }
+
+    /// Instructions that turn coordinates into register values.
+    fn without_texel(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
+        for lane in self.active_lanes() {
+            let own = self.coordinate_set(lane, destination.register.index);
+            let value = match (instruction.opcode, instruction.sources.first()) {
+                (Opcode::TexCrd, Some(source)) => {
+                    let selected = self.selected(lane, source);
+                    selected.map(|x| self.coordinate_in_register(x))
+                }
+                (Opcode::TexDp3, Some(source)) => [self.row(lane, own, source); 4].map(|x| self.delivered(x)),
+                (Opcode::TexM3x3, Some(source)) => {
+                    let [x, y, z] = self.normal(lane, own, source);
+                    [self.delivered(x), self.delivered(y), self.delivered(z), self.full.one()]
+                }
+                // texcoord: clamped to [0, 1], w = 1.
+                _ => {
+                    let [x, y, z, _] = own.map(|x| {
+                        let clamped = self.address.saturate(x);
+                        self.delivered(clamped)
+                    });
+                    [x, y, z, self.full.one()]
+                }
+            };
+            self.store(at, lane, instruction, value);
+        }
+        if instruction.opcode == Opcode::TexM3x3 {
+            self.pads = 0;
+        }
+    }
+
+    fn delivered(&mut self, single: u32) -> u32 {
+        self.full.convert(Format::FP32, single)
+    }
+
+    /// `texcrd`: a coordinate in the register format; beyond its range saturated, or wrapped so that the fraction is
+    /// kept (fixed point only), as the rules say.
+    fn coordinate_in_register(&mut self, single: u32) -> u32 {
+        let format = self.prepared.format;
+        match self.prepared.rules.texcrd_overflow {
+            TexcrdOverflow::Clamp => self.delivered(single),
+            TexcrdOverflow::PreserveWrap if format.is_fixed() => {
+                ops::convert(&Format::FP32, format.with_overflow(Overflow::Wrap), single).bits
+            }
+            TexcrdOverflow::PreserveWrap => self.delivered(single),
+        }
+    }
+
+    /// `texm3x2pad`, `texm3x3pad`: a row kept for the instruction that closes the matrix.
+    fn pad(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
+        let Some(source) = instruction.sources.first() else {
+            return;
+        };
+        let slot = self.pads.min(1);
+        for lane in 0..LANES {
+            let own = self.coordinate_set(lane, destination.register.index);
+            self.padded[lane][slot] = self.row(lane, own, source);
+        }
+        self.pads += 1;
+        for lane in self.active_lanes() {
+            self.tell(at, lane, None);
+        }
+    }
+
+    /// `texm3x2depth`: the quotient of the two rows, in single precision, becomes the depth; 1.0 where the divisor is
+    /// zero.
+    fn texm3x2depth(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
+        let Some(source) = instruction.sources.first() else {
+            return;
+        };
+        for lane in self.active_lanes() {
+            let own = self.coordinate_set(lane, destination.register.index);
+            let w = self.row(lane, own, source);
+            let z = self.padded[lane][0];
+            let depth = if w & 0x7fff_ffff == 0 { ONE } else { self.address.div(z, w) };
+            self.depth[lane] = Some((Format::FP32, depth));
+            self.tell(at, lane, None);
+        }
+        self.pads = 0;
+    }
+
+    /// `texdepth`: `r / g` of the register (always r5), rounded into the register format, becomes the depth; 1.0 where
+    /// g is zero. With [`TexdepthDenominator::Min1`] the divisor is at most 1.
+    fn texdepth(&mut self, at: usize, destination: &Destination) {
+        for lane in self.active_lanes() {
+            let register = usize::from(destination.register.index);
+            let [r, g, ..] = self.lanes[lane].temp.get(register).copied().unwrap_or_default();
+            let divisor = match self.prepared.rules.texdepth_denominator {
+                TexdepthDenominator::Raw => g,
+                TexdepthDenominator::Min1 => self.full.min(g, self.full.one()),
+            };
+            let depth = if self.full.format.is_zero(divisor) { self.full.one() } else { self.full.div(r, divisor) };
+            self.depth[lane] = Some((self.prepared.format, depth));
+            self.tell(at, lane, None);
+        }
+    }
+
+    /// `texkill`: a fragment is dropped if a component is below zero (-0 and NaN are not). Three components count in
+    /// ps_1_x, in ps_2_x those the rules name. In ps_1_x `t#` is tested as interpolated, in ps_2_x as delivered.
+    fn texkill(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
+        let version = self.prepared.program.version;
+        let four = version.is_ps_2() && self.prepared.rules.texkill_components == TexkillComponents::Four;
+        let count = if four { 4 } else { 3 };
+        let register = &destination.register;
+        for lane in self.active_lanes() {
+            let interpolated = version.is_ps_1_x() && register.file == RegisterFile::Texture;
+            let value = if interpolated {
+                self.coordinate_set(lane, register.index)
+            } else {
+                self.lanes[lane].value(register, &self.prepared.constants, 0)
+            };
+            let mut below = false;
+            for (i, &x) in value.iter().enumerate().take(count) {
+                let allowed = instruction.predicate.is_none_or(|p| {
+                    self.lanes[lane].predicate[usize::from(p.swizzle.0[i] & 3)] != p.not
+                });
+                let unit = if interpolated { &self.address } else { &self.full };
+                below |= allowed && unit.less(x, 0);
+            }
+            self.killed |= u8::from(below) << lane;
+            self.tell(at, lane, None);
+        }
+    }
+}
