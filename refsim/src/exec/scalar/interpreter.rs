@@ -286,7 +286,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             }
             RegisterFile::Address => {
                 for i in mask.components() {
-                    registers.address[i] = super::address_value(&mut self.full, instruction.opcode, value[i]);
+                    registers.address[i] = super::address_value(self.prepared.format, instruction.opcode, value[i]);
                 }
             }
             _ => registers.write(&destination.register, mask, value),

@@ -1,0 +1,43 @@
+//! Executors of checked programs: two that compute the same bits by different means.
+//!
+//! [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
+//! `batch` runs whole tiles in vector code of the host; `tests/agree` holds them together. They share what is not
+//! arithmetic: the jump structure ([`FlowMap`]), constants as registers hold them ([`ResolvedConstants`]), bindings,
+//! and the seam through which the machine drives them ([`TileExecutor`]). They share no operation body.
+
+mod bindings;
+mod constants;
+mod flow;
+mod observer;
+pub mod scalar;
+mod tile;
+mod usage;
+
+pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, SamplerBinding};
+pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
+pub use flow::FlowMap;
+pub use observer::{NoObserver, Observer, Step, Trace};
+pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
+pub use usage::{colors_written, inputs_read};
+
+use crate::device::Rules;
+use crate::isa::Program;
+use crate::texture::SampleRules;
+
+/// A program that the checker has passed.
+pub type CheckedProgram = Program;
+
+/// The program within.
+pub(crate) fn program(checked: &CheckedProgram) -> &Program {
+    checked
+}
+
+/// What a device says about sampling, out of its rules.
+pub fn sample_rules(rules: &Rules) -> SampleRules {
+    SampleRules {
+        format: rules.format,
+        filter_fraction_bits: rules.filter_fraction_bits,
+        lod_fraction_bits: rules.lod_fraction_bits,
+        signed_texel_minimum: rules.signed_texel_minimum,
+    }
+}

@@ -1,0 +1,55 @@
+//! The reference executor: one value at a time, integers alone, in the order the documents state.
+//!
+//! - `interpreter`: four lanes in lockstep through the program; `flow`: which of them run.
+//! - `operation`, `macros`: what each arithmetic operation computes; `texture`: what each texture instruction does.
+//! - `registers`: how operands are read and results written; `alu`: arithmetic under the device's rules.
+//! - `prepared`: what is worked out once a draw. `pixel`, `vertex`, `tile`: the ways in.
+//!
+//! The order within an instruction is Direct3D's: swizzle, source modifier, operation, shift, saturation, write mask.
+//! Everything a card left undefined has a defined value here: unwritten registers and the alpha lost at `phase` are
+//! zero, a constant outside its file is zero, an unbound sampler reads (0, 0, 0, 1), a loop makes at most 255 passes,
+//! a call that leads backward is passed over.
+
+mod alu;
+mod flow;
+mod interpreter;
+mod macros;
+mod operation;
+mod pixel;
+mod prepared;
+mod registers;
+mod texture;
+mod tile;
+mod vertex;
+
+pub use pixel::{DepthValue, FragmentResult, PixelProgram};
+
+pub use tile::ScalarTiles;
+pub use vertex::{VertexProgram, VertexResult};
+
+use crate::isa::Opcode;
+use crate::num::{Format, Unpacked, ops, unpack};
+
+/// A number on its way into `a0`: rounded to the nearest integer, ties to even (`mova`), or down (`mov` in vs_1_1), and
+/// saturated to 32 bits. NaN gives 0.
+fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
+    let rounded = match opcode {
+        Opcode::Mova => ops::round_to_int_with(format, bits, crate::num::Rounding::NearestEven, false),
+        _ => ops::floor(format, bits),
+    };
+    match unpack(&format, rounded.bits) {
+        Unpacked::Nan { .. } => 0,
+        Unpacked::Inf { sign } => if sign { i32::MIN } else { i32::MAX },
+        Unpacked::Finite { sign, sig, exp } => {
+            // An integer: bits below the point are zero.
+            let magnitude = match exp {
+                0.. if sig == 0 => 0,
+                0..=40 => i128::from(sig) << exp,
+                41.. => i128::MAX,
+                _ => i128::from(sig.checked_shr(exp.unsigned_abs()).unwrap_or(0)),
+            };
+            let value = if sign { -magnitude } else { magnitude };
+            value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Pixel programs, a quad at a time.
+
+use super::interpreter::{Interpreter, LANES};
+use super::prepared::Prepared;
+use crate::device::Rules;
+use crate::event::SAMPLERS;
+use crate::exec::{NoObserver, Observer, PixelBindings, delivered_color};
+use crate::isa::Program;
+use crate::num::{Format, ops};
+use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, TEXCOORD_COMPONENT};
+
+/// A pixel program ready to run on fragments.
+pub struct PixelProgram<'a> {
+    prepared: Prepared<'a>,
+}
+
+/// Depth that a program decided: a pattern and its format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthValue {
+    /// Format of the pattern: the register format, or single precision for `texm3x2depth`.
+    pub format: Format,
+    /// The pattern.
+    pub bits: u32,
+}
+
+/// What a pixel program made of one fragment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FragmentResult {
+    /// Whether `texkill` removed it. The other fields are filled in all the same.
+    pub killed: bool,
+    /// `oC0` to `oC3` in the register format. In ps_1_x the first is r0 clamped to [0, 1]. What the program does not
+    /// write is zero.
+    pub colors: [[u32; 4]; 4],
+    /// Depth, if the program decides it.
+    pub depth: Option<DepthValue>,
+}
+
+impl<'a> PixelProgram<'a> {
+    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`.
+    pub fn new(program: &'a Program, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
+        Self { prepared: Prepared::pixel(program, rules, bindings) }
+    }
+
+    /// The interpolated components that the program can read; the others need not be filled in.
+    pub fn inputs_read(&self) -> ComponentMask {
+        self.prepared.reads
+    }
+
+    /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
+    /// others run as helpers. The results of helpers mean nothing. Texture reads of covered lanes are added to `fetches`.
+    pub fn run(&self, inputs: &[FragmentInput; LANES], covered: u8, fetches: &mut [u64; SAMPLERS]) -> [FragmentResult; LANES] {
+        self.run_observed(inputs, covered, fetches, &mut NoObserver)
+    }
+
+    /// [`Self::run`] with an observer, who is told of helper lanes too.
+    pub fn run_observed<O: Observer>(
+        &self,
+        inputs: &[FragmentInput; LANES],
+        covered: u8,
+        fetches: &mut [u64; SAMPLERS],
+        observer: &mut O,
+    ) -> [FragmentResult; LANES] {
+        let prepared = &self.prepared;
+        let (format, version) = (prepared.format, prepared.program.version);
+        let mut run = Interpreter::new(prepared, 0b1111, observer);
+        run.covered = covered;
+        for (lane, input) in inputs.iter().enumerate() {
+            run.coordinates[lane] = input.t;
+            let registers = &mut run.lanes[lane];
+            for (number, color) in input.v.iter().enumerate() {
+                if prepared.reads.has(COLOR_COMPONENT + 4 * number) {
+                    registers.input[number] = color.map(|x| delivered_color(prepared.rules, x));
+                }
+            }
+            for (number, set) in input.t.iter().enumerate() {
+                if version.is_ps_2() && prepared.reads.has(TEXCOORD_COMPONENT + 4 * number) {
+                    registers.texture[number] = set.map(|x| ops::convert(&Format::FP32, format, x).bits);
+                }
+            }
+        }
+        run.run();
+        for (total, more) in fetches.iter_mut().zip(run.fetches) {
+            *total += more;
+        }
+        let mut results = [FragmentResult::default(); LANES];
+        for (lane, result) in results.iter_mut().enumerate() {
+            let registers = &run.lanes[lane];
+            result.killed = run.killed >> lane & 1 == 1;
+            result.depth = run.depth[lane]
+                .or(registers.depth_out.map(|bits| (format, bits)))
+                .map(|(format, bits)| DepthValue { format, bits });
+            result.colors = registers.color_out;
+            if version.is_ps_1_x() {
+                result.colors[0] = registers.temp[0].map(|x| ops::saturate01(format, x).bits);
+            }
+        }
+        results
+    }
+}

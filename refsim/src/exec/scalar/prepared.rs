@@ -1,0 +1,72 @@
+//! What is worked out once a draw: constants, jumps, bindings, which inputs are read.
+
+use crate::device::Rules;
+use crate::exec::{BumpStage, Constants, FlowMap, PixelBindings, ResolvedConstants, SamplerBinding, inputs_read, sample_rules};
+use crate::isa::{Program, Stage};
+use crate::num::{Format, ops};
+use crate::raster::ComponentMask;
+use crate::texture::SampleRules;
+
+/// A program with everything it is run with.
+pub(crate) struct Prepared<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) rules: &'a Rules,
+    pub(crate) flow: FlowMap,
+    pub(crate) constants: ResolvedConstants,
+    /// Format of registers and arithmetic.
+    pub(crate) format: Format,
+    pub(crate) sample_rules: SampleRules,
+    /// The interpolated components that the program can read.
+    pub(crate) reads: ComponentMask,
+    bindings: Option<PixelBindings<'a>>,
+}
+
+impl<'a> Prepared<'a> {
+    pub(crate) fn pixel(program: &'a Program, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
+        Self {
+            program,
+            rules,
+            flow: FlowMap::new(program),
+            constants: ResolvedConstants::pixel(program, rules, bindings.constants),
+            format: rules.format,
+            sample_rules: sample_rules(rules),
+            reads: inputs_read(program),
+            bindings: Some(*bindings),
+        }
+    }
+
+    pub(crate) fn vertex(program: &'a Program, rules: &'a Rules, constants: &Constants) -> Self {
+        Self {
+            program,
+            rules,
+            flow: FlowMap::new(program),
+            constants: ResolvedConstants::vertex(program, rules, constants),
+            format: rules.vertex_format,
+            sample_rules: sample_rules(rules),
+            reads: ComponentMask::NONE,
+            bindings: None,
+        }
+    }
+
+    pub(crate) fn is_pixel(&self) -> bool {
+        self.program.version.stage() == Stage::Pixel
+    }
+
+    pub(crate) fn sampler(&self, stage: usize) -> Option<&SamplerBinding<'a>> {
+        self.bindings.as_ref()?.samplers.get(stage)?.as_ref()
+    }
+
+    /// Bump state of a stage; all zero where there is none.
+    pub(crate) fn bump(&self, stage: u16) -> BumpStage {
+        self.bindings
+            .as_ref()
+            .and_then(|b| b.bump.get(usize::from(stage)))
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// Bump matrix of a stage in the register format.
+    pub(crate) fn bump_in_format(&self, stage: u16) -> [u32; 4] {
+        self.bump(stage).matrix.map(|x| ops::convert(&Format::FP32, self.format, x).bits)
+    }
+}

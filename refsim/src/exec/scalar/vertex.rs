@@ -1,0 +1,56 @@
+//! Vertex programs, a vertex at a time.
+
+use super::interpreter::Interpreter;
+use super::prepared::Prepared;
+use crate::device::Rules;
+use crate::exec::{Constants, NoObserver, Observer};
+use crate::isa::Program;
+use crate::num::{Format, ops};
+use crate::raster::Vertex;
+
+/// A vertex program ready to run.
+pub struct VertexProgram<'a> {
+    prepared: Prepared<'a>,
+}
+
+/// What a vertex program made of one vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VertexResult {
+    /// The vertex, in single precision. Outputs that the program does not write are zero; colours are clamped to [0, 1]
+    /// as Direct3D does before it iterates them.
+    pub vertex: Vertex,
+    /// Instruction slots executed (a matrix product counts its rows).
+    pub slots: u64,
+}
+
+impl<'a> VertexProgram<'a> {
+    /// Prepares a program, which must be a vertex program, to run under `rules`.
+    pub fn new(program: &'a Program, rules: &'a Rules, constants: &Constants) -> Self {
+        Self { prepared: Prepared::vertex(program, rules, constants) }
+    }
+
+    /// Runs the program on the attributes `v0` to `v15`, single precision patterns.
+    pub fn run(&self, attributes: &[[u32; 4]; 16]) -> VertexResult {
+        self.run_observed(attributes, &mut NoObserver)
+    }
+
+    /// [`Self::run`] with an observer; the vertex is lane 0.
+    pub fn run_observed<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> VertexResult {
+        let format = self.prepared.format;
+        let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
+        run.lanes[0].input = attributes.map(|v| v.map(|x| ops::convert(&Format::FP32, format, x).bits));
+        run.run();
+        let out = |x: u32| ops::convert(&format, Format::FP32, x).bits;
+        let registers = &run.lanes[0];
+        VertexResult {
+            vertex: Vertex {
+                position: registers.position.map(out),
+                colors: registers.diffuse.map(|c| c.map(|x| out(ops::saturate01(format, x).bits))),
+                texcoords: registers.texcoord.map(|t| t.map(out)),
+                fog: out(registers.fog[0]),
+                point_size: out(registers.point_size[0]),
+            },
+            slots: run.slots,
+        }
+    }
+}

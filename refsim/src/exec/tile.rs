@@ -1,0 +1,52 @@
+//! The seam between the machine and the pixel executors.
+//!
+//! The machine cuts the targets into tiles, hands each to a [`TileExecutor`] with the triangles that may touch it, and
+//! adds up what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any
+//! order with the same result.
+
+use super::{CheckedProgram, PixelBindings};
+use crate::device::Rules;
+use crate::event::FragmentCounts;
+use crate::output::{OutputRules, OutputState, TargetTile};
+use crate::raster::TriangleSetup;
+
+/// Side of a tile in pixels. Tiles start at multiples of it; those at the far edges of the targets are smaller.
+pub const TILE: u32 = 16;
+
+/// What stays the same over a draw: what an executor is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct TileDraw<'a> {
+    /// The pixel program.
+    pub program: &'a CheckedProgram,
+    /// How the device computes.
+    pub rules: &'a Rules,
+    /// Constants, textures, stage state.
+    pub bindings: PixelBindings<'a>,
+    /// Tests, blending, masks.
+    pub output: OutputState,
+}
+
+impl TileDraw<'_> {
+    /// What the device says about targets.
+    pub fn output_rules(&self) -> OutputRules {
+        output_rules(self.rules)
+    }
+}
+
+/// Shades the fragments of one tile.
+pub trait TileExecutor: Send + Sync {
+    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle
+    /// that does not touch the tile may be among them. Per pixel the order of the triangles is kept.
+    ///
+    /// Returns what became of the fragments; helper lanes are not counted.
+    fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts;
+}
+
+/// What a device says about targets, out of its rules.
+pub fn output_rules(rules: &Rules) -> OutputRules {
+    OutputRules {
+        format: rules.format,
+        target_rounding: rules.target_rounding,
+        depth_rounding: rules.depth_rounding,
+    }
+}

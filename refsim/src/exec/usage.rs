@@ -1,0 +1,53 @@
+//! What a program reads and writes, found by looking at its text: shared by the executors.
+
+use crate::isa::{Opcode, Program, RegisterFile};
+use crate::raster::ComponentMask;
+
+/// The interpolated components that a pixel program can read. The others need not be interpolated; a program cannot
+/// tell.
+pub fn inputs_read(program: &Program) -> ComponentMask {
+    let mut mask = ComponentMask::NONE;
+    let mut set = |number: u16| {
+        if number < 8 {
+            mask = mask.with_texcoord(usize::from(number));
+        }
+    };
+    let mut colors = [false; 2];
+    for instruction in &program.instructions {
+        let registers = instruction.sources.iter().map(|s| s.register);
+        for register in registers.chain(instruction.destination.map(|d| d.register)) {
+            match register.file {
+                RegisterFile::Texture => set(register.index),
+                RegisterFile::Input => {
+                    if let Some(color) = colors.get_mut(usize::from(register.index)) {
+                        *color = true;
+                    }
+                }
+                _ => {}
+            }
+        }
+        // The eye ray lies in the fourth components of the two stages before.
+        if let (Opcode::TexM3x3VSpec, Some(destination)) = (instruction.opcode, instruction.destination) {
+            set(destination.register.index.saturating_sub(1));
+            set(destination.register.index.saturating_sub(2));
+        }
+    }
+    for (number, read) in colors.into_iter().enumerate() {
+        if read {
+            mask = mask.with_color(number);
+        }
+    }
+    mask
+}
+
+/// Which colours a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it,
+/// whether or not flow control gets there; ps_1_x writes colour 0.
+pub fn colors_written(program: &Program) -> u8 {
+    if program.version.is_ps_1_x() {
+        return 1;
+    }
+    let destinations = program.instructions.iter().filter_map(|i| i.destination);
+    destinations
+        .filter(|d| d.register.file == RegisterFile::ColorOut && d.register.index < 4)
+        .fold(0, |written, d| written | 1 << d.register.index)
+}

@@ -1,0 +1,227 @@
+//! Memory of the card: textures, targets, depth buffers, and the way in and out.
+
+use super::{Machine, MachineError};
+use crate::device::Profile;
+use crate::num::Format;
+use crate::output::{DepthFormat, DepthSurface, TargetTile};
+use crate::texture::{Image, TargetRounding, TexelFormat};
+
+/// Names a texture of one machine. A colour target is a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TextureId(pub(super) usize);
+
+/// Names a depth buffer of one machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DepthId(pub(super) usize);
+
+/// What lives in the card's memory.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    textures: Vec<Option<Image>>,
+    depths: Vec<Option<DepthSurface>>,
+}
+
+impl Memory {
+    pub(super) fn texture(&self, id: TextureId) -> Result<&Image, MachineError> {
+        let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
+        self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
+    }
+
+    fn texture_mut(&mut self, id: TextureId) -> Result<&mut Image, MachineError> {
+        let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
+        self.textures.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
+    }
+
+    pub(super) fn depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
+        let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
+        self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)
+    }
+
+    fn depth_mut(&mut self, id: DepthId) -> Result<&mut DepthSurface, MachineError> {
+        let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
+        self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
+    }
+
+    /// Copies a finished tile back.
+    pub(super) fn store(
+        &mut self,
+        tile: &TargetTile,
+        targets: &[TextureId],
+        depth: Option<DepthId>,
+    ) -> Result<(), MachineError> {
+        for (index, &target) in targets.iter().enumerate() {
+            tile.store_color(index, self.texture_mut(target)?)?;
+        }
+        if let Some(id) = depth {
+            tile.store_depth(self.depth_mut(id)?);
+        }
+        Ok(())
+    }
+}
+
+/// Makes or clears a resource.
+impl Machine {
+    /// Uploads a texture.
+    ///
+    /// # Errors
+    /// If the device lacks the format, or the texture is too large for it.
+    pub fn create_texture(&mut self, image: Image) -> Result<TextureId, MachineError> {
+        check_texture_format(&self.profile, image.format())?;
+        let limit = self.profile.limits.max_texture_size;
+        check_size(&self.profile, "texture", limit, "max_texture_size", &image)?;
+        let levels = image.levels().len();
+        if levels > 1 && image.format().record().is_float() && !self.profile.limits.float_mipmaps {
+            let device = self.profile.name.clone();
+            return Err(MachineError::FloatLevels { levels, format: image.format(), device });
+        }
+        Ok(self.keep(image))
+    }
+
+    /// Makes a colour target of zero bytes. It can be sampled in later draws if the device has textures of the format.
+    ///
+    /// # Errors
+    /// If the device lacks the format, or the target is too large for it.
+    pub fn create_target(&mut self, format: TexelFormat, width: u32, height: u32) -> Result<TextureId, MachineError> {
+        self.create_target_from(Image::new_2d(format, width, height)?)
+    }
+
+    /// Makes a colour target that starts as an image.
+    ///
+    /// # Errors
+    /// As [`Machine::create_target`].
+    pub fn create_target_from(&mut self, image: Image) -> Result<TextureId, MachineError> {
+        check_target_format(&self.profile, image.format())?;
+        let limit = self.profile.limits.max_target_size;
+        check_size(&self.profile, "target", limit, "max_target_size", &image)?;
+        Ok(self.keep(image))
+    }
+
+    /// Makes a depth buffer, cleared to 1.
+    ///
+    /// # Errors
+    /// If the device lacks the format, or the size is impossible.
+    pub fn create_depth(&mut self, format: DepthFormat, width: u32, height: u32) -> Result<DepthId, MachineError> {
+        let allowed = &self.profile.limits.depth_formats;
+        if !allowed.iter().any(|name| name == format.name()) {
+            let (device, allowed) = (self.profile.name.clone(), allowed.join(" "));
+            return Err(MachineError::DepthFormat { device, format, allowed });
+        }
+        let surface = DepthSurface::new(format, width, height)?;
+        self.memory.depths.push(Some(surface));
+        Ok(DepthId(self.memory.depths.len() - 1))
+    }
+
+    fn keep(&mut self, image: Image) -> TextureId {
+        self.memory.textures.push(Some(image));
+        TextureId(self.memory.textures.len() - 1)
+    }
+
+    /// Replaces the contents of a texture or target by an image of the same format and extents.
+    ///
+    /// # Errors
+    /// If the handle is dead or the image does not fit.
+    pub fn update_texture(&mut self, id: TextureId, image: &Image) -> Result<(), MachineError> {
+        let device = self.profile.name.clone();
+        let held = self.memory.texture_mut(id)?;
+        if held.format() != image.format() {
+            let allowed = held.format().to_string();
+            return Err(MachineError::TextureFormat { device, format: image.format(), allowed });
+        }
+        let (region, bytes) = (held.region(), image.bytes());
+        if held.bytes().len() == bytes.len() && region == image.region() {
+            held.bytes_mut().copy_from_slice(bytes);
+            return Ok(());
+        }
+        let (expected, found) = (held.bytes().len(), bytes.len());
+        Err(crate::texture::TextureError::DataSize { unit: "bytes", expected, found }.into())
+    }
+
+    /// Fills a target with a colour, single precision patterns, rounded as the device rounds into targets.
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn clear_target(&mut self, id: TextureId, color: [u32; 4]) -> Result<(), MachineError> {
+        let rounding = self.profile.rules.target_rounding;
+        self.memory.texture_mut(id)?.clear(Format::FP32, color, rounding);
+        Ok(())
+    }
+
+    /// Fills a depth buffer with a depth, a single precision pattern, clamped to [0, 1].
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn clear_depth(&mut self, id: DepthId, depth: u32) -> Result<(), MachineError> {
+        let rounding: TargetRounding = self.profile.rules.depth_rounding;
+        self.memory.depth_mut(id)?.clear(depth, rounding);
+        Ok(())
+    }
+
+    /// Frees a texture; its handle is dead from now on.
+    ///
+    /// # Errors
+    /// If it was dead before.
+    pub fn release_texture(&mut self, id: TextureId) -> Result<Image, MachineError> {
+        self.memory.texture(id)?;
+        let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
+        self.memory.textures.get_mut(id.0).and_then(Option::take).ok_or(missing)
+    }
+
+    /// Frees a depth buffer; its handle is dead from now on.
+    ///
+    /// # Errors
+    /// If it was dead before.
+    pub fn release_depth(&mut self, id: DepthId) -> Result<DepthSurface, MachineError> {
+        let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
+        self.memory.depths.get_mut(id.0).and_then(Option::take).ok_or(missing)
+    }
+
+    /// Reads a texture or target back. [`Image::bytes`] has its texels, [`Image::texel`] their values.
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn read_back(&self, id: TextureId) -> Result<&Image, MachineError> {
+        self.memory.texture(id)
+    }
+
+    /// Reads a depth buffer back.
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn read_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
+        self.memory.depth(id)
+    }
+}
+
+/// Whether the device can sample the format.
+pub(super) fn check_texture_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
+    let allowed = &profile.limits.texture_formats;
+    if allowed.iter().any(|name| name == format.name()) {
+        return Ok(());
+    }
+    Err(MachineError::TextureFormat { device: profile.name.clone(), format, allowed: allowed.join(" ") })
+}
+
+/// Whether the device can draw into the format.
+pub(super) fn check_target_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
+    let allowed = &profile.limits.target_formats;
+    if allowed.iter().any(|name| name == format.name()) {
+        return Ok(());
+    }
+    Err(MachineError::TargetFormat { device: profile.name.clone(), format, allowed: allowed.join(" ") })
+}
+
+fn check_size(
+    profile: &Profile,
+    what: &'static str,
+    limit: Option<u32>,
+    key: &'static str,
+    image: &Image,
+) -> Result<(), MachineError> {
+    let (width, height) = (image.width(), image.height());
+    match limit {
+        Some(limit) if width > limit || height > limit => {
+            Err(MachineError::TooLarge { what, device: profile.name.clone(), width, height, limit, key })
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,124 @@
+//! The emulated card: memory, state, draws, read-back.
+//!
+//! A [`Machine`] is a device profile, an executor and memory. Textures and depth buffers live in it and are named by
+//! handles; a colour target is a texture that is drawn into. [`Machine::draw`] takes a [`DrawCall`], checks it, runs
+//! the vertex stage, assembles, clips and sets up triangles in order, and walks the target in tiles of 16x16 pixels,
+//! side by side on the worker threads; within a tile the triangles come in the order of submission. So the bits and the
+//! counts do not depend on the number of threads, and one call that draws N instances equals N calls.
+//!
+//! What could be wrong with a call is a [`MachineError`], found before anything is written. What a card leaves open is
+//! defined: an unbound sampler reads (0, 0, 0, 1); a texture that is read and drawn into by one call is an error.
+
+mod draw;
+mod error;
+mod memory;
+mod validate;
+mod vertices;
+mod walk;
+
+pub use draw::{AttributeStream, BoundTexture, DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
+pub use error::MachineError;
+pub use memory::{DepthId, TextureId};
+
+use crate::device::Profile;
+use crate::event::DrawEvents;
+use crate::exec::scalar::ScalarTiles;
+use crate::exec::{PixelBindings, SamplerBinding, TileDraw, TileExecutor};
+use memory::Memory;
+
+/// Which executor shades fragments. The bits are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ExecutorKind {
+    /// The reference: one value at a time.
+    #[default]
+    Scalar,
+}
+
+/// An emulated card.
+#[derive(Debug)]
+pub struct Machine {
+    profile: Profile,
+    executor: ExecutorKind,
+    pool: Option<rayon::ThreadPool>,
+    memory: Memory,
+}
+
+impl Machine {
+    /// A machine with empty memory, on the global worker threads.
+    pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
+        Self {
+            profile,
+            executor,
+            pool: None,
+            memory: Memory::default(),
+        }
+    }
+
+    /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.
+    ///
+    /// # Errors
+    /// [`MachineError::Threads`] if the system refuses them.
+    pub fn with_threads(profile: Profile, executor: ExecutorKind, threads: usize) -> Result<Self, MachineError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.max(1))
+            .build()
+            .map_err(|e| MachineError::Threads { threads, reason: e.to_string() })?;
+        Ok(Self { pool: Some(pool), ..Self::new(profile, executor) })
+    }
+
+    /// The device.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// The executor.
+    pub fn executor(&self) -> ExecutorKind {
+        self.executor
+    }
+
+    /// Draws.
+    ///
+    /// # Errors
+    /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
+    pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
+        let plan = validate::plan(&self.profile, &self.memory, call)?;
+        let (memory, profile, kind) = (&self.memory, &self.profile, self.executor);
+        let work = || {
+            let executor = executor(kind, &tile_draw(profile, memory, call));
+            walk::draw(memory, profile, call, &plan, executor.as_ref())
+        };
+        let drawn = match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }?;
+        for tile in drawn.tiles {
+            self.memory.store(&tile, &call.targets, call.depth_buffer)?;
+        }
+        Ok(drawn.events)
+    }
+}
+
+/// The tile executor of a draw.
+fn executor<'a>(kind: ExecutorKind, draw: &TileDraw<'a>) -> Box<dyn TileExecutor + 'a> {
+    match kind {
+        ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
+    }
+}
+
+/// What a draw looks like to an executor. Handles that are dead read as unbound; the plan has refused those before.
+fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) -> TileDraw<'a> {
+    let bind = |bound: BoundTexture| {
+        let image = memory.texture(bound.texture).ok()?;
+        Some(SamplerBinding { image, state: bound.state })
+    };
+    TileDraw {
+        program: call.pixel_program,
+        rules: &profile.rules,
+        bindings: PixelBindings {
+            constants: call.pixel_constants,
+            samplers: call.samplers.map(|slot| slot.and_then(bind)),
+            bump: call.bump,
+        },
+        output: call.output_state(),
+    }
+}

@@ -1,0 +1,152 @@
+//! Whether a draw call fits the machine: everything is found out before anything is written.
+
+use super::memory::{Memory, check_target_format, check_texture_format};
+use super::{BoundTexture, DrawCall, MachineError, StepRate, VertexSource};
+use crate::device::Profile;
+use crate::event::SAMPLERS;
+use crate::isa::{Program, Stage};
+use crate::output::{MOST_TARGETS, TargetTile};
+use crate::raster::{RasterState, Viewport, assemble};
+use crate::texture::{Filter, MipFilter, Region};
+
+/// What a checked call comes to.
+pub(super) struct Plan {
+    /// The pixels of the targets.
+    pub(super) target: Region,
+    /// State of the rasteriser.
+    pub(super) raster: RasterState,
+    /// Vertices of one instance.
+    pub(super) vertex_count: usize,
+    /// Instances.
+    pub(super) instance_count: usize,
+    /// Triangles of one instance, as vertex numbers within it.
+    pub(super) triangles: Vec<[usize; 3]>,
+}
+
+/// Checks a call.
+pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Plan, MachineError> {
+    check_stage(crate::exec::program(call.pixel_program), Stage::Pixel)?;
+    let target = check_targets(profile, memory, call)?;
+    for (sampler, bound) in call.samplers.iter().enumerate() {
+        if let Some(bound) = bound {
+            check_sampler(profile, memory, call, sampler, bound)?;
+        }
+    }
+    let raster = raster_state(call, target);
+    raster.viewport.check()?;
+    let (vertex_count, instance_count) = match &call.vertices {
+        VertexSource::Transformed(vertices) => (vertices.len(), 1),
+        VertexSource::Program { program, streams, .. } => {
+            check_stage(crate::exec::program(program), Stage::Vertex)?;
+            check_streams(call)?;
+            (streams.vertex_count, streams.instance_count)
+        }
+    };
+    Ok(Plan { target, raster, vertex_count, instance_count, triangles: triangles(call, vertex_count)? })
+}
+
+fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {
+    if program.version.stage() == expected {
+        return Ok(());
+    }
+    Err(MachineError::WrongStage { expected, found: program.version })
+}
+
+/// Targets: live, of formats the device has, planes of one size, none twice, not too many.
+fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Region, MachineError> {
+    let found = call.targets.len();
+    let limit = profile.limits.render_targets.map_or(MOST_TARGETS, |n| n as usize).min(MOST_TARGETS);
+    if found > limit {
+        return Err(MachineError::TooManyTargets { device: profile.name.clone(), found, limit });
+    }
+    if found == 0 && call.depth_buffer.is_none() {
+        return Err(MachineError::NoTarget);
+    }
+    let mut images = Vec::new();
+    for (index, &id) in call.targets.iter().enumerate() {
+        let image = memory.texture(id)?;
+        check_target_format(profile, image.format())?;
+        if call.targets[..index].contains(&id) {
+            return Err(MachineError::TargetTwice { number: id.0 });
+        }
+        if call.blend.is_some() && image.format().record().is_float() && !profile.limits.float_blending {
+            let device = profile.name.clone();
+            return Err(MachineError::FloatBlend { target: index, format: image.format(), device });
+        }
+        images.push(Some(image));
+    }
+    let depth = call.depth_buffer.map(|id| memory.depth(id)).transpose()?;
+    if depth.is_none() && call.depth.test.is_some() {
+        return Err(MachineError::NoDepthBuffer);
+    }
+    Ok(TargetTile::check(&images, depth)?)
+}
+
+/// A texture: live, of a format the device has, filtered as it can, not a target of the draw.
+fn check_sampler(
+    profile: &Profile,
+    memory: &Memory,
+    call: &DrawCall<'_>,
+    sampler: usize,
+    bound: &BoundTexture,
+) -> Result<(), MachineError> {
+    let image = memory.texture(bound.texture)?;
+    check_texture_format(profile, image.format())?;
+    if let Some(target) = call.targets.iter().position(|&t| t == bound.texture) {
+        return Err(MachineError::FeedbackLoop { sampler, target });
+    }
+    let state = &bound.state;
+    let filtered = state.min == Filter::Linear || state.mag == Filter::Linear || state.mip == MipFilter::Linear;
+    if filtered && image.format().record().is_float() && !profile.limits.float_filtering {
+        let device = profile.name.clone();
+        return Err(MachineError::FloatFilter { sampler, format: image.format(), device });
+    }
+    Ok(())
+}
+
+fn raster_state(call: &DrawCall<'_>, target: Region) -> RasterState {
+    RasterState {
+        viewport: call.viewport.unwrap_or(Viewport::new(target.width, target.height)),
+        center: call.center,
+        clip_space: call.clip_space,
+        cull: call.cull,
+        scissor: call.scissor.map_or(target, |s| s.intersect(target)),
+    }
+}
+
+/// Streams: of registers that exist, one each, long enough.
+fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
+    let VertexSource::Program { streams, .. } = &call.vertices else {
+        return Ok(());
+    };
+    let mut fed = [false; SAMPLERS];
+    for stream in &streams.streams {
+        let register = stream.register;
+        match fed.get_mut(register) {
+            None => return Err(MachineError::NoSuchAttribute { register }),
+            Some(true) => return Err(MachineError::StreamTwice { register }),
+            Some(slot) => *slot = true,
+        }
+        let (needed, what) = match stream.step {
+            StepRate::Vertex => (streams.vertex_count, "one a vertex"),
+            StepRate::Instance => (streams.instance_count, "one an instance"),
+        };
+        let found = stream.data.len();
+        if found < needed {
+            return Err(MachineError::ShortStream { register, found, needed, what });
+        }
+    }
+    Ok(())
+}
+
+/// The triangles of one instance, through the index list if there is one.
+fn triangles(call: &DrawCall<'_>, vertex_count: usize) -> Result<Vec<[usize; 3]>, MachineError> {
+    let Some(indices) = call.indices else {
+        return Ok(assemble(call.primitive, vertex_count)?.collect());
+    };
+    if let Some(position) = indices.iter().position(|&i| i as usize >= vertex_count) {
+        return Err(MachineError::Index { position, found: indices[position], limit: vertex_count });
+    }
+    let through = |corner: usize| indices[corner] as usize;
+    Ok(assemble(call.primitive, indices.len())?.map(|t| t.map(through)).collect())
+}

@@ -1,0 +1,123 @@
+//! The vertex stage and set-up: from a call's vertices to triangles, in order.
+
+use super::validate::Plan;
+use super::{DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
+use crate::device::{Profile, Rules};
+use crate::event::PrimitiveCounts;
+use crate::exec::scalar::VertexProgram;
+use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
+use rayon::prelude::*;
+
+/// Triangles that one worker sets up at a time.
+const SETUP_CHUNK: usize = 256;
+
+/// Vertices of some instances and what they cost.
+pub(super) struct Batch {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) slots: u64,
+}
+
+/// The vertex stage of a call.
+pub(super) enum VertexStage<'a> {
+    Transformed(&'a [Vertex]),
+    Program(VertexProgram<'a>, &'a VertexStreams<'a>),
+}
+
+impl<'a> VertexStage<'a> {
+    pub(super) fn new(call: &'a DrawCall<'a>, rules: &'a Rules) -> Self {
+        match &call.vertices {
+            VertexSource::Transformed(vertices) => Self::Transformed(vertices),
+            VertexSource::Program { program, constants, streams } => {
+                Self::Program(VertexProgram::new(crate::exec::program(program), rules, constants), streams)
+            }
+        }
+    }
+
+    /// Processes instances `first` to `first + count`, instance by instance.
+    pub(super) fn run(&self, first: usize, count: usize, plan: &Plan) -> Batch {
+        match self {
+            Self::Transformed(vertices) => Batch { vertices: vertices.to_vec(), slots: 0 },
+            Self::Program(program, streams) => {
+                let results: Vec<_> = (0..count * plan.vertex_count)
+                    .into_par_iter()
+                    .map(|i| {
+                        let (instance, vertex) = (first + i / plan.vertex_count, i % plan.vertex_count);
+                        program.run(&attributes(streams, instance, vertex))
+                    })
+                    .collect();
+                Batch {
+                    slots: results.iter().map(|r| r.slots).sum(),
+                    vertices: results.into_iter().map(|r| r.vertex).collect(),
+                }
+            }
+        }
+    }
+
+    /// Bytes that one vertex reads, and bytes that one instance reads once.
+    pub(super) fn bytes(&self) -> (u64, u64) {
+        match self {
+            Self::Transformed(_) => (std::mem::size_of::<Vertex>() as u64, 0),
+            Self::Program(_, streams) => {
+                let of = |step| 16 * streams.streams.iter().filter(|s| s.step == step).count() as u64;
+                (of(StepRate::Vertex), of(StepRate::Instance))
+            }
+        }
+    }
+}
+
+/// The attributes of one vertex of one instance.
+fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[u32; 4]; 16] {
+    let mut out = [DEFAULT_ATTRIBUTE; 16];
+    for stream in &streams.streams {
+        let entry = match stream.step {
+            StepRate::Vertex => vertex,
+            StepRate::Instance => instance,
+        };
+        if let (Some(slot), Some(value)) = (out.get_mut(stream.register), stream.data.get(entry)) {
+            *slot = *value;
+        }
+    }
+    out
+}
+
+/// Sets up the triangles of `instances` instances whose vertices stand one after the other.
+pub(super) fn set_up(
+    vertices: &[Vertex],
+    instances: usize,
+    plan: &Plan,
+    profile: &Profile,
+) -> (Vec<TriangleSetup>, PrimitiveCounts) {
+    let rules = RasterRules {
+        subpixel_bits: profile.rules.subpixel_bits,
+        iterator_format: profile.rules.iterator_format,
+    };
+    let each = plan.triangles.len();
+    let total = each * instances;
+    let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let mut out = Vec::new();
+            let mut counts = PrimitiveCounts::default();
+            for i in chunk * SETUP_CHUNK..((chunk + 1) * SETUP_CHUNK).min(total) {
+                let base = i / each * plan.vertex_count;
+                let corners = plan.triangles[i % each];
+                let [Some(a), Some(b), Some(c)] = corners.map(|v| vertices.get(base + v)) else {
+                    continue;
+                };
+                let report = setup([a, b, c], &plan.raster, &rules, &mut out);
+                counts.assembled += 1;
+                counts.culled += u64::from(report.emitted == 0);
+                counts.clipped += u64::from(report.emitted > 1);
+                counts.rasterised += u64::from(report.emitted);
+            }
+            (out, counts)
+        })
+        .collect();
+    let mut setups = Vec::with_capacity(total);
+    let mut counts = PrimitiveCounts::default();
+    for (part, more) in parts {
+        setups.extend(part);
+        counts += more;
+    }
+    (setups, counts)
+}

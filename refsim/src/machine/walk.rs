@@ -1,0 +1,175 @@
+//! The walk over the target: tiles side by side, triangles in order within each.
+
+use super::memory::Memory;
+use super::validate::Plan;
+use super::vertices::{VertexStage, set_up};
+use super::{DrawCall, MachineError};
+use crate::device::Profile;
+use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
+use crate::exec::{TILE, TileExecutor};
+use crate::output::TargetTile;
+use crate::raster::TriangleSetup;
+use crate::texture::Region;
+use rayon::prelude::*;
+
+/// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
+/// however many there are.
+const ROUND: usize = 8192;
+
+/// What a draw leaves behind.
+pub(super) struct Drawn {
+    /// Tiles that triangles touched, to be copied back.
+    pub(super) tiles: Vec<TargetTile>,
+    pub(super) events: DrawEvents,
+}
+
+/// A tile on its way through the rounds; loaded when the first triangle touches it.
+struct Work {
+    region: Region,
+    tile: Option<TargetTile>,
+    counts: FragmentCounts,
+}
+
+/// Draws a checked call.
+pub(super) fn draw(
+    memory: &Memory,
+    profile: &Profile,
+    call: &DrawCall<'_>,
+    plan: &Plan,
+    executor: &dyn TileExecutor,
+) -> Result<Drawn, MachineError> {
+    let stage = VertexStage::new(call, &profile.rules);
+    let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
+    let mut work = tiles(plan.raster.scissor);
+    let round = (ROUND / plan.triangles.len().max(1)).max(1);
+    let mut first = 0;
+    while first < plan.instance_count {
+        let count = round.min(plan.instance_count - first);
+        let batch = stage.run(first, count, plan);
+        events.vertices += batch.vertices.len() as u64;
+        events.vertex_instructions += batch.slots;
+        let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+        events.primitives += primitives;
+        for part in setups.chunks(ROUND) {
+            shade(memory, call, part, executor, &mut work)?;
+        }
+        first += count;
+    }
+    for tile in &work {
+        events.fragments += tile.counts;
+    }
+    events.bytes = bytes(memory, call, &stage, &events);
+    Ok(Drawn { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
+}
+
+/// The tiles of a region, row by row. They start at multiples of [`TILE`].
+fn tiles(region: Region) -> Vec<Work> {
+    let mut out = Vec::new();
+    if region.width == 0 || region.height == 0 {
+        return out;
+    }
+    let step = TILE as usize;
+    for y in (region.y - region.y % TILE..region.y + region.height).step_by(step) {
+        for x in (region.x - region.x % TILE..region.x + region.width).step_by(step) {
+            let whole = Region { x, y, width: TILE, height: TILE };
+            let counts = FragmentCounts::default();
+            out.push(Work { region: whole.intersect(region), tile: None, counts });
+        }
+    }
+    out
+}
+
+/// Draws some triangles into all tiles.
+fn shade(
+    memory: &Memory,
+    call: &DrawCall<'_>,
+    setups: &[TriangleSetup],
+    executor: &dyn TileExecutor,
+    work: &mut [Work],
+) -> Result<(), MachineError> {
+    let rows = row_bins(setups, work);
+    work.par_iter_mut().try_for_each(|work| {
+        let Some(row) = rows.get((work.region.y / TILE) as usize) else {
+            return Ok(());
+        };
+        let touches = |i: &u32| setups.get(*i as usize).is_some_and(|s| !s.misses(work.region));
+        let order: Vec<u32> = row.iter().copied().filter(touches).collect();
+        if order.is_empty() {
+            return Ok(());
+        }
+        let tile = match &mut work.tile {
+            Some(tile) => tile,
+            empty => empty.insert(load(memory, call, work.region)?),
+        };
+        work.counts += executor.run_tile(setups, &order, tile);
+        Ok(())
+    })
+}
+
+/// For each row of tiles the triangles whose bounding box meets it, in order.
+fn row_bins(setups: &[TriangleSetup], work: &[Work]) -> Vec<Vec<u32>> {
+    let count = work.last().map_or(0, |w| w.region.y / TILE + 1);
+    let mut rows = vec![Vec::new(); count as usize];
+    for (index, setup) in (0u32..).zip(setups) {
+        let first = setup.bounds.y / TILE;
+        let last = (setup.bounds.y + setup.bounds.height.max(1) - 1) / TILE;
+        for row in rows.iter_mut().take(last as usize + 1).skip(first as usize) {
+            row.push(index);
+        }
+    }
+    rows
+}
+
+fn load(memory: &Memory, call: &DrawCall<'_>, region: Region) -> Result<TargetTile, MachineError> {
+    let mut colors = Vec::with_capacity(call.targets.len());
+    for &id in &call.targets {
+        colors.push(Some(memory.texture(id)?));
+    }
+    let depth = call.depth_buffer.map(|id| memory.depth(id)).transpose()?;
+    Ok(TargetTile::load(&colors, depth, region)?)
+}
+
+/// Memory traffic, worked out from the counts.
+fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_>, events: &DrawEvents) -> ByteCounts {
+    let f = &events.fragments;
+    let (per_vertex, per_instance) = stage.bytes();
+    let mut out = ByteCounts {
+        vertices: per_vertex * events.vertices + per_instance * events.instances,
+        ..ByteCounts::default()
+    };
+    for (bound, fetches) in call.samplers.iter().zip(f.fetches) {
+        let image = bound.and_then(|b| memory.texture(b.texture).ok());
+        out.textures += fetches * image.map_or(0, |i| i.format().bytes() as u64);
+    }
+    let depth_size = match call.depth_buffer.and_then(|id| memory.depth(id).ok()) {
+        Some(surface) => depth_bytes(surface.format()),
+        None => 0,
+    };
+    if call.depth.test.is_some() {
+        out.depth_read = depth_size * (f.depth_failed + f.passed);
+        out.depth_written = if call.depth.write { depth_size * f.passed } else { 0 };
+    }
+    let written = crate::exec::colors_written(crate::exec::program(call.pixel_program));
+    for (i, (&id, mask)) in call.targets.iter().zip(call.masks).enumerate() {
+        let Ok(image) = memory.texture(id) else { continue };
+        let stored = image.format().record().stored();
+        let wanted = stored.iter().filter(|c| mask.has(c.stored_from)).count();
+        if written >> i & 1 == 0 || wanted == 0 {
+            continue;
+        }
+        let size = image.format().bytes() as u64 * f.passed;
+        out.color_written += size;
+        if call.blend.is_some() || wanted < stored.len() {
+            out.color_read += size;
+        }
+    }
+    out
+}
+
+fn depth_bytes(format: crate::output::DepthFormat) -> u64 {
+    use crate::output::DepthFormat::{Float24, Float32, Unorm16, Unorm24, Unorm32};
+    match format {
+        Unorm16 => 2,
+        Unorm24 | Unorm32 | Float32 | Float24 => 4,
+    }
+}
