@@ -2,7 +2,10 @@
 
 pub mod asm;
 pub mod device;
+pub mod event;
+pub mod exec;
 pub mod isa;
+pub mod machine;
 pub mod num;
 pub mod output;
 pub mod raster;

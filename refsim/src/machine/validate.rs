@@ -11,8 +11,6 @@ use crate::texture::{Filter, MipFilter, Region};
 
 /// What a checked call comes to.
 pub(super) struct Plan {
-    /// The pixels of the targets.
-    pub(super) target: Region,
     /// State of the rasteriser.
     pub(super) raster: RasterState,
     /// Vertices of one instance.
@@ -42,7 +40,7 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
             (streams.vertex_count, streams.instance_count)
         }
     };
-    Ok(Plan { target, raster, vertex_count, instance_count, triangles: triangles(call, vertex_count)? })
+    Ok(Plan { raster, vertex_count, instance_count, triangles: triangles(call, vertex_count)? })
 }
 
 fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {

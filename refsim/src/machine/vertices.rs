@@ -56,7 +56,7 @@ impl<'a> VertexStage<'a> {
     /// Bytes that one vertex reads, and bytes that one instance reads once.
     pub(super) fn bytes(&self) -> (u64, u64) {
         match self {
-            Self::Transformed(_) => (std::mem::size_of::<Vertex>() as u64, 0),
+            Self::Transformed(_) => (size_of::<Vertex>() as u64, 0),
             Self::Program(_, streams) => {
                 let of = |step| 16 * streams.streams.iter().filter(|s| s.step == step).count() as u64;
                 (of(StepRate::Vertex), of(StepRate::Instance))
