@@ -126,6 +126,10 @@ fn scan(text: &str, start: usize) -> Result<Literal, DecimalError> {
     Ok(literal)
 }
 
+fn count(digits: &[u8]) -> i64 {
+    i64::try_from(digits.len()).unwrap_or(i64::MAX)
+}
+
 fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
     let format = &env.format;
     if literal.digits.is_empty() {
@@ -144,7 +148,7 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
     }
     let ten = BigUint::from(10u32);
     let digits = BigUint::from_radix_be(&literal.digits, 10).unwrap_or_default();
-    let scale = literal.point - literal.digits.len() as i64;
+    let scale = literal.point - count(&literal.digits);
     let power = ten.pow(u32::try_from(scale.unsigned_abs()).unwrap_or(0));
     let (num, den) = if scale >= 0 { (digits * power, BigUint::from(1u32)) } else { (digits, power) };
     // 66 quotient bits at least, down to 2^-40 at least.
@@ -155,7 +159,7 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
     let drop = quotient.bits().saturating_sub(126);
     sticky |= quotient.trailing_zeros().unwrap_or(0) < drop;
     let kept = (quotient >> drop).to_u128().unwrap_or(0);
-    let exp = drop as i64 - left as i64;
+    let exp = drop.cast_signed() - left.cast_signed();
     if format.is_fixed() && exp > -40 {
         return too_large();
     }
@@ -209,7 +213,7 @@ fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static s
         (BigUint::from(sig) * BigUint::from(5u32).pow(exp.unsigned_abs()), i64::from(exp.unsigned_abs()))
     };
     let mut digits = number.to_radix_be(10);
-    let point = digits.len() as i64 - places;
+    let point = count(&digits) - places;
     while digits.last() == Some(&0) {
         digits.pop();
     }
@@ -259,7 +263,7 @@ fn plain(sign: bool, digits: &[u8], point: i64) -> String {
     } else {
         let whole = digits.len().min(usize::try_from(point).unwrap_or(0));
         push(&mut text, &digits[..whole]);
-        push(&mut text, &zeros(point - whole as i64));
+        push(&mut text, &zeros(point - count(&digits[..whole])));
         if whole < digits.len() {
             text.push('.');
             push(&mut text, &digits[whole..]);

@@ -1,0 +1,147 @@
+//! fp16 against rustc_apfloat.
+
+use rayon::prelude::*;
+use refsim::num::{Flags, Format, Outcome, Rounding, ops};
+use rustc_apfloat::ieee::{Double, Half, Single};
+use rustc_apfloat::{Float, FloatConvert, Round, Status, StatusAnd};
+
+use crate::full;
+
+pub(crate) const MODES: [(Rounding, Round); 2] =
+    [(Rounding::NearestEven, Round::NearestTiesToEven), (Rounding::TowardZero, Round::TowardZero)];
+
+/// apfloat's status in our flags.
+pub(crate) fn flags(status: Status) -> Flags {
+    let mut flags = Flags::empty();
+    flags.set(Flags::INEXACT, status.contains(Status::INEXACT));
+    flags.set(Flags::UNDERFLOW, status.contains(Status::UNDERFLOW));
+    flags.set(Flags::OVERFLOW, status.contains(Status::OVERFLOW));
+    flags.set(Flags::DIVIDE_BY_ZERO, status.contains(Status::DIV_BY_ZERO));
+    flags.set(Flags::INVALID, status.contains(Status::INVALID_OP));
+    flags
+}
+
+/// Compares bits (NaN as a class) and flags.
+///
+/// apfloat calls a result tiny if it is still subnormal after rounding to the subnormal grid; we round to the full
+/// precision first, as IEEE 754 says. Both agree except where the result is the smallest normal number. And apfloat
+/// raises no overflow where rounding toward zero makes of it the largest finite number; IEEE 754 does. The flags left
+/// out here are compared with exact fractions in `small`.
+pub(crate) fn agree<F: Float>(f: &Format, ours: Outcome, theirs: StatusAnd<F>) -> Result<(), String> {
+    let expected = theirs.value.to_bits() as u32;
+    let same_bits = ours.bits == expected || (theirs.value.is_nan() && Some(ours.bits) == f.canonical_nan());
+    let mut mask = Flags::all();
+    let magnitude = ours.bits & !f.sign_bit();
+    if !f.is_subnormal(magnitude) && f.is_subnormal(magnitude.wrapping_sub(1)) {
+        mask.remove(Flags::UNDERFLOW);
+    }
+    if magnitude == f.max_finite() {
+        mask.remove(Flags::OVERFLOW);
+    }
+    if same_bits && ours.flags & mask == flags(theirs.status) & mask {
+        return Ok(());
+    }
+    Err(format!("{f}: found {:#x} {:?}, expected {expected:#x} {:?}", ours.bits, ours.flags, flags(theirs.status)))
+}
+
+type Ours = fn(Format, u32, u32) -> Outcome;
+type Theirs = fn(Half, Half, Round) -> StatusAnd<Half>;
+
+/// First operands of the short form: a stride, and the ends of every range.
+fn first_operands() -> Vec<u32> {
+    if full() {
+        return (0..=0xffff).collect();
+    }
+    let edges = [0, 1, 2, 0x3ff, 0x400, 0x401, 0x3bff, 0x3c00, 0x3c01, 0x7bff, 0x7c00, 0x7c01, 0x7e00];
+    edges.iter().flat_map(|e| [*e, e | 0x8000]).chain((0..0x1_0000).step_by(2039)).collect()
+}
+
+fn all_pairs(name: &str, ours: Ours, theirs: Theirs) {
+    for (rounding, round) in MODES {
+        let f = Format::FP16.with_rounding(rounding);
+        first_operands().par_iter().for_each(|&a| {
+            let half_a = Half::from_bits(a.into());
+            for b in 0..=0xffff {
+                let result = agree(&f, ours(f, a, b), theirs(half_a, Half::from_bits(b.into()), round));
+                assert!(result.is_ok(), "{name} {a:#06x} {b:#06x}: {}", result.unwrap_err());
+            }
+        });
+    }
+}
+
+#[test]
+fn add_equals_apfloat() {
+    all_pairs("add", |f, a, b| ops::add(f, a, b), |a, b, round| a.add_r(b, round));
+}
+
+#[test]
+fn sub_equals_apfloat() {
+    all_pairs("sub", |f, a, b| ops::sub(f, a, b), |a, b, round| a.sub_r(b, round));
+}
+
+#[test]
+fn mul_equals_apfloat() {
+    all_pairs("mul", |f, a, b| ops::mul(f, a, b), |a, b, round| a.mul_r(b, round));
+}
+
+#[test]
+fn div_equals_apfloat() {
+    all_pairs("div", |f, a, b| ops::div(f, a, b), |a, b, round| a.div_r(b, round));
+}
+
+/// apfloat has no square root. The host's in double precision is correctly rounded, and the root of an 11-bit number
+/// is either such a number or midpoint itself or further from one than 2^-53 of its size, so rounding its double
+/// once more, by apfloat, is exact.
+#[test]
+fn sqrt_equals_double() {
+    for (rounding, round) in MODES {
+        let f = Format::FP16.with_rounding(rounding);
+        for a in 0..=0xffffu32 {
+            let wide: StatusAnd<Double> = Half::from_bits(a.into()).convert(&mut false);
+            let root = f64::from_bits(wide.value.to_bits() as u64).sqrt();
+            let mut theirs: StatusAnd<Half> = Double::from_bits(root.to_bits().into()).convert_r(round, &mut false);
+            theirs.status |= wide.status;
+            let negative = a > 0x8000 && a <= 0xfc00;
+            if negative {
+                theirs.status = Status::INVALID_OP;
+            } else if root * root != f64::from_bits(wide.value.to_bits() as u64) && !root.is_nan() {
+                theirs.status |= Status::INEXACT;
+            }
+            let result = agree(&f, ops::sqrt(f, a), theirs);
+            assert!(result.is_ok(), "sqrt {a:#06x}: {}", result.unwrap_err());
+        }
+    }
+}
+
+#[test]
+fn conversion_from_single_equals_apfloat() {
+    // An odd stride visits every exponent and, over the exponents, every low mantissa pattern.
+    let stride = if full() { 1 } else { 1021 };
+    for (rounding, round) in MODES {
+        let f = Format::FP16.with_rounding(rounding);
+        (0..=u32::MAX / stride).into_par_iter().for_each(|i| {
+            let bits = i * stride;
+            let theirs: StatusAnd<Half> = Single::from_bits(bits.into()).convert_r(round, &mut false);
+            let result = agree(&f, ops::convert(&Format::FP32, f, bits), theirs);
+            assert!(result.is_ok(), "convert {bits:#010x}: {}", result.unwrap_err());
+        });
+    }
+}
+
+/// Random and extreme triples; three operands are too many to walk.
+#[test]
+fn fused_equals_apfloat() {
+    let rounds = if full() { 200_000_000 } else { 400_000 };
+    for (rounding, round) in MODES {
+        let f = Format::FP16.with_rounding(rounding);
+        (0..64u64).into_par_iter().for_each(|seed| {
+            let mut cases = crate::Cases(seed);
+            for _ in 0..rounds / 64 {
+                let [a, b, c] = std::array::from_fn(|_| cases.float_bits(5, 10));
+                let [ha, hb, hc] = [a, b, c].map(|x| Half::from_bits(x.into()));
+                let result = agree(&f, ops::fused_mad(f, a, b, c), ha.mul_add_r(hb, hc, round));
+                assert!(result.is_ok(), "fused {a:#06x} {b:#06x} {c:#06x}: {}", result.unwrap_err());
+            }
+        });
+    }
+}

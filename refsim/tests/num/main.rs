@@ -1,0 +1,61 @@
+//! Proofs about `refsim::num`: against other implementations, against exact arithmetic, against stated laws.
+//!
+//! | file | what is compared with what |
+//! |---|---|
+//! | `values` | values a reader can check by hand, and messages |
+//! | `half` | every fp16 operand pair with rustc_apfloat |
+//! | `fixed` | every s3.12 product with plain integers |
+//! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
+//! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
+//! | `transcendental` | `exp2` and `log2` with series and roots of their own |
+//! | `laws` | what must hold for all formats and values |
+//!
+//! By default each proof walks a part of its range, spread over all of it. `CROSSBAR_FULL=1` walks everything.
+
+mod fixed;
+mod half;
+mod laws;
+mod rational;
+mod small;
+mod small_ops;
+mod transcendental;
+mod values;
+mod wide;
+
+/// Whether the whole range is asked for.
+fn full() -> bool {
+    std::env::var_os("CROSSBAR_FULL").is_some_and(|v| v != "0" && !v.is_empty())
+}
+
+/// A number generator for reproducible cases (the splitmix64 recurrence).
+struct Cases(u64);
+
+impl Cases {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A pattern of a float format: uniform bits, or an interesting exponent and mantissa.
+    fn float_bits(&mut self, exp_bits: u32, man_bits: u32) -> u32 {
+        let random = self.next();
+        let width = 1 + exp_bits + man_bits;
+        let mask = u32::MAX >> (32 - width);
+        if random & 1 == 0 {
+            return (random >> 32) as u32 & mask;
+        }
+        let bias = (1u32 << (exp_bits - 1)) - 1;
+        let top = (1u32 << exp_bits) - 1;
+        let near = bias.wrapping_add((random >> 8) as u32 % 9).wrapping_sub(4);
+        let exponents = [0, 1, 2, near, near, bias, bias + 1, bias - man_bits.min(bias), top - 2, top - 1, top];
+        let field = exponents[(random >> 16) as usize % exponents.len()].min(top);
+        let ones = (1u32 << man_bits) - 1;
+        let raw = (random >> 32) as u32 & ones;
+        let mantissas = [0, 1, ones, ones - 1, 1 << (man_bits - 1), raw, raw, raw & (ones << (man_bits / 2) & ones)];
+        let man = mantissas[(random >> 24) as usize % mantissas.len()];
+        ((random >> 1) as u32 & 1) << (width - 1) | field << man_bits | man
+    }
+}

@@ -1,0 +1,161 @@
+//! Rounding by its definition: among all numbers of a short format, the neighbours of an exact value are looked up.
+//!
+//! Nothing here knows shifts, sticky bits or significands. The exact value is given by how it compares with any
+//! fraction, so a square root is as good as a quotient.
+
+use std::cmp::Ordering;
+
+use refsim::num::{Denormals, Flags, Format, Kind, Outcome, Overflow, Rounding, Tininess};
+
+/// A fraction `n / d` with `d > 0`, reduced by twos only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Q {
+    pub(crate) n: i128,
+    pub(crate) d: i128,
+}
+
+impl Q {
+    pub(crate) fn new(n: i128, d: i128) -> Q {
+        assert!(d != 0, "a fraction needs a denominator");
+        let twos = n.trailing_zeros().min(d.trailing_zeros());
+        let (n, d) = (n >> twos, d >> twos);
+        if d < 0 { Q { n: -n, d: -d } } else { Q { n, d } }
+    }
+
+    /// `n * 2^k`.
+    pub(crate) fn scaled(n: i128, k: i32) -> Q {
+        if k >= 0 { Q::new(n << k, 1) } else { Q::new(n, 1 << -k) }
+    }
+
+    pub(crate) fn cmp(self, other: Q) -> Ordering {
+        (self.n * other.d).cmp(&(other.n * self.d))
+    }
+
+    pub(crate) fn add(self, other: Q) -> Q {
+        Q::new(self.n * other.d + other.n * self.d, self.d * other.d)
+    }
+
+    pub(crate) fn mul(self, other: Q) -> Q {
+        Q::new(self.n * other.n, self.d * other.d)
+    }
+
+    pub(crate) fn halved(self) -> Q {
+        Q::new(self.n, 2 * self.d)
+    }
+
+    pub(crate) fn negated(self) -> Q {
+        Q { n: -self.n, d: self.d }
+    }
+
+    pub(crate) fn abs(self) -> Q {
+        Q { n: self.n.abs(), d: self.d }
+    }
+
+    pub(crate) fn floor(self) -> i128 {
+        self.n.div_euclid(self.d)
+    }
+}
+
+/// The magnitude of the `i`th non-negative number of a format; the one after the last finite float is `2^(emax+1)`.
+pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
+    match f.kind {
+        Kind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
+        Kind::Float { exp_bits, man_bits } => {
+            let bias = (1 << (exp_bits - 1)) - 1;
+            let (field, man) = ((i >> man_bits).cast_signed(), i128::from(i & ((1 << man_bits) - 1)));
+            let hidden = if field == 0 { 0 } else { 1 << man_bits };
+            Q::scaled(hidden + man, field.max(1) - bias - i32::from(man_bits))
+        }
+    }
+}
+
+/// Whether a value between two neighbours goes to the upper one. `against` orders the value against a fraction.
+fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, against: &impl Fn(Q) -> Ordering) -> bool {
+    match rounding {
+        Rounding::TowardZero => false,
+        Rounding::Down => negative,
+        Rounding::NearestEven | Rounding::NearestAway => match against(low.add(high).halved()) {
+            Ordering::Less => false,
+            Ordering::Greater => true,
+            Ordering::Equal => rounding == Rounding::NearestAway || !low_even,
+        },
+    }
+}
+
+/// The last of `0 .. end` whose magnitude isn't above the value.
+fn below(f: &Format, end: u64, against: &impl Fn(Q) -> Ordering) -> u64 {
+    let (mut low, mut high) = (0, end);
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        let candidate = match f.kind {
+            Kind::Fixed { frac_bits, .. } => Q::scaled(middle.into(), -i32::from(frac_bits)),
+            Kind::Float { .. } => magnitude(f, middle as u32),
+        };
+        if against(candidate).is_lt() { high = middle } else { low = middle }
+    }
+    low
+}
+
+/// Rounds a positive magnitude.
+pub(crate) fn round(f: &Format, tininess: Tininess, negative: bool, against: impl Fn(Q) -> Ordering) -> Outcome {
+    if f.is_fixed() { round_fixed(f, negative, &against) } else { round_float(f, tininess, negative, &against) }
+}
+
+fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
+    let unit = |i: u64| Q::new(i.into(), 1).mul(magnitude(f, 1));
+    let range = 1u64 << f.width();
+    let mut end = range;
+    // Nothing that wraps in these tests reaches 2^40; what saturates needs no place in the order beyond it.
+    while end < 1 << 40 && against(unit(end)).is_ge() {
+        end *= 2;
+    }
+    let low = below(f, end, against);
+    let inexact = against(unit(low)).is_ne();
+    let whole = low + u64::from(inexact && up(f.rounding, negative, unit(low), unit(low + 1), low % 2 == 0, against));
+    let end = range / 2 - u64::from(!negative);
+    if whole <= end {
+        let bits = if negative { (range - whole) as u32 } else { whole as u32 } & f.mask();
+        return Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() });
+    }
+    let bits = match (f.overflow, negative) {
+        (Overflow::Wrap, true) => (range - whole % range) as u32 & f.mask(),
+        (Overflow::Wrap, false) => (whole % range) as u32,
+        _ => f.extreme(negative),
+    };
+    Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT)
+}
+
+fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
+    let Kind::Float { man_bits, .. } = f.kind else { unreachable!("a float") };
+    let sign = if negative { f.sign_bit() } else { 0 };
+    let infinity = f.max_finite() + 1;
+    let beyond = against(magnitude(f, infinity)).is_ge();
+    let low = below(f, infinity.into(), against) as u32;
+    let (here, next) = (magnitude(f, low), magnitude(f, low + 1));
+    let inexact = against(here).is_ne();
+    let rounded = low + u32::from(inexact && up(f.rounding, negative, here, next, low % 2 == 0, against));
+    if beyond || rounded == infinity {
+        let infinite = match (f.overflow, f.rounding) {
+            (Overflow::Saturate, _) => false,
+            (Overflow::Nv30, _) => beyond,
+            (_, Rounding::TowardZero) => false,
+            (_, Rounding::Down) => negative,
+            _ => true,
+        };
+        return Outcome::new(sign | (infinity - u32::from(!infinite)), Flags::OVERFLOW | Flags::INEXACT);
+    }
+    let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
+    let normal = magnitude(f, 1 << man_bits);
+    if inexact && against(normal).is_lt() {
+        // The number before the smallest normal one, were there no lower end of the exponent.
+        let before = normal.add(magnitude(f, 1).halved().negated());
+        let reaches = tininess == Tininess::After
+            && against(before).is_gt()
+            && up(f.rounding, negative, before, normal, false, against);
+        flags.set(Flags::UNDERFLOW, !reaches);
+    }
+    if f.denormals == Denormals::Flush && rounded != 0 && rounded < 1 << man_bits {
+        return Outcome::new(sign, Flags::UNDERFLOW | Flags::INEXACT);
+    }
+    Outcome::new(sign | rounded, flags)
+}
