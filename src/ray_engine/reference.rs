@@ -1,0 +1,70 @@
+//! Equations (1) to (8) in f64, without the card: what a kernel computes, up to its rounding.
+//!
+//! For reading beside the paper, and as the independent answer in `tests/papers`. Whether a ray *truly* hits is
+//! decided by [`crate::geom::exact`], not here.
+
+/// A vector of three f64.
+pub type Vec3 = [f64; 3];
+
+/// What equations (3) and (6) to (8) give for one ray and one triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Equation (3): the ray parameter; infinite or NaN for a ray in the plane.
+    pub t: f64,
+    /// Equation (6), unnormalised.
+    pub u: f64,
+    /// Equation (7), unnormalised.
+    pub v: f64,
+    /// Equation (8) with the sign that makes it positive inside a front face, unnormalised.
+    pub w: f64,
+    /// `n . d`: negative for a front face; `u + v + w = -n.d`.
+    pub n_dot_d: f64,
+}
+
+impl Crossing {
+    /// Section 4.3: a hit has all three barycentric coordinates non-negative, and t >= 0.
+    pub fn hits_front(&self) -> bool {
+        self.n_dot_d < 0.0 && self.t >= 0.0 && self.u >= 0.0 && self.v >= 0.0 && self.w >= 0.0
+    }
+
+    /// A hit from either side: all three coordinates have the sign of `-n.d`.
+    pub fn hits_either(&self) -> bool {
+        let sign = if self.n_dot_d < 0.0 { 1.0 } else { -1.0 };
+        self.n_dot_d != 0.0
+            && self.t >= 0.0
+            && self.u * sign >= 0.0
+            && self.v * sign >= 0.0
+            && self.w * sign >= 0.0
+    }
+}
+
+/// Evaluates the equations for the ray `o + t d` and the triangle `a b c`.
+pub fn intersect(o: Vec3, d: Vec3, [a, b, c]: [Vec3; 3]) -> Crossing {
+    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+    let n = cross(ab, ac);
+    let ao = sub(o, a); // (1)
+    let bo = sub(o, b); // (2)
+    let n_dot_d = dot(n, d);
+    let t = -dot(n, ao) / n_dot_d; // (3)
+    let aod = cross(ao, d); // (4)
+    let bod = cross(bo, d); // (5)
+    let u = dot(ac, aod); // (6)
+    let v = -dot(ab, aod); // (7)
+    let w = -dot(bc, bod); // (8), DIFFERENCE: printed without the minus
+    Crossing { t, u, v, w, n_dot_d }
+}
+
+/// `a - b`
+pub fn sub(a: Vec3, b: Vec3) -> Vec3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `a . b`
+pub fn dot(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// `a x b`
+pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
