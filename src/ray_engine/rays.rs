@@ -3,105 +3,70 @@
 //! A card's registers have a range, its ray textures another, its depth buffer a third. The host brings rays and
 //! scene into them by powers of two alone, so that no bit of the input is lost before the card rounds it.
 
+use crate::geom::Ray;
+
 /// Rays as a rectangle of pixels, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayBatch {
-    /// Rays in a row.
+    width: u32,
+    height: u32,
+    rays: Vec<Ray>,
+}
+
+/// The rays fill no such rectangle.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected {width} x {height} rays for a batch of that size, found {found}")]
+pub struct RayBatchError {
+    /// Columns.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Where the rays start.
-    pub origins: Origins,
-    /// `width * height` directions, of any length but zero.
-    pub directions: Vec<[f32; 3]>,
-}
-
-/// Where the rays of a batch start.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Origins {
-    /// All at one point: eye rays, or rays from a point light.
-    Common([f32; 3]),
-    /// `width * height` points.
-    Each(Vec<[f32; 3]>),
-}
-
-/// The batch is no rectangle of rays.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RayBatchError {
-    /// The lists' lengths and the rectangle differ.
-    #[error("expected {expected} {what} for a batch of {width} x {height} rays, found {found}")]
-    Count {
-        /// What was counted.
-        what: &'static str,
-        /// Columns.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// `width * height`.
-        expected: usize,
-        /// The list's length.
-        found: usize,
-    },
-    /// A ray has no direction, or a component is NaN or infinite.
-    #[error("ray {ray}: expected finite components and a direction other than zero")]
-    BadRay {
-        /// The ray's number.
-        ray: usize,
-    },
+    /// The rays given.
+    pub found: usize,
 }
 
 impl RayBatch {
-    /// A batch that has been looked over: counts agree, all components are finite, no direction is zero.
+    /// `width * height` rays, row by row.
     ///
     /// # Errors
-    /// [`RayBatchError`] says which ray or list is wrong.
-    pub fn new(
-        width: u32,
-        height: u32,
-        origins: Origins,
-        directions: Vec<[f32; 3]>,
-    ) -> Result<Self, RayBatchError> {
-        let expected = width as usize * height as usize;
-        let count = |what, found| {
-            if found == expected { Ok(()) } else { Err(RayBatchError::Count { what, width, height, expected, found }) }
-        };
-        count("directions", directions.len())?;
-        let finite = |v: &[f32; 3]| v.iter().all(|x| x.is_finite());
-        match &origins {
-            Origins::Common(origin) if !finite(origin) => return Err(RayBatchError::BadRay { ray: 0 }),
-            Origins::Common(_) => {}
-            Origins::Each(each) => {
-                count("origins", each.len())?;
-                if let Some(ray) = each.iter().position(|o| !finite(o)) {
-                    return Err(RayBatchError::BadRay { ray });
-                }
-            }
-        }
-        match directions.iter().position(|d| !finite(d) || d.iter().all(|x| *x == 0.0)) {
-            Some(ray) => Err(RayBatchError::BadRay { ray }),
-            None => Ok(Self { width, height, origins, directions }),
+    /// [`RayBatchError`] if there are more or fewer.
+    pub fn new(width: u32, height: u32, rays: Vec<Ray>) -> Result<Self, RayBatchError> {
+        if rays.len() == width as usize * height as usize {
+            Ok(Self { width, height, rays })
+        } else {
+            Err(RayBatchError { width, height, found: rays.len() })
         }
     }
 
-    /// A list of rays, laid out in rows of `width` and padded by repeating the last one.
-    /// The answers to the padding are to be dropped. An empty list gives a batch of no rows.
-    ///
-    /// # Errors
-    /// As [`RayBatch::new`].
-    pub fn from_list(rays: &[([f32; 3], [f32; 3])], width: u32) -> Result<Self, RayBatchError> {
+    /// A list of rays, laid out in rows of `width` (at least 1) and padded by repeating the last one. The answers to the
+    /// padding are to be dropped. An empty list gives a batch of no rows.
+    pub fn from_list(rays: &[Ray], width: u32) -> Self {
+        let width = width.max(1);
         let height = u32::try_from(rays.len().div_ceil(width as usize)).unwrap_or(u32::MAX);
         let count = width as usize * height as usize;
-        let padded = rays.iter().chain(rays.last().into_iter().cycle()).take(count);
-        let (origins, directions) = padded.copied().unzip();
-        Self::new(width, height, Origins::Each(origins), directions)
+        let padded = rays.iter().chain(rays.last().into_iter().cycle()).take(count).copied();
+        Self { width, height, rays: padded.collect() }
     }
 
-    /// The origin of ray `ray`.
-    pub fn origin(&self, ray: usize) -> [f32; 3] {
-        match &self.origins {
-            Origins::Common(origin) => *origin,
-            Origins::Each(each) => each[ray],
-        }
+    /// Rays in a row.
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The rays, row by row.
+    pub fn rays(&self) -> &[Ray] {
+        &self.rays
+    }
+
+    /// The point at which all rays start, if there is one: eye rays, or rays from a point light.
+    pub fn common_origin(&self) -> Option<[f32; 3]> {
+        let first = self.rays.first()?.origin();
+        self.rays.iter().all(|r| r.origin() == first).then_some(first)
     }
 }
 
@@ -158,9 +123,12 @@ mod tests {
 
     #[test]
     fn lists_are_padded_with_their_last_ray() {
-        let ray = |x| ([x, 0.0, 0.0], [0.0, 0.0, 1.0]);
-        let batch = RayBatch::from_list(&[ray(1.0), ray(2.0), ray(3.0)], 2).expect("three good rays");
-        assert_eq!((batch.width, batch.height), (2, 2), "two rows of two");
-        assert_eq!(batch.origin(3), [3.0, 0.0, 0.0], "the last one is repeated");
+        let ray = |x| Ray::new([x, 0.0, 0.0], [0.0, 0.0, 1.0]).expect("a ray");
+        let batch = RayBatch::from_list(&[ray(1.0), ray(2.0), ray(3.0)], 2);
+        assert_eq!((batch.width(), batch.height()), (2, 2), "two rows of two");
+        assert_eq!(batch.rays()[3], ray(3.0), "the last one is repeated");
+        assert_eq!(batch.common_origin(), None, "three origins");
+        assert_eq!(RayBatch::from_list(&[ray(1.0); 3], 2).common_origin(), Some([1.0, 0.0, 0.0]), "one origin");
+        assert_eq!(RayBatch::from_list(&[], 2).height(), 0, "no rays, no rows");
     }
 }

@@ -1,0 +1,36 @@
+//! The intersection programs as period assembly, embedded.
+
+/// A program text with the name under which messages speak of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KernelText {
+    /// The file's name.
+    pub name: &'static str,
+    /// Its contents.
+    pub text: &'static str,
+}
+
+macro_rules! kernels {
+    ($($constant:ident $file:literal)*) => {
+        $(
+            #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
+            pub const $constant: KernelText = KernelText { name: $file, text: include_str!($file) };
+        )*
+        /// Every program of this folder.
+        pub const ALL: &[KernelText] = &[$($constant),*];
+    };
+}
+
+kernels! {
+    ONE_ORIGIN_SETUP "one_origin.vsa"
+    ONE_ORIGIN_BOTH_SETUP "one_origin_both.vsa"
+    ANY_ORIGIN_SETUP "any_origin.vsa"
+    SEVEN_VECTORS_SETUP "seven_vectors.vsa"
+    ONE_ORIGIN_UNSIGNED "one_origin_unsigned.psa"
+    ONE_ORIGIN_SIGNED "one_origin_signed.psa"
+    ANY_ORIGIN_UNSIGNED "any_origin_unsigned.psa"
+    ANY_ORIGIN_SIGNED "any_origin_signed.psa"
+    ANY_ORIGIN_BOTH_UNSIGNED "any_origin_both_unsigned.psa"
+    ANY_ORIGIN_BOTH_SIGNED "any_origin_both_signed.psa"
+    FLOAT "float.psa"
+    FLOAT_BOTH "float_both.psa"
+}

@@ -1,0 +1,14 @@
+//! System 1: the Ray Engine. Ray-triangle intersection as a pixel program; the crossbar of rays and triangles.
+//!
+//! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
+//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
+
+mod crossbar;
+mod kernel;
+pub mod kernels;
+mod rays;
+pub mod reference;
+
+pub use crossbar::{Answer, Crossbar, EngineError, Hit};
+pub use kernel::{Form, Kernel};
+pub use rays::{RayBatch, RayBatchError, ceil_power_of_two, normalise_range, power_of_two, scale_into};

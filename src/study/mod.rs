@@ -1,0 +1,5 @@
+//! Studies: one file a question. Parameters go in, rows and a verdict come out; nothing is printed here.
+
+pub mod configuration;
+pub mod leaky_teapot;
+pub mod shade;
