@@ -1,0 +1,166 @@
+//! `crossbar leaky-teapot`: the main job.
+
+use std::path::PathBuf;
+
+use miette::IntoDiagnostic as _;
+use refsim::machine::ExecutorKind;
+use refsim::num::Format;
+
+use super::{Out, Progress, Verdict, view};
+use crate::geom::exact::Sides;
+use crate::geom::teapot::teapot;
+use crate::ray_engine::RayBatch;
+use crate::report::Provenance;
+use crate::scene::Camera;
+use crate::study::configuration::Configuration;
+use crate::study::leaky_teapot::{Parameters, run as run_study};
+use crate::study::leaky_teapot_report::{files, tables};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar leaky-teapot
+      Figure 4 of the Ray Engine paper and the study behind it, in out/leaky-teapot/index.html
+  crossbar leaky-teapot --size 256x256 --format s3.12 --format e5m10:rtz --format fp32 --out formats
+      number formats of your own choice, on a device without limits
+  crossbar leaky-teapot --device r300 --device nv35 --json
+      two cards as they are, the rows as JSON on standard output
+
+With --device and --format both, every device runs in every format. Written to --out: index.html (self-contained), rows.csv,
+edges.csv, study.json, and a row NAME: NAME.png (shaded), NAME-map.png (what is wrong where), NAME.exr (t and triangle).";
+
+/// Trace the teapot in each number format, against exact arithmetic
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = view::parse_size)]
+    size: (u32, u32),
+
+    /// Quads along each side of each of the 32 Bezier patches
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
+    tessellation: u32,
+
+    /// A card to run on; may be repeated [default: r200, as it is and under each of its open switches]
+    #[arg(long, value_name = "D")]
+    device: Vec<String>,
+
+    /// A number format to compute in; may be repeated [default: fp16, fp24 and fp32]
+    #[arg(long, value_name = "F")]
+    format: Vec<String>,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/leaky-teapot")]
+    out: PathBuf,
+
+    /// Rays aimed at each edge that two triangles share, for the second table; 0 leaves the table out
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
+    rays_per_edge: u32,
+
+    /// Seed of the points on the edges
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
+    seed: u64,
+
+    /// Which faces can be hit
+    #[arg(long, value_enum, default_value = "front")]
+    sides: view::SidesArg,
+
+    /// Which executor computes; the bits are the same
+    #[arg(long, value_enum, default_value = "batch")]
+    executor: view::DeviceExecutor,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let configurations = configurations(args)?;
+    let mesh = teapot(args.tessellation).into_diagnostic()?;
+    let (width, height) = args.size;
+    let camera = Camera::teapot(width, height).into_diagnostic()?;
+    let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
+    let provenance = provenance(args, &configurations);
+    let bar = Progress::new("tracing", configurations.len() as u64 + 1);
+    let parameters = Parameters {
+        mesh,
+        view: rays,
+        sides: Sides::from(args.sides),
+        configurations,
+        rays_per_edge: args.rays_per_edge,
+        seed: args.seed,
+        executor: ExecutorKind::from(args.executor),
+    };
+    let outcome = run_study(&parameters, &|_| bar.advance(1))?;
+    drop(bar);
+    let written = files(&parameters, &outcome, &provenance)?;
+    view::write_folder(&args.out, &written)?;
+    let [rows, edges] = tables(&outcome);
+    if out.json() {
+        out.document(&serde_json::json!({
+            "provenance": provenance, "rows": rows.json(), "edges": edges.json(), "out": args.out,
+        }))?;
+        return Ok(Verdict::Done);
+    }
+    out.line(rows.title())?;
+    out.line(rows.text())?;
+    if args.rays_per_edge > 0 {
+        out.line("")?;
+        out.line(edges.title())?;
+        out.line(edges.text())?;
+    }
+    out.line("")?;
+    out.line(format_args!("pictures and tables: {}", args.out.join("index.html").display()))?;
+    Ok(Verdict::Done)
+}
+
+fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
+    let formats: Vec<(&str, Format)> = args
+        .format
+        .iter()
+        .map(|text| Ok((text.as_str(), text.parse::<Format>().map_err(view::bad_format)?)))
+        .collect::<miette::Result<_>>()?;
+    let mut all = Vec::new();
+    match (args.device.is_empty(), formats.is_empty()) {
+        (true, true) => {
+            all.extend(Configuration::device_under_each_switch("r200")?);
+            for format in ["fp16", "fp24", "fp32"] {
+                all.push(Configuration::format(format)?);
+            }
+        }
+        (true, false) => {
+            for (text, _) in formats {
+                all.push(Configuration::format(text)?);
+            }
+        }
+        (false, true) => {
+            for device in &args.device {
+                all.push(Configuration::device(device)?);
+            }
+        }
+        (false, false) => {
+            for device in &args.device {
+                for (_, format) in &formats {
+                    all.push(Configuration::device_in_format(device, *format)?);
+                }
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn provenance(args: &Args, configurations: &[Configuration]) -> Provenance {
+    let (width, height) = args.size;
+    let mut command = format!("crossbar leaky-teapot --size {width}x{height} --tessellation {}", args.tessellation);
+    for device in &args.device {
+        command.push_str(&format!(" --device {device}"));
+    }
+    for format in &args.format {
+        command.push_str(&format!(" --format {format}"));
+    }
+    command.push_str(&format!(" --rays-per-edge {} --seed {} --sides {}", args.rays_per_edge, args.seed, args.sides));
+    let mut provenance = Provenance::new(command);
+    provenance.seed = Some(args.seed);
+    for configuration in configurations {
+        if !provenance.profiles.contains(&configuration.profile.name) {
+            provenance.profiles.push(configuration.profile.name.clone());
+        }
+        provenance.switches.extend(configuration.switch.clone());
+    }
+    provenance
+}

@@ -1,0 +1,83 @@
+//! What the commands that trace rays share: sizes, sides, executors, folders of results.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+use refsim::machine::ExecutorKind;
+use refsim::num::FormatError;
+
+use super::Problem;
+use crate::geom::exact::Sides;
+
+/// Which faces can be hit.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum SidesArg {
+    /// The side from which the corners run counter-clockwise
+    Front,
+    /// Both sides
+    Both,
+}
+
+impl From<SidesArg> for Sides {
+    fn from(arg: SidesArg) -> Self {
+        match arg {
+            SidesArg::Front => Self::Front,
+            SidesArg::Both => Self::Both,
+        }
+    }
+}
+
+impl std::fmt::Display for SidesArg {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Front => "front",
+            Self::Both => "both",
+        })
+    }
+}
+
+/// Who computes on the card.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum DeviceExecutor {
+    /// The reference: a fragment at a time, by integers
+    Scalar,
+    /// Many fragments at once
+    Batch,
+}
+
+impl From<DeviceExecutor> for ExecutorKind {
+    fn from(arg: DeviceExecutor) -> Self {
+        match arg {
+            DeviceExecutor::Scalar => Self::Scalar,
+            DeviceExecutor::Batch => Self::Batch,
+        }
+    }
+}
+
+/// `512x384` as width and height.
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let wrong = || format!("expected WIDTHxHEIGHT, 512x512 for example, each from 1 to 2048; found `{text}`");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
+    let side = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=2048).contains(n)).ok_or_else(wrong);
+    Ok((side(width)?, side(height)?))
+}
+
+/// `1,2.5,-3` as a point.
+pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
+    let wrong = || format!("expected three numbers X,Y,Z; found `{text}`");
+    let parts: Vec<f32> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f32>().ok().filter(|x| x.is_finite()).ok_or_else(wrong))
+        .collect::<Result<_, _>>()?;
+    parts.try_into().map_err(|_| wrong())
+}
+
+/// For `map_err` on parsing a number format.
+pub(super) fn bad_format(error: FormatError) -> miette::Report {
+    Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`").into()
+}
+
+/// Writes all files of a result, or none.
+pub(super) fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
+    Ok(crate::io::atomic::write_all(folder, files)?)
+}

@@ -1,0 +1,97 @@
+//! Which program a device runs.
+
+use refsim::asm::assemble;
+use refsim::check::{Checked, check};
+use refsim::device::Profile;
+use refsim::isa::{Program, Version};
+
+use super::EngineError;
+use super::kernels::{self, KernelText};
+use crate::geom::exact::Sides;
+
+/// Which rays a program serves, and what its texture and constants are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `ps_1_4`, rays of one origin: the vertex program knows `ao`.
+    OneOrigin,
+    /// `ps_1_4`, rays of any origin, in [-1, 1].
+    AnyOrigin,
+    /// `ps_2_0`, rays of any origin in float textures.
+    Float,
+}
+
+/// An intersection program that its device accepts.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// Which rays it serves.
+    pub form: Form,
+    /// The pixel program's file.
+    pub name: &'static str,
+    /// Triangle set-up.
+    pub vertex: Checked<Program>,
+    /// Intersection.
+    pub pixel: Checked<Program>,
+    /// Whether ray textures hold signed codes; else a component x is stored as (x + 1) / 2. Of `ps_1_4` forms only.
+    pub signed_rays: bool,
+}
+
+impl Kernel {
+    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4` in
+    /// fixed-point formats, as the cards did.
+    ///
+    /// # Errors
+    /// [`EngineError::NoKernel`] if the device runs neither.
+    pub fn choose(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
+        let versions = &profile.limits.versions;
+        let has = |version| versions.contains(&version);
+        let fixed = profile.rules.format.is_fixed();
+        if has(Version::Ps2_0) && !(fixed && has(Version::Ps1_4)) {
+            let pixel = if sides == Sides::Front { kernels::FLOAT } else { kernels::FLOAT_BOTH };
+            return Self::load(profile, Form::Float, kernels::SEVEN_VECTORS_SETUP, pixel, true);
+        }
+        if !has(Version::Ps1_4) {
+            return Err(EngineError::NoKernel { device: profile.name.clone() });
+        }
+        let signed = profile.limits.texture_formats.iter().any(|f| f == "rg16s");
+        let pick = |unsigned: KernelText, with_sign: KernelText| if signed { with_sign } else { unsigned };
+        if one_origin {
+            let setup =
+                if sides == Sides::Front { kernels::ONE_ORIGIN_SETUP } else { kernels::ONE_ORIGIN_BOTH_SETUP };
+            let pixel = pick(kernels::ONE_ORIGIN_UNSIGNED, kernels::ONE_ORIGIN_SIGNED);
+            return Self::load(profile, Form::OneOrigin, setup, pixel, signed);
+        }
+        let pixel = if sides == Sides::Front {
+            pick(kernels::ANY_ORIGIN_UNSIGNED, kernels::ANY_ORIGIN_SIGNED)
+        } else {
+            pick(kernels::ANY_ORIGIN_BOTH_UNSIGNED, kernels::ANY_ORIGIN_BOTH_SIGNED)
+        };
+        Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
+    }
+
+    fn load(
+        profile: &Profile,
+        form: Form,
+        setup: KernelText,
+        pixel: KernelText,
+        signed_rays: bool,
+    ) -> Result<Self, EngineError> {
+        Ok(Self {
+            form,
+            name: pixel.name,
+            vertex: checked(profile, setup)?,
+            pixel: checked(profile, pixel)?,
+            signed_rays,
+        })
+    }
+}
+
+/// A program of this folder, judged by the device's own rules.
+fn checked(profile: &Profile, kernel: KernelText) -> Result<Checked<Program>, EngineError> {
+    let refused = |problem: String| EngineError::Refused {
+        kernel: kernel.name,
+        device: profile.name.clone(),
+        problem,
+    };
+    let program = assemble(kernel.text).map_err(|e| refused(e.to_string()))?;
+    check(program, profile).map_err(|e| refused(e.to_string()))
+}
