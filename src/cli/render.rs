@@ -1,0 +1,133 @@
+//! `crossbar render`: an OBJ by eye rays.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use miette::IntoDiagnostic as _;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::{Out, Problem, Verdict, view};
+use crate::geom::Mesh;
+use crate::geom::exact::{Sides, nearest_all};
+use crate::io::obj::load_obj;
+use crate::ray_engine::{Crossbar, RayBatch};
+use crate::report::{Channel, exr, rgb8};
+use crate::scene::Camera;
+use crate::study::shade::Shader;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar render bunny.obj --out bunny
+      bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
+  crossbar render bunny.obj --device r200 --executor batch --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
+      the same on a Radeon 8500";
+
+/// Trace the eye rays of a mesh: shaded picture, t and triangle
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// The mesh, a Wavefront OBJ file
+    #[arg(value_name = "SCENE.obj")]
+    scene: PathBuf,
+
+    /// Pixels of the picture
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = view::parse_size)]
+    size: (u32, u32),
+
+    /// Where the rays start [default: far enough to see all of the mesh]
+    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    eye: Option<[f32; 3]>,
+
+    /// The middle of the picture [default: the middle of the mesh]
+    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    target: Option<[f32; 3]>,
+
+    /// The direction that points up in the picture
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
+    up: [f32; 3],
+
+    /// Tangent of half the vertical field of view
+    #[arg(long, value_name = "TAN", default_value_t = 0.375)]
+    tan_half_height: f32,
+
+    /// Which faces can be hit
+    #[arg(long, value_enum, default_value = "both")]
+    sides: view::SidesArg,
+
+    /// The card; `exact` arithmetic needs none
+    #[arg(long, value_name = "D", default_value = "ideal-fp32")]
+    device: String,
+
+    /// Who decides
+    #[arg(long, value_enum, default_value = "exact")]
+    executor: Executor,
+
+    /// Folder for picture.png and layers.exr
+    #[arg(long, value_name = "DIR", default_value = "out/render")]
+    out: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Executor {
+    /// Exact arithmetic: the truth
+    Exact,
+    /// The emulated card, a fragment at a time
+    Scalar,
+    /// The emulated card, many fragments at once; the bits are those of scalar
+    Batch,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let profile = Profile::named(&args.device)?;
+    let mesh = load_obj(&args.scene)?;
+    let camera = camera(args, &mesh)?;
+    let (width, height) = args.size;
+    let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
+    let sides = Sides::from(args.sides);
+    let hits: Vec<Option<(u32, f32)>> = match args.executor {
+        Executor::Exact => {
+            nearest_all(&mesh, rays.rays(), sides).into_iter().map(|h| h.map(|h| (h.triangle, h.t.to_f32()))).collect()
+        }
+        Executor::Scalar | Executor::Batch => {
+            let kind = if args.executor == Executor::Scalar { ExecutorKind::Scalar } else { ExecutorKind::Batch };
+            let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, sides)?;
+            answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()
+        }
+    };
+    let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.0)).collect();
+    let picture = Shader::new(&mesh).picture(&rays, &triangles);
+    let t: Vec<f32> = hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.1)).collect();
+    let ids: Vec<u32> = triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
+    let (w, h) = (width as usize, height as usize);
+    let files = [
+        ("picture.png".to_owned(), rgb8(w, h, &picture)?),
+        ("layers.exr".to_owned(), exr(w, h, &[("t", Channel::F32(&t)), ("triangle", Channel::U32(&ids))])?),
+    ];
+    view::write_folder(&args.out, &files)?;
+    let found = hits.iter().flatten().count();
+    if out.json() {
+        out.document(&serde_json::json!({ "pixels": hits.len(), "hits": found, "out": args.out }))?;
+    } else {
+        out.line(format_args!("{found} of {} pixels hit; written to {}", hits.len(), args.out.display()))?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.
+fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
+    let (width, height) = args.size;
+    let Some([low, high]) = mesh.bounds() else {
+        return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
+    };
+    let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
+    let target = args.target.unwrap_or(middle);
+    let eye = args.eye.unwrap_or_else(|| {
+        let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
+        let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
+        let distance = 1.1 * radius * (1.0 + 1.0 / f64::from(args.tan_half_height));
+        let way = [0.3, -0.8, 0.52];
+        [0, 1, 2].map(|i| (f64::from(target[i]) + distance * way[i]) as f32)
+    });
+    Camera::new(eye, target, args.up, args.tan_half_height, width, height).into_diagnostic()
+}
