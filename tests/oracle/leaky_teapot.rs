@@ -1,0 +1,114 @@
+//! The leaky teapot: what the paper's Figure 4 shows, asserted; the same bits on every executor and thread count.
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::teapot::teapot;
+use crossbar::ray_engine::RayBatch;
+use crossbar::scene::Camera;
+use crossbar::study::configuration::Configuration;
+use crossbar::study::leaky_teapot::{Outcome, Parameters, run};
+use refsim::machine::ExecutorKind;
+
+fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Parameters {
+    let camera = Camera::teapot(size, size).expect("a camera");
+    Parameters {
+        mesh: teapot(rate).expect("a teapot"),
+        view: RayBatch::new(size, size, camera.rays()).expect("a square of rays"),
+        sides: Sides::Front,
+        configurations,
+        rays_per_edge: 2,
+        seed: 1,
+        executor: ExecutorKind::Batch,
+    }
+}
+
+fn study(parameters: &Parameters) -> Outcome {
+    run(parameters, &|_| {}).expect("the study runs")
+}
+
+fn formats(names: &[&str]) -> Vec<Configuration> {
+    names.iter().map(|n| Configuration::format(n).expect("a format")).collect()
+}
+
+/// Size and tessellation: small for everyday runs, the program's defaults for the full form.
+fn scale() -> (u32, u32) {
+    if std::env::var_os("CROSSBAR_FULL").is_some() { (512, 8) } else { (128, 6) }
+}
+
+#[test]
+fn s3_12_leaks_fp32_does_not_and_the_formats_between_are_ordered() {
+    let (size, rate) = scale();
+    let mut configurations = vec![Configuration::device("r200").expect("a card")];
+    configurations.extend(formats(&["fp16", "fp24", "fp32"]));
+    let outcome = study(&parameters(size, rate, configurations));
+    let leaks: Vec<u64> = outcome.rows.iter().map(|r| r.tally.leaks).collect();
+    let surface = outcome.rows[0].tally.surface;
+    let wrong: Vec<u64> = outcome
+        .rows
+        .iter()
+        .map(|r| r.tally.leaks + r.tally.false_hits + r.tally.wrong_triangle)
+        .collect();
+    assert!(leaks[0] * 200 > surface, "a Radeon 8500 leaks visibly: {} of {surface} pixels", leaks[0]);
+    assert_eq!(leaks[3], 0, "fp32 does not leak from the default camera");
+    assert!(wrong[1] > wrong[2] && wrong[2] >= wrong[3], "fp16, fp24, fp32 are ordered: {wrong:?}");
+    assert!(leaks[1] > leaks[2] && leaks[2] >= leaks[3], "and so are their leaks: {leaks:?}");
+    let errors: Vec<f64> = outcome.rows.iter().map(|r| r.tally.largest_t_error).collect();
+    assert!(errors[0] > errors[3] && errors[1] > errors[2] && errors[2] > errors[3], "t too: {errors:?}");
+}
+
+#[test]
+fn rays_at_seams_leak_even_in_fp32() {
+    let (_, rate) = scale();
+    let outcome = study(&parameters(16, rate, formats(&["fp32", "fp16"])));
+    let edges = &outcome.rows[0].edges;
+    assert!(edges.surface > 1000, "many rays are aimed at shared edges: {edges:?}");
+    let share = edges.leak_share();
+    assert!(share > 0.005 && share < 0.2, "the equations of neighbours do not agree on the edge: {share}");
+    assert!(outcome.rows[1].edges.leak_share() > share, "fp16 leaks more");
+}
+
+#[test]
+fn scalar_and_batch_give_the_same_study() {
+    let mut configurations = vec![Configuration::device("r200").expect("a card")];
+    configurations.extend(formats(&["fp16", "fp24", "fp32", "s5.10", "e6m9:rtz"]));
+    let mut small = parameters(24, 2, configurations);
+    let batch = study(&small);
+    small.executor = ExecutorKind::Scalar;
+    let scalar = study(&small);
+    for (b, s) in batch.rows.iter().zip(&scalar.rows) {
+        let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+        assert_eq!(b.triangle, s.triangle, "{}: triangles", b.configuration.label);
+        assert_eq!(bits(&b.t), bits(&s.t), "{}: t", b.configuration.label);
+        assert_eq!((b.edges, b.vertices), (s.edges, s.vertices), "{}: aimed rays", b.configuration.label);
+    }
+}
+
+/// FNV-1a over what a run gives a pixel.
+fn digest(outcome: &Outcome) -> u64 {
+    let mut h = 0xcbf2_9ce4_8422_2325_u64;
+    for row in &outcome.rows {
+        for (t, triangle) in row.t.iter().zip(&row.triangle) {
+            for word in [t.to_bits(), *triangle] {
+                h = (h ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
+            }
+        }
+    }
+    h
+}
+
+/// Golden: the same in debug and release, on every CPU. When a change of the arithmetic is meant, say why in the commit
+/// and replace the number by what the failing test prints.
+#[test]
+fn golden_bits_whatever_the_number_of_threads() {
+    let mut configurations = Configuration::device_under_each_switch("r200").expect("a card");
+    configurations.extend(formats(&["fp16", "fp24", "fp32"]));
+    let parameters = parameters(64, 3, configurations);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        digest(&pool.install(|| study(&parameters)))
+    };
+    let one = on(1);
+    assert_eq!([on(2), on(3)], [one; 2], "the number of threads changes no bit");
+    assert_eq!(format!("{one:#018x}"), GOLDEN, "stored bits");
+}
+
+const GOLDEN: &str = "0x0000000000000000";

@@ -1,0 +1,3 @@
+//! Stored bits: they fail when they change.
+
+mod leaky_teapot;

@@ -1,0 +1,3 @@
+//! What the papers print, and what follows from it.
+
+mod ray_engine;
