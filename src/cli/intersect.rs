@@ -8,9 +8,11 @@ use refsim::machine::ExecutorKind;
 
 use super::{Out, Verdict, view};
 use crate::geom::Ray;
+use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, nearest_all};
-use crate::io::rays::{Hit, read_rays, write_hits};
+use crate::io::atomic::write_file;
 use crate::io::obj::load_obj;
+use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
 
 const EXAMPLES: &str = "\
@@ -63,22 +65,25 @@ enum Executor {
     Batch,
 }
 
+/// No hit.
+const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
+
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     // The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
     let profile = Profile::named(&args.device)?;
     let mesh = load_obj(&args.mesh)?;
-    let rays = read_rays(&args.rays)?;
+    let rays = load_rays(&args.rays)?;
     let sides = Sides::from(args.sides);
-    let hits: Vec<Option<Hit>> = match args.executor {
+    let hits: Vec<Candidate> = match args.executor {
         Executor::Exact => {
-            let hit = |h: crate::geom::NearestHit| Hit { triangle: h.triangle, t: h.t.to_f32() };
-            nearest_all(&mesh, &rays, sides).into_iter().map(|h| h.map(hit)).collect()
+            let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
+            nearest_all(&mesh, &rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect()
         }
         Executor::Scalar => on_card(profile, ExecutorKind::Scalar, &mesh, &rays, sides)?,
         Executor::Batch => on_card(profile, ExecutorKind::Batch, &mesh, &rays, sides)?,
     };
-    write_hits(&args.out, &hits)?;
-    let found = hits.iter().flatten().count();
+    write_file(&args.out, |out| write_hits(&hits, out))?;
+    let found = hits.iter().filter(|h| h.triangle.is_some()).count();
     if out.json() {
         out.document(&serde_json::json!({ "rays": rays.len(), "hits": found, "out": args.out }))?;
     } else {
@@ -93,7 +98,7 @@ fn on_card(
     mesh: &crate::geom::Mesh,
     rays: &[Ray],
     sides: Sides,
-) -> miette::Result<Vec<Option<Hit>>> {
+) -> miette::Result<Vec<Candidate>> {
     let hits = Crossbar::new(profile, executor).intersect_list(mesh, rays, sides)?;
-    Ok(hits.into_iter().map(|h| h.map(|h| Hit { triangle: h.triangle, t: h.t })).collect())
+    Ok(hits.into_iter().map(|h| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t })).collect())
 }

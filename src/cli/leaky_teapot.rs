@@ -9,6 +9,7 @@ use refsim::num::Format;
 use super::{Out, Progress, Verdict, view};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
+use crate::io::atomic::FileSet;
 use crate::ray_engine::RayBatch;
 use crate::report::Provenance;
 use crate::scene::Camera;
@@ -76,6 +77,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let camera = Camera::teapot(width, height).into_diagnostic()?;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let provenance = provenance(args, &configurations);
+    // Before the long work, so that a folder that cannot be written is found out at once.
+    let folder = FileSet::new(&args.out)?;
     let bar = Progress::new("tracing", configurations.len() as u64 + 1);
     let parameters = Parameters {
         mesh,
@@ -89,7 +92,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let outcome = run_study(&parameters, &|_| bar.advance(1))?;
     drop(bar);
     let written = files(&parameters, &outcome, &provenance)?;
-    view::write_folder(&args.out, &written)?;
+    view::write_folder(folder, &written)?;
     let [rows, edges] = tables(&outcome);
     if out.json() {
         out.document(&serde_json::json!({

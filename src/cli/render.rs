@@ -10,9 +10,11 @@ use refsim::machine::ExecutorKind;
 use super::{Out, Problem, Verdict, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, nearest_all};
+use crate::io::atomic::FileSet;
 use crate::io::obj::load_obj;
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::{Channel, exr, rgb8};
+use crate::report::{Channel, exr};
+use crate::report::picture::rgb8;
 use crate::scene::Camera;
 use crate::study::shade::Shader;
 
@@ -82,6 +84,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let profile = Profile::named(&args.device)?;
     let mesh = load_obj(&args.scene)?;
     let camera = camera(args, &mesh)?;
+    let folder = FileSet::new(&args.out)?;
     let (width, height) = args.size;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
@@ -104,7 +107,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         ("picture.png".to_owned(), rgb8(w, h, &picture)?),
         ("layers.exr".to_owned(), exr(w, h, &[("t", Channel::F32(&t)), ("triangle", Channel::U32(&ids))])?),
     ];
-    view::write_folder(&args.out, &files)?;
+    view::write_folder(folder, &files)?;
     let found = hits.iter().flatten().count();
     if out.json() {
         out.document(&serde_json::json!({ "pixels": hits.len(), "hits": found, "out": args.out }))?;

@@ -8,6 +8,7 @@ use refsim::num::FormatError;
 
 use super::Problem;
 use crate::geom::exact::Sides;
+use crate::io::atomic::FileSet;
 
 /// Which faces can be hit.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -78,6 +79,10 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 }
 
 /// Writes all files of a result, or none.
-pub(super) fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
-    Ok(crate::io::atomic::write_all(folder, files)?)
+pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
+    for (name, bytes) in files {
+        set.write(Path::new(name), |out| out.write_all(bytes))?;
+    }
+    set.commit()?;
+    Ok(())
 }

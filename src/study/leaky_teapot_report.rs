@@ -1,7 +1,8 @@
 //! The leaky teapot's tables, files and page.
 
 use super::leaky_teapot::{Outcome, Parameters, Row};
-use crate::report::{Cell, Channel, Figure, Page, Provenance, ReportError, Table, exr, rgb8};
+use crate::report::picture::rgb8;
+use crate::report::{Cell, Channel, Figure, Page, Provenance, ReportError, Table, exr};
 
 /// A file to write: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
