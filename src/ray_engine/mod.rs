@@ -7,6 +7,7 @@ mod crossbar;
 mod kernel;
 pub mod kernels;
 mod rays;
+mod units;
 pub mod reference;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit};

@@ -1,0 +1,251 @@
+//! The crossbar on an emulated card: every ray of a batch meets every triangle of a mesh.
+
+use refsim::device::Profile;
+use refsim::event::DrawEvents;
+use refsim::exec::Constants;
+use refsim::machine::{
+    AttributeStream, DepthId, DrawCall, ExecutorKind, Machine, MachineError, StepRate, TextureId, VertexSource,
+    VertexStreams,
+};
+use refsim::num::Format;
+use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive};
+use refsim::texture::{SamplerState, TexelFormat};
+
+use super::units::{Units, ray_textures};
+use super::{Form, Kernel, RayBatch};
+use crate::geom::exact::Sides;
+use crate::geom::{Mesh, Ray};
+
+/// Triangle ids are 24-bit colours.
+const MOST_TRIANGLES: usize = 1 << 24;
+/// Rays in a row of the batches that a list is cut into: the paper's bucket (section 5.3).
+const LIST_WIDTH: u32 = 256;
+/// Rays of a list in one batch.
+const LIST_BATCH: usize = 65_536;
+
+/// Why a card cannot intersect.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum EngineError {
+    /// The card's shader versions have no intersection program.
+    #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
+    #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
+    NoKernel {
+        /// The device.
+        device: String,
+    },
+    /// The card's rules refuse the program.
+    #[error("device `{device}` refuses `{kernel}`: {problem}")]
+    #[diagnostic(code(ray_engine::refused))]
+    Refused {
+        /// The program's file.
+        kernel: &'static str,
+        /// The device.
+        device: String,
+        /// The first thing that is wrong.
+        problem: String,
+    },
+    /// More triangles than ids.
+    #[error("expected at most {MOST_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
+    #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
+    TooManyTriangles {
+        /// Triangles of the mesh.
+        found: usize,
+    },
+    /// The card refuses a resource or a draw.
+    #[error("the card refuses the work")]
+    #[diagnostic(code(ray_engine::machine))]
+    Machine(#[from] MachineError),
+}
+
+/// What a card says that a ray hits first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The triangle, by its place in the mesh.
+    pub triangle: u32,
+    /// The ray parameter, in multiples of the ray's direction.
+    pub t: f32,
+}
+
+/// A batch, answered.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What each ray hits.
+    pub hits: Vec<Option<Hit>>,
+    /// What happened on the card.
+    pub events: DrawEvents,
+    /// The pixel program that ran.
+    pub kernel: &'static str,
+}
+
+/// A card that intersects rays with triangles.
+#[derive(Clone, Debug)]
+pub struct Crossbar {
+    profile: Profile,
+    executor: ExecutorKind,
+}
+
+impl Crossbar {
+    /// A card of this profile.
+    pub const fn new(profile: Profile, executor: ExecutorKind) -> Self {
+        Self { profile, executor }
+    }
+
+    /// Every ray against every triangle, in one draw: section 3.3 of the paper.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card has no program for it, or refuses the work.
+    pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
+        let kernel = Kernel::choose(&self.profile, rays.common_origin().is_some(), sides)?;
+        if mesh.len() > MOST_TRIANGLES {
+            return Err(EngineError::TooManyTriangles { found: mesh.len() });
+        }
+        if rays.rays().is_empty() || mesh.is_empty() {
+            let hits = vec![None; rays.rays().len()];
+            return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name });
+        }
+        let units = Units::choose(kernel.form, mesh, rays);
+        let mut card = Card::set_up(&self.profile, self.executor, &kernel, rays, &units)?;
+        let events = card.draw(&kernel, mesh, &units)?;
+        Ok(Answer { hits: card.read_back(rays, &units)?, events, kernel: kernel.name })
+    }
+
+    /// The same for rays in any order and number, in batches of at most 65,536.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn intersect_list(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<Vec<Option<Hit>>, EngineError> {
+        let mut hits = Vec::with_capacity(rays.len());
+        for chunk in rays.chunks(LIST_BATCH) {
+            let answer = self.intersect(mesh, &RayBatch::from_list(chunk, LIST_WIDTH), sides)?;
+            hits.extend_from_slice(&answer.hits[..chunk.len()]);
+        }
+        Ok(hits)
+    }
+}
+
+/// A machine with rays in its textures, a cleared colour target for ids and a depth buffer for t.
+struct Card {
+    machine: Machine,
+    textures: Vec<(usize, TextureId)>,
+    ids: TextureId,
+    depth: DepthId,
+}
+
+impl Card {
+    fn set_up(
+        profile: &Profile,
+        executor: ExecutorKind,
+        kernel: &Kernel,
+        rays: &RayBatch,
+        units: &Units,
+    ) -> Result<Self, EngineError> {
+        let mut machine = Machine::new(profile.clone(), executor);
+        let mut textures = Vec::new();
+        for (sampler, image) in ray_textures(kernel, rays, units).map_err(MachineError::from)? {
+            textures.push((sampler, machine.create_texture(image)?));
+        }
+        let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
+        let format = depth_format(profile, kernel.form);
+        let depth = machine.create_depth(format, rays.width(), rays.height())?;
+        Ok(Self { machine, textures, ids, depth })
+    }
+
+    /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
+    fn draw(&mut self, kernel: &Kernel, mesh: &Mesh, units: &Units) -> Result<DrawEvents, EngineError> {
+        let streams = Streams::new(mesh);
+        let vertex_constants = Constants { float: units.vertex_constants(), ..Constants::default() };
+        let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
+        let source = VertexSource::Program {
+            program: &kernel.vertex,
+            constants: &vertex_constants,
+            streams: streams.bind(mesh.len()),
+        };
+        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
+        for (sampler, texture) in &self.textures {
+            call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
+        }
+        call.center = PixelCenter::OpenGl;
+        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
+        call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
+        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
+        call.depth_buffer = Some(self.depth);
+        Ok(self.machine.draw(&call)?)
+    }
+
+    fn read_back(&self, rays: &RayBatch, units: &Units) -> Result<Vec<Option<Hit>>, EngineError> {
+        let image = self.machine.read_back(self.ids)?;
+        let depth = self.machine.read_depth(self.depth)?;
+        let pixel = |(i, ray): (usize, &Ray)| {
+            let (x, y) = (i as u32 % rays.width(), i as u32 / rays.width());
+            let raw = image.raw(0, 0, y, x) as u32;
+            (raw >> 24 != 0).then(|| {
+                let stored = depth.data()[i];
+                let depth = f32::from_bits(depth.format().to_format(stored, Format::FP32));
+                Hit { triangle: id_of_color(raw), t: units.t(depth, ray) }
+            })
+        };
+        Ok(rays.rays().iter().enumerate().map(pixel).collect())
+    }
+}
+
+/// A float depth buffer where the program computes in float and the card has one; else 24 bits, as the cards had.
+fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
+    let float = form == Form::Float && profile.limits.depth_formats.iter().any(|f| f == DepthFormat::Float32.name());
+    if float { DepthFormat::Float32 } else { DepthFormat::Unorm24 }
+}
+
+/// The vertex attributes of the crossbar, fp32 patterns.
+struct Streams {
+    corners: [[u32; 4]; 4],
+    triangles: [Vec<[u32; 4]>; 4],
+}
+
+impl Streams {
+    fn new(mesh: &Mesh) -> Self {
+        // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
+        let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
+        let mut triangles: [Vec<[u32; 4]>; 4] = Default::default();
+        for (id, corner) in mesh.iter_corners().enumerate() {
+            for (stream, [x, y, z]) in triangles.iter_mut().zip(corner) {
+                stream.push([x, y, z, 1.0].map(f32::to_bits));
+            }
+            triangles[3].push(color_of_id(id as u32));
+        }
+        Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
+    }
+
+    fn bind(&self, triangles: usize) -> VertexStreams<'_> {
+        let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
+        let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
+            register: i + 1,
+            step: StepRate::Instance,
+            data,
+        });
+        VertexStreams { vertex_count: 4, instance_count: triangles, streams: std::iter::once(corners).chain(each).collect() }
+    }
+}
+
+/// An id as a colour: red is its lowest byte, alpha 1.
+fn color_of_id(id: u32) -> [u32; 4] {
+    let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
+    [part(0), part(8), part(16), 1.0_f32.to_bits()]
+}
+
+/// The id in an `A8R8G8B8` pixel.
+const fn id_of_color(raw: u32) -> u32 {
+    (raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_survive_as_bytes() {
+        for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
+            let [r, g, b, _] = color_of_id(id).map(|bits| (f32::from_bits(bits) * 255.0).round() as u32);
+            assert_eq!(id_of_color(0xff00_0000 | r << 16 | g << 8 | b), id, "{id:#x}");
+        }
+    }
+}
