@@ -7,3 +7,5 @@ pub mod geom;
 pub mod io;
 pub mod report;
 pub mod scene;
+pub mod ray_engine;
+pub mod study;

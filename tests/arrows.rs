@@ -162,6 +162,9 @@ fn the_emulator_depends_on_nothing_heavy() {
 
 #[test]
 fn the_scanner_sees_groups_and_passes_over_comments() {
-    let names = named_after("use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nlet x = crate::asm::f();", "crate::");
+    let names = named_after(
+        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nlet x = crate::asm::f();",
+        "crate::",
+    );
     assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one in line");
 }

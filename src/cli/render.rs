@@ -105,7 +105,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let (w, h) = (width as usize, height as usize);
     let files = [
         ("picture.png".to_owned(), rgb8(w, h, &picture)?),
-        ("layers.exr".to_owned(), exr(w, h, &[("t", Channel::F32(&t)), ("triangle", Channel::U32(&ids))])?),
+        ("layers.exr".to_owned(), exr(w, h, &[("t", Channel::Float(&t)), ("triangle", Channel::Uint(&ids))])?),
     ];
     view::write_folder(folder, &files)?;
     let found = hits.iter().flatten().count();

@@ -222,7 +222,11 @@ impl Streams {
             step: StepRate::Instance,
             data,
         });
-        VertexStreams { vertex_count: 4, instance_count: triangles, streams: std::iter::once(corners).chain(each).collect() }
+        VertexStreams {
+            vertex_count: 4,
+            instance_count: triangles,
+            streams: std::iter::once(corners).chain(each).collect(),
+        }
     }
 }
 

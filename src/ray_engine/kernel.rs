@@ -1,9 +1,9 @@
 //! Which program a device runs.
 
 use refsim::asm::assemble;
-use refsim::check::{Checked, check};
 use refsim::device::Profile;
-use refsim::isa::{Program, Version};
+use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
 
 use super::EngineError;
 use super::kernels::{self, KernelText};
@@ -28,9 +28,9 @@ pub struct Kernel {
     /// The pixel program's file.
     pub name: &'static str,
     /// Triangle set-up.
-    pub vertex: Checked<Program>,
+    pub vertex: CheckedProgram,
     /// Intersection.
-    pub pixel: Checked<Program>,
+    pub pixel: CheckedProgram,
     /// Whether ray textures hold signed codes; else a component x is stored as (x + 1) / 2. Of `ps_1_4` forms only.
     pub signed_rays: bool,
 }
@@ -55,8 +55,7 @@ impl Kernel {
         let signed = profile.limits.texture_formats.iter().any(|f| f == "rg16s");
         let pick = |unsigned: KernelText, with_sign: KernelText| if signed { with_sign } else { unsigned };
         if one_origin {
-            let setup =
-                if sides == Sides::Front { kernels::ONE_ORIGIN_SETUP } else { kernels::ONE_ORIGIN_BOTH_SETUP };
+            let setup = if sides == Sides::Front { kernels::ONE_ORIGIN_SETUP } else { kernels::ONE_ORIGIN_BOTH_SETUP };
             let pixel = pick(kernels::ONE_ORIGIN_UNSIGNED, kernels::ONE_ORIGIN_SIGNED);
             return Self::load(profile, Form::OneOrigin, setup, pixel, signed);
         }
@@ -86,12 +85,8 @@ impl Kernel {
 }
 
 /// A program of this folder, judged by the device's own rules.
-fn checked(profile: &Profile, kernel: KernelText) -> Result<Checked<Program>, EngineError> {
-    let refused = |problem: String| EngineError::Refused {
-        kernel: kernel.name,
-        device: profile.name.clone(),
-        problem,
-    };
+fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, EngineError> {
+    let refused = |problem: String| EngineError::Refused { kernel: kernel.name, device: profile.name.clone(), problem };
     let program = assemble(kernel.text).map_err(|e| refused(e.to_string()))?;
-    check(program, profile).map_err(|e| refused(e.to_string()))
+    Ok(program)
 }

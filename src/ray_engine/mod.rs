@@ -7,8 +7,8 @@ mod crossbar;
 mod kernel;
 pub mod kernels;
 mod rays;
-mod units;
 pub mod reference;
+mod units;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit};
 pub use kernel::{Form, Kernel};

@@ -30,11 +30,7 @@ impl Crossing {
     /// A hit from either side: all three coordinates have the sign of `-n.d`.
     pub fn hits_either(&self) -> bool {
         let sign = if self.n_dot_d < 0.0 { 1.0 } else { -1.0 };
-        self.n_dot_d != 0.0
-            && self.t >= 0.0
-            && self.u * sign >= 0.0
-            && self.v * sign >= 0.0
-            && self.w * sign >= 0.0
+        self.n_dot_d != 0.0 && self.t >= 0.0 && self.u * sign >= 0.0 && self.v * sign >= 0.0 && self.w * sign >= 0.0
     }
 }
 

@@ -149,13 +149,13 @@ fn float_texture(extents: [u32; 3], vectors: &[[f64; 3]]) -> Result<Image, Textu
 }
 
 /// Two 16-bit channels, each component rounded to the nearest code.
-fn pair_texture(
-    signed: bool,
-    extents: [u32; 3],
-    pairs: impl Iterator<Item = [f64; 2]>,
-) -> Result<Image, TextureError> {
+fn pair_texture(signed: bool, extents: [u32; 3], pairs: impl Iterator<Item = [f64; 2]>) -> Result<Image, TextureError> {
     let code = |x: f64| {
-        if signed { ((x * 32_767.0).round() as i16).to_le_bytes() } else { (((x + 1.0) / 2.0 * 65_535.0).round() as u16).to_le_bytes() }
+        if signed {
+            ((x * 32_767.0).round() as i16).to_le_bytes()
+        } else {
+            (((x + 1.0) / 2.0 * 65_535.0).round() as u16).to_le_bytes()
+        }
     };
     let bytes = pairs.flatten().flat_map(code).collect();
     let format = if signed { TexelFormat::Rg16Snorm } else { TexelFormat::Rg16 };

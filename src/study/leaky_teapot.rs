@@ -141,7 +141,8 @@ impl Judged {
     /// The verdicts on an answer, a ray each, and their tally.
     fn judge(&self, mesh: &Mesh, answer: &Answer) -> (Vec<Verdict>, Tally) {
         let judge = |(hit, truth): (&Option<crate::ray_engine::Hit>, &Option<NearestHit>)| {
-            let candidate = hit.map_or(Candidate { triangle: None, t: 0.0 }, |h| Candidate { triangle: Some(h.triangle), t: h.t });
+            let candidate =
+                hit.map_or(Candidate { triangle: None, t: 0.0 }, |h| Candidate { triangle: Some(h.triangle), t: h.t });
             classify(mesh, truth.as_ref(), candidate)
         };
         let judgements: Vec<_> = answer.hits[..self.count].par_iter().zip(&self.truth).map(judge).collect();

@@ -24,15 +24,32 @@ pub fn tables(outcome: &Outcome) -> [Table; 2] {
     let mut rows = Table::new(
         "Eye rays against exact first hits",
         &[
-            "row", "device", "format", "switch", "hits", "leaks", "false_hits", "wrong_triangle", "wrong_not_adjacent",
-            "largest_t_error", "pixels_differing",
+            "row",
+            "device",
+            "format",
+            "switch",
+            "hits",
+            "leaks",
+            "false_hits",
+            "wrong_triangle",
+            "wrong_not_adjacent",
+            "largest_t_error",
+            "pixels_differing",
         ],
     );
     let mut edges = Table::new(
         "Rays aimed at shared edges and vertices: leaks where the surface is whole",
         &[
-            "row", "device", "format", "switch", "edge_rays", "edge_leaks", "edge_leak_percent", "vertex_rays",
-            "vertex_leaks", "vertex_leak_percent",
+            "row",
+            "device",
+            "format",
+            "switch",
+            "edge_rays",
+            "edge_leaks",
+            "edge_leak_percent",
+            "vertex_rays",
+            "vertex_leaks",
+            "vertex_leak_percent",
         ],
     );
     for row in &outcome.rows {
@@ -77,7 +94,7 @@ pub fn files(
 ) -> Result<Vec<NamedFile>, ReportError> {
     let (width, height) = (parameters.view.width() as usize, parameters.view.height() as usize);
     let layers = |t: &[f32], triangle: &[u32]| {
-        exr(width, height, &[("t", Channel::F32(t)), ("triangle", Channel::U32(triangle))])
+        exr(width, height, &[("t", Channel::Float(t)), ("triangle", Channel::Uint(triangle))])
     };
     let exact_png = rgb8(width, height, &outcome.exact_picture)?;
     let mut files = vec![

@@ -2,4 +2,5 @@
 
 pub mod configuration;
 pub mod leaky_teapot;
+pub mod leaky_teapot_report;
 pub mod shade;

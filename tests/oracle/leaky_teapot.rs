@@ -42,11 +42,8 @@ fn s3_12_leaks_fp32_does_not_and_the_formats_between_are_ordered() {
     let outcome = study(&parameters(size, rate, configurations));
     let leaks: Vec<u64> = outcome.rows.iter().map(|r| r.tally.leaks).collect();
     let surface = outcome.rows[0].tally.surface;
-    let wrong: Vec<u64> = outcome
-        .rows
-        .iter()
-        .map(|r| r.tally.leaks + r.tally.false_hits + r.tally.wrong_triangle)
-        .collect();
+    let wrong: Vec<u64> =
+        outcome.rows.iter().map(|r| r.tally.leaks + r.tally.false_hits + r.tally.wrong_triangle).collect();
     assert!(leaks[0] * 200 > surface, "a Radeon 8500 leaks visibly: {} of {surface} pixels", leaks[0]);
     assert_eq!(leaks[3], 0, "fp32 does not leak from the default camera");
     assert!(wrong[1] > wrong[2] && wrong[2] >= wrong[3], "fp16, fp24, fp32 are ordered: {wrong:?}");
