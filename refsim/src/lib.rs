@@ -1,6 +1,7 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 
 pub mod asm;
+pub mod check;
 pub mod device;
 pub mod event;
 pub mod exec;

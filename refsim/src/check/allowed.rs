@@ -1,0 +1,179 @@
+//! Which figure holds: the device's, the version's, or none.
+
+use crate::device::Profile;
+use crate::isa::{Stage, Version};
+
+/// A limit that can stand in a profile. The names are the fields of [`crate::device::Limits`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Limit {
+    TextureInstructions,
+    ArithmeticInstructions,
+    Instructions,
+    Temporaries,
+    Constants,
+    TextureCoordinates,
+    Samplers,
+    ColorInputs,
+    DependentReads,
+    StaticFlowDepth,
+    DynamicFlowDepth,
+    LoopDepth,
+    CallDepth,
+    StaticFlowCount,
+}
+
+/// A figure, who says it, and under which key of the profile.
+#[derive(Clone, Debug)]
+pub(super) struct Allowed {
+    pub(super) value: u32,
+    /// `` `r200` `` or `` `ps_1_4` ``
+    pub(super) owner: String,
+    pub(super) key: &'static str,
+    /// Whether the device, not the version, says it.
+    pub(super) by_device: bool,
+}
+
+impl Allowed {
+    /// What to say about where the figure is.
+    pub(super) fn help(&self, advice: &str) -> String {
+        let Self { key, owner, .. } = self;
+        if self.by_device {
+            format!("{advice}; the figure is `{key}` of profile {owner}")
+        } else {
+            format!("{advice}; {owner} sets this limit on every card, only `ideal-` devices lift `{key}`")
+        }
+    }
+}
+
+impl Limit {
+    /// The key in a profile.
+    pub(super) fn key(self, stage: Stage) -> &'static str {
+        match (self, stage) {
+            (Self::TextureInstructions, _) => "limits.texture_instructions_per_phase",
+            (Self::ArithmeticInstructions, _) => "limits.arithmetic_instructions_per_phase",
+            (Self::Instructions, Stage::Pixel) => "limits.instructions",
+            (Self::Instructions, Stage::Vertex) => "limits.vertex_instructions",
+            (Self::Temporaries, Stage::Pixel) => "limits.temporaries",
+            (Self::Temporaries, Stage::Vertex) => "limits.vertex_temporaries",
+            (Self::Constants, Stage::Pixel) => "limits.constants",
+            (Self::Constants, Stage::Vertex) => "limits.vertex_constants",
+            (Self::TextureCoordinates, _) => "limits.texture_coordinates",
+            (Self::Samplers, _) => "limits.samplers",
+            (Self::ColorInputs, _) => "limits.color_inputs",
+            (Self::DependentReads, _) => "limits.dependent_reads",
+            (Self::StaticFlowDepth, _) => "limits.static_flow_depth",
+            (Self::DynamicFlowDepth, _) => "limits.dynamic_flow_depth",
+            (Self::LoopDepth, _) => "limits.loop_depth",
+            (Self::CallDepth, _) => "limits.call_depth",
+            (Self::StaticFlowCount, _) => "limits.static_flow_count",
+        }
+    }
+
+    /// The device's figure. Figures of the pixel pipeline say nothing about vertex programs.
+    fn of_device(self, profile: &Profile, stage: Stage) -> Option<u32> {
+        let l = &profile.limits;
+        match (self, stage) {
+            (Self::TextureInstructions, Stage::Pixel) => l.texture_instructions_per_phase,
+            (Self::ArithmeticInstructions, Stage::Pixel) => l.arithmetic_instructions_per_phase,
+            (Self::Instructions, Stage::Pixel) => l.instructions,
+            (Self::Instructions, Stage::Vertex) => l.vertex_instructions,
+            (Self::Temporaries, Stage::Pixel) => l.temporaries,
+            (Self::Temporaries, Stage::Vertex) => l.vertex_temporaries,
+            (Self::Constants, Stage::Pixel) => l.constants,
+            (Self::Constants, Stage::Vertex) => l.vertex_constants,
+            (Self::TextureCoordinates, Stage::Pixel) => l.texture_coordinates,
+            (Self::Samplers, Stage::Pixel) => l.samplers,
+            (Self::ColorInputs, Stage::Pixel) => l.color_inputs,
+            (Self::DependentReads, Stage::Pixel) => l.dependent_reads,
+            (Self::StaticFlowDepth, Stage::Pixel) => l.static_flow_depth,
+            (Self::DynamicFlowDepth, Stage::Pixel) => l.dynamic_flow_depth,
+            (Self::LoopDepth, Stage::Pixel) => l.loop_depth,
+            (Self::CallDepth, Stage::Pixel) => l.call_depth,
+            (Self::StaticFlowCount, Stage::Vertex) => l.static_flow_count,
+            _ => None,
+        }
+    }
+
+    /// The version's figure: Direct3D 9, "Registers" and "Instructions" pages of each version, and its page on flow
+    /// control nesting limits.
+    #[rustfmt::skip]
+    fn of_version(self, version: Version) -> Option<u32> {
+        use Version::{Ps1_1, Ps1_2, Ps1_3, Ps1_4, Ps2_0, Ps2A, Ps2B, Vs1_1, Vs2_0};
+        Some(match (self, version) {
+            (Self::TextureInstructions, Ps1_1 | Ps1_2 | Ps1_3) => 4,
+            (Self::TextureInstructions, Ps1_4) => 6,
+            (Self::TextureInstructions, Ps2_0) => 32,
+            (Self::ArithmeticInstructions, Ps1_1 | Ps1_2 | Ps1_3 | Ps1_4) => 8,
+            (Self::ArithmeticInstructions, Ps2_0) => 64,
+            (Self::Instructions, Ps1_1 | Ps1_2 | Ps1_3) => 12,
+            (Self::Instructions, Ps2_0) => 96,
+            (Self::Instructions, Ps2A | Ps2B) => 512,
+            (Self::Instructions, Vs1_1) => 128,
+            (Self::Instructions, Vs2_0) => 256,
+            (Self::Temporaries, Ps1_1 | Ps1_2 | Ps1_3) => 2,
+            (Self::Temporaries, Ps1_4) => 6,
+            (Self::Temporaries, Ps2_0 | Vs1_1 | Vs2_0) => 12,
+            (Self::Temporaries, Ps2A | Ps2B) => 32,
+            (Self::Constants, Ps1_1 | Ps1_2 | Ps1_3 | Ps1_4) => 8,
+            (Self::Constants, Ps2_0 | Ps2A | Ps2B) => 32,
+            (Self::Constants, Vs1_1) => 96,
+            (Self::Constants, Vs2_0) => 256,
+            (Self::TextureCoordinates | Self::Samplers, Ps1_1 | Ps1_2 | Ps1_3) => 4,
+            (Self::TextureCoordinates | Self::Samplers, Ps1_4) => 6,
+            (Self::TextureCoordinates, Ps2_0 | Ps2A | Ps2B) => 8,
+            (Self::Samplers, Ps2_0 | Ps2A | Ps2B) => 16,
+            (Self::ColorInputs, v) if v.stage() == Stage::Pixel => 2,
+            (Self::DependentReads, Ps2_0 | Ps2B) => 4,
+            (Self::StaticFlowDepth | Self::DynamicFlowDepth, Ps2A | Ps2B) => 24,
+            (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
+            (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
+            (Self::StaticFlowCount, Vs2_0) => 16,
+            _ => return None,
+        })
+    }
+
+    /// What even an ideal device has an end of, because the executors' register files do.
+    fn of_emulator(self, stage: Stage) -> Option<u32> {
+        match (self, stage) {
+            (Self::Temporaries, _) => Some(256),
+            (Self::Constants, _) => Some(1024),
+            (Self::TextureCoordinates, _) => Some(8),
+            (Self::Samplers, _) => Some(16),
+            (Self::ColorInputs, _) => Some(2),
+            _ => None,
+        }
+    }
+
+    /// The figure that holds for programs of `version` on the device; `None`: no limit.
+    ///
+    /// The smaller of the device's and the version's, except that what `ps_2_x` leaves to the device (slots,
+    /// temporaries, nesting) is the device's alone.
+    pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
+        let stage = version.stage();
+        let key = self.key(stage);
+        let device = self.of_device(profile, stage);
+        let by = |value, owner: &str, by_device| Allowed { value, owner: format!("`{owner}`"), key, by_device };
+        if !profile.limits.version_limits {
+            let value = device.or_else(|| self.of_emulator(stage))?;
+            return Some(by(value, &profile.name, true));
+        }
+        let of_version = self.of_version(version);
+        let left_to_device = version.is_ps_2_x()
+            && matches!(
+                self,
+                Self::Instructions
+                    | Self::Temporaries
+                    | Self::StaticFlowDepth
+                    | Self::DynamicFlowDepth
+                    | Self::LoopDepth
+                    | Self::CallDepth
+            );
+        // A device's figure speaks for what the version limits at all: four levels of dependent reads are nothing to
+        // ps_1_4, which has phases.
+        match (device, of_version) {
+            (Some(d), Some(v)) if d <= v || left_to_device => Some(by(d, &profile.name, true)),
+            (_, Some(v)) => Some(by(v, version.token(), false)),
+            (_, None) => None,
+        }
+    }
+}

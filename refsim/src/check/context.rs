@@ -1,0 +1,193 @@
+//! What all passes share: the program, the device, and the violations so far.
+
+use super::allowed::{Allowed, Limit};
+use super::{RuleId, Violation};
+use crate::device::Profile;
+use crate::isa::{
+    DestinationRule, Instruction, Opcode, OpcodeClass, Program, RegisterFile, Span, Stage, Usage, Version,
+};
+
+/// How many registers of a file there are, and who says so.
+pub(super) enum Count {
+    /// A figure of the profile or the version.
+    Limited(Allowed),
+    /// A number that follows from the version alone.
+    Fixed(u32),
+}
+
+impl Count {
+    pub(super) fn value(&self) -> u32 {
+        match self {
+            Self::Limited(allowed) => allowed.value,
+            Self::Fixed(n) => *n,
+        }
+    }
+}
+
+/// The state of checking one program.
+pub(super) struct Context<'a> {
+    pub(super) program: &'a Program,
+    pub(super) profile: &'a Profile,
+    pub(super) version: Version,
+    pub(super) violations: Vec<Violation>,
+    /// Whether the version has instruction `i` and it has its operands: what later passes may rely on.
+    sound: Vec<bool>,
+    /// For each instruction the one that ends or continues its block, its loop, or its subroutine.
+    pub(super) jump: Vec<Option<usize>>,
+    phase_marker: Option<usize>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(program: &'a Program, profile: &'a Profile) -> Self {
+        let version = program.version;
+        let sound = program.instructions.iter().map(|i| is_sound(i, version)).collect();
+        Self {
+            program,
+            profile,
+            version,
+            violations: Vec::new(),
+            sound,
+            jump: vec![None; program.instructions.len()],
+            phase_marker: program.phase_marker().filter(|_| version == Version::Ps1_4),
+        }
+    }
+
+    pub(super) fn add(&mut self, violation: Violation) {
+        self.violations.push(violation);
+    }
+
+    /// A violation whose message says it all.
+    pub(super) fn breach(&mut self, rule: RuleId, span: Span, message: impl Into<String>) {
+        self.add(Violation::new(rule, span, message));
+    }
+
+    /// A violation of a figure.
+    pub(super) fn exceed(
+        &mut self,
+        rule: RuleId,
+        span: Span,
+        found: u32,
+        allowed: &Allowed,
+        message: String,
+        label: String,
+        advice: &str,
+    ) {
+        let mut violation = Violation::new(rule, span, message).label(label).help(allowed.help(advice));
+        violation.key = Some(allowed.key);
+        violation.limit = Some(allowed.value);
+        violation.found = Some(found);
+        self.add(violation);
+    }
+
+    pub(super) fn is_sound(&self, index: usize) -> bool {
+        self.sound.get(index).copied().unwrap_or(false)
+    }
+
+    /// The instructions that the version has and that have their operands, with their places.
+    pub(super) fn instructions(&self) -> impl Iterator<Item = (usize, &'a Instruction)> + use<'a> {
+        let sound = self.sound.clone();
+        self.program.instructions.iter().enumerate().filter(move |(i, _)| sound[*i])
+    }
+
+    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1 elsewhere.
+    pub(super) fn phase(&self, index: usize) -> u8 {
+        match (self.version, self.phase_marker) {
+            (Version::Ps1_4, Some(marker)) if index < marker => 1,
+            (Version::Ps1_4, _) => 2,
+            _ => 1,
+        }
+    }
+
+    pub(super) fn phase_marker(&self) -> Option<usize> {
+        self.phase_marker
+    }
+
+    pub(super) fn limit(&self, limit: Limit) -> Option<Allowed> {
+        limit.allowed(self.profile, self.version)
+    }
+
+    /// Whether the limits that are the version's own ways (ports, tokens) hold: not on ideal devices.
+    pub(super) fn version_limits(&self) -> bool {
+        self.profile.limits.version_limits
+    }
+
+    /// How many registers of `file` there are. `None`: no such file in the version.
+    pub(super) fn count(&self, file: RegisterFile) -> Option<Count> {
+        use RegisterFile as F;
+        let version = self.version;
+        let pixel_2 = version.is_ps_2();
+        let vertex = version.stage() == Stage::Vertex;
+        let vs_2 = version == Version::Vs2_0;
+        let limited = |limit: Limit| self.limit(limit).map(Count::Limited);
+        let fixed = |n: u32, there: bool| there.then_some(Count::Fixed(n));
+        match file {
+            F::Temp => limited(Limit::Temporaries),
+            F::Constant => limited(Limit::Constants),
+            F::Input if vertex => fixed(16, true),
+            F::Input => limited(Limit::ColorInputs),
+            F::Texture => limited(Limit::TextureCoordinates).filter(|_| !vertex),
+            F::Sampler => limited(Limit::Samplers).filter(|_| pixel_2),
+            F::ConstantInt | F::ConstantBool => fixed(16, pixel_2 || vs_2),
+            F::Label => fixed(16, version.is_ps_2_x() || vs_2),
+            F::Predicate => fixed(1, version == Version::Ps2A),
+            F::ColorOut => fixed(4, pixel_2),
+            F::DepthOut => fixed(1, pixel_2),
+            F::Address => fixed(1, vertex),
+            F::Loop => fixed(1, vs_2),
+            F::PositionOut | F::FogOut | F::PointSizeOut => fixed(1, vertex),
+            F::DiffuseOut => fixed(2, vertex),
+            F::TexCoordOut => fixed(8, vertex),
+        }
+    }
+
+    /// The declared type of a sampler.
+    pub(super) fn sampler_usage(&self, number: u16) -> Option<Usage> {
+        let mut samplers =
+            self.program.declarations.iter().filter(|d| {
+                d.destination.register.file == RegisterFile::Sampler && d.destination.register.index == number
+            });
+        samplers.next().map(|d| d.usage)
+    }
+
+    /// The sampler type of a ps_2_x texture read.
+    pub(super) fn sampled_usage(&self, instruction: &Instruction) -> Option<Usage> {
+        let read = matches!(instruction.opcode, Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP | Opcode::TexLdD);
+        let sampler = instruction.sources.get(1).filter(|_| read)?;
+        self.sampler_usage(sampler.register.index)
+    }
+}
+
+/// Whether the version has the instruction and the instruction has its operands.
+fn is_sound(instruction: &Instruction, version: Version) -> bool {
+    let info = instruction.opcode.info();
+    let Some(sources) = info.source_count(version) else { return false };
+    instruction.sources.len() == usize::from(sources)
+        && instruction.destination.is_some() == (info.destination != DestinationRule::None)
+        && instruction.comparison.is_some() == info.comparison
+}
+
+/// Whether the operation reads textures or coordinates, kills, or replaces depth.
+pub(super) fn is_texture(opcode: Opcode) -> bool {
+    opcode.info().class == OpcodeClass::Texture
+}
+
+/// Whether the operation computes.
+pub(super) fn is_arithmetic(opcode: Opcode) -> bool {
+    opcode.info().class == OpcodeClass::Arithmetic
+}
+
+/// Whether a file holds numbers that arithmetic can use.
+pub(super) fn is_numeric(file: RegisterFile) -> bool {
+    matches!(file, RegisterFile::Temp | RegisterFile::Input | RegisterFile::Texture | RegisterFile::Constant)
+}
+
+/// `1st`, `2nd`, `3rd`, `4th`
+pub(super) fn ordinal(n: u32) -> String {
+    let suffix = match (n % 10, n % 100) {
+        (1, h) if h != 11 => "st",
+        (2, h) if h != 12 => "nd",
+        (3, h) if h != 13 => "rd",
+        _ => "th",
+    };
+    format!("{n}{suffix}")
+}

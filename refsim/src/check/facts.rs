@@ -1,0 +1,190 @@
+//! What executors want to know of a legal program, worked out once.
+
+use std::ops::Deref;
+
+use super::context::{Context, is_texture};
+use super::slots;
+use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, Usage, Version};
+
+/// Slots used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SlotCount {
+    /// Texture instruction slots.
+    pub texture: u32,
+    /// Arithmetic instruction slots (flow control included).
+    pub arithmetic: u32,
+}
+
+/// Facts about a legal program.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Facts {
+    /// The phase of each instruction: 1 or 2 in ps_1_4 (all 2 without a marker), 1 elsewhere.
+    pub phase: Vec<u8>,
+    /// The index of `phase`.
+    pub phase_marker: Option<usize>,
+    /// Where flow goes on, by instruction index: from `if` to its `else` or `endif`, from `else` to `endif`, from `rep`
+    /// and `loop` to their end and back, from `break` to the end of its loop, from `call` to its `label`.
+    pub jump: Vec<Option<usize>>,
+    /// The index of the first `label`, where the main program has ended; the number of instructions if there is none.
+    pub main_end: usize,
+    /// Whether there is flow control.
+    pub has_flow: bool,
+    /// One more than the highest `r#`.
+    pub temporaries: u16,
+    /// One more than the highest `c#` named, matrix rows included; relative addresses may go beyond.
+    pub constants: u16,
+    /// Whether constants are addressed relatively.
+    pub relative_constants: bool,
+    /// Bit `n`: the program reads coordinate set or texture register `t#n` (pixel).
+    pub texture_registers: u32,
+    /// Bit `n`: the program reads `v#n` (colour or attribute).
+    pub inputs: u32,
+    /// Bit `n`: the program samples sampler (ps_1_x: stage) `n`.
+    pub samplers: u32,
+    /// The declared types of the samplers (ps_2_0 and up).
+    pub sampler_usage: [Option<Usage>; 16],
+    /// Bit `n`: the program writes colour output `n`; ps_1_x writes output 0.
+    pub color_outputs: u32,
+    /// Whether the program replaces depth.
+    pub writes_depth: bool,
+    /// Whether the program can kill a fragment.
+    pub kills: bool,
+    /// Whether the program takes derivatives, in `dsx`, `dsy` or to choose a mip map.
+    pub uses_derivatives: bool,
+    /// Bit `n`: a vertex program writes `oT#n`.
+    pub texcoord_outputs: u32,
+    /// Bit `n`: a vertex program writes `oD#n`.
+    pub diffuse_outputs: u32,
+    /// Slots by phase; the second entry is for phase 2 of ps_1_4 only.
+    pub slots: [SlotCount; 2],
+}
+
+/// A program that was found legal for a device. Only [`super::check`] makes one, so whoever has one may rely on
+/// everything that the rules say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checked<T> {
+    inner: T,
+    facts: Facts,
+    device: String,
+}
+
+impl<T> Checked<T> {
+    pub(super) fn new(inner: T, facts: Facts, device: String) -> Self {
+        Self { inner, facts, device }
+    }
+
+    /// What was worked out about the program.
+    pub fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    /// The device for which it was found legal.
+    pub fn device(&self) -> &str {
+        &self.device
+    }
+
+    /// The program again, without the guarantee.
+    pub fn into_inner(self) -> T {
+        self.inner
+    }
+}
+
+impl<T> Deref for Checked<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.inner
+    }
+}
+
+/// Derives the facts of a program without violations.
+pub(super) fn derive(context: &Context<'_>) -> Facts {
+    let program: &Program = context.program;
+    let count = program.instructions.len();
+    let mut facts = Facts {
+        phase: (0..count).map(|i| context.phase(i)).collect(),
+        phase_marker: context.phase_marker(),
+        jump: context.jump.clone(),
+        main_end: program.instructions.iter().position(|i| i.opcode == Opcode::Label).unwrap_or(count),
+        slots: slots::counts(context),
+        ..Facts::default()
+    };
+    if context.version.is_ps_1_x() {
+        facts.color_outputs = 1;
+    }
+    for declaration in &program.declarations {
+        let register = declaration.destination.register;
+        if register.file == RegisterFile::Sampler
+            && let Some(entry) = facts.sampler_usage.get_mut(usize::from(register.index))
+        {
+            *entry = Some(declaration.usage);
+        }
+    }
+    for instruction in &program.instructions {
+        note(&mut facts, context, instruction);
+    }
+    facts
+}
+
+fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Instruction) {
+    let (version, opcode) = (context.version, instruction.opcode);
+    let bit = |index: u16| 1_u32.checked_shl(u32::from(index)).unwrap_or(0);
+    for (k, source) in instruction.sources.iter().enumerate() {
+        let register = source.register;
+        match register.file {
+            RegisterFile::Temp => facts.temporaries = facts.temporaries.max(register.index.saturating_add(1)),
+            RegisterFile::Constant => {
+                let rows = if k == 1 { super::matrix_rows(opcode).unwrap_or(1) } else { 1 };
+                facts.constants = facts.constants.max(register.index.saturating_add(rows));
+                facts.relative_constants |= register.relative.is_some();
+            }
+            RegisterFile::Texture => facts.texture_registers |= bit(register.index),
+            RegisterFile::Input => facts.inputs |= bit(register.index),
+            RegisterFile::Sampler => facts.samplers |= bit(register.index),
+            _ => {}
+        }
+    }
+    if let Some(destination) = instruction.destination {
+        let register = destination.register;
+        match register.file {
+            RegisterFile::Temp => facts.temporaries = facts.temporaries.max(register.index.saturating_add(1)),
+            RegisterFile::ColorOut => facts.color_outputs |= bit(register.index),
+            RegisterFile::DepthOut => facts.writes_depth = true,
+            RegisterFile::TexCoordOut => facts.texcoord_outputs |= bit(register.index),
+            RegisterFile::DiffuseOut => facts.diffuse_outputs |= bit(register.index),
+            RegisterFile::Texture if is_texture(opcode) => {
+                // In ps_1_1 to 1_3 the destination names the coordinate set, and the stage if one is sampled.
+                facts.texture_registers |= bit(register.index);
+            }
+            _ => {}
+        }
+        if opcode.info().destination == DestinationRule::Write && samples_stage(version, opcode) {
+            facts.samplers |= bit(register.index);
+        }
+    }
+    facts.has_flow |= opcode.info().class == crate::isa::OpcodeClass::Flow;
+    facts.kills |= opcode == Opcode::TexKill;
+    facts.writes_depth |= matches!(opcode, Opcode::TexDepth | Opcode::TexM3x2Depth);
+    let fetch = samples_stage(version, opcode) || matches!(opcode, Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP);
+    facts.uses_derivatives |= fetch || matches!(opcode, Opcode::Dsx | Opcode::Dsy);
+}
+
+/// Whether the operation samples the stage of its destination's number.
+fn samples_stage(version: Version, opcode: Opcode) -> bool {
+    use Opcode as O;
+    match opcode {
+        O::TexLd => version == Version::Ps1_4,
+        O::Tex
+        | O::TexBem
+        | O::TexBemL
+        | O::TexReg2Ar
+        | O::TexReg2Gb
+        | O::TexReg2Rgb
+        | O::TexM3x2Tex
+        | O::TexM3x3Tex
+        | O::TexM3x3Spec
+        | O::TexM3x3VSpec
+        | O::TexDp3Tex => true,
+        _ => false,
+    }
+}

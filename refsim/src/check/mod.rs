@@ -1,0 +1,84 @@
+//! The checker: a program and a device go in, a [`Checked`] program or a list of everything wrong with it comes out.
+//!
+//! [`check`] finds *every* violation of the rules [`RuleId`] in one go, each with its place in the text, what was found
+//! and what is allowed, and the profile key of the figure that decides. Executors take only [`Checked`] programs and
+//! rely on it: register numbers are in range, operands are there, blocks close, labels exist, subroutines do not recurse,
+//! and nothing is read that was not written on any path.
+//!
+//! Where the sources leave a rule open the checker takes the strict reading if a card could not run the program, and
+//! the lenient one otherwise. Reads of unwritten components are followed exactly through straight code; through
+//! branches, loops and calls a component counts as written if some path may have written it.
+
+mod allowed;
+mod context;
+mod dataflow;
+mod declared;
+mod facts;
+mod flow;
+mod operands;
+mod pairs;
+mod ps_1;
+mod ps_1_4;
+mod ps_2;
+mod reads;
+mod report;
+mod rule;
+mod shape;
+mod slots;
+mod vertex;
+
+pub use facts::{Checked, Facts, SlotCount};
+pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
+pub use report::{CheckReport, Violation};
+pub use rule::RuleId;
+
+use crate::device::Profile;
+use crate::isa::{Program, Stage, Version};
+use context::Context;
+
+/// Judges a program for a device.
+///
+/// # Errors
+/// All violations, in the order of the text.
+///
+/// ```
+/// use refsim::{asm, check, device::Profile};
+///
+/// let program = asm::assemble("ps_1_4\ntexld r0, t0\nmul r0, r0, c0")?;
+/// let r200 = Profile::named("r200")?;
+/// let checked = check::check(program, &r200)?;
+/// assert_eq!(checked.facts().samplers, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
+    let mut violations = Vec::new();
+    let facts = {
+        let mut context = Context::new(&program, profile);
+        run(&mut context);
+        violations.append(&mut context.violations);
+        violations.is_empty().then(|| facts::derive(&context))
+    };
+    match facts {
+        Some(facts) => Ok(Checked::new(program, facts, profile.name.clone())),
+        None => {
+            violations.sort_by_key(|v| (v.span.start, v.rule));
+            Err(CheckReport { version: program.version, device: profile.name.clone(), violations })
+        }
+    }
+}
+
+fn run(context: &mut Context<'_>) {
+    shape::check(context);
+    slots::check(context);
+    operands::check(context);
+    pairs::check(context);
+    declared::check(context);
+    flow::check(context);
+    dataflow::check(context);
+    match context.program.version {
+        Version::Ps1_4 => ps_1_4::check(context),
+        v if v.is_ps_1_1_to_1_3() => ps_1::check(context),
+        v if v.stage() == Stage::Pixel => ps_2::check(context),
+        _ => vertex::check(context),
+    }
+}

@@ -1,0 +1,315 @@
+//! V07, V13 to V17, V34, V35, V45, V47: what every operand must keep to, whatever the instruction does with it.
+
+use super::context::{Context, Count, is_arithmetic, is_numeric, is_texture};
+use super::{RuleId, Violation};
+use crate::isa::{
+    Destination, DestinationRule, Instruction, Mask, Modifier, Opcode, Register, RegisterFile, Relative, Source, Span,
+    Stage, Swizzle, Version,
+};
+
+pub(super) fn check(context: &mut Context<'_>) {
+    for (index, instruction) in context.instructions() {
+        if let Some(destination) = &instruction.destination {
+            if number_in_range(context, destination.register, destination.span) {
+                destination_file(context, instruction, destination);
+            }
+            mask(context, instruction, destination);
+            result_modifiers(context, instruction, destination);
+        }
+        for (k, source) in instruction.sources.iter().enumerate() {
+            if number_in_range(context, source.register, source.span) {
+                source_file(context, index, instruction, k);
+            }
+            relative(context, source);
+            if is_numeric(source.register.file) {
+                swizzle(context, instruction, source);
+                source_modifier(context, instruction, source);
+            } else if source.swizzle != Swizzle::IDENTITY && source.register.file != RegisterFile::Predicate {
+                let file = source.register.file.prefix();
+                context.breach(RuleId::V15, source.span, format!("a `{file}` register has a swizzle"));
+            }
+        }
+    }
+}
+
+/// V07. Returns whether the register exists.
+pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, span: Span) -> bool {
+    let (file, index, version) = (register.file, u32::from(register.index), context.version);
+    let prefix = file.prefix();
+    let Some(count) = context.count(file) else {
+        let name = if file.is_unnumbered() { prefix.to_owned() } else { format!("{prefix}#") };
+        context.breach(RuleId::V07, span, format!("{version} has no register `{name}`"));
+        return false;
+    };
+    let n = count.value();
+    if index < n {
+        return true;
+    }
+    let range = match n {
+        0 => "has none".to_owned(),
+        1 => format!("has `{prefix}0` only"),
+        _ => format!("has `{prefix}0` to `{prefix}{}`", n - 1),
+    };
+    let found = if register.relative.is_some() { register.to_string() } else { format!("{prefix}{index}") };
+    match count {
+        Count::Limited(allowed) => {
+            let message = format!("program names `{found}`, {} {range}", allowed.owner);
+            context.exceed(
+                RuleId::V07,
+                span,
+                index,
+                &allowed,
+                message,
+                "no such register".to_owned(),
+                "reuse a register",
+            );
+        }
+        Count::Fixed(_) => {
+            let message = format!("program names `{found}`, {version} {range}");
+            context.add(Violation::new(RuleId::V07, span, message).label("no such register"));
+        }
+    }
+    false
+}
+
+/// V45, and the form of an address in the versions that have it.
+fn relative(context: &mut Context<'_>, source: &Source) {
+    let Some(relative) = source.register.relative else { return };
+    let (version, span) = (context.version, source.span);
+    let breach = if version.stage() == Stage::Pixel {
+        Some(format!("{version} has no relative addressing"))
+    } else if source.register.file != RegisterFile::Constant {
+        Some(format!("`{}` is addressed relatively", source.register))
+    } else {
+        match (relative, version) {
+            (Relative::Address(component), _) if component > 3 => Some("a0 has four components".to_owned()),
+            (Relative::Address(1..), Version::Vs1_1) => Some("vs_1_1 addresses through a0.x only".to_owned()),
+            (Relative::Loop, Version::Vs1_1) => Some("vs_1_1 has no `aL`".to_owned()),
+            _ => None,
+        }
+    };
+    if let Some(message) = breach {
+        let help = "only constants are addressed relatively, in vs_1_1 by a0.x, in vs_2_0 by a0 or aL";
+        context.add(Violation::new(RuleId::V45, span, message).help(help));
+    }
+}
+
+/// V13, and the rules that name a destination of their own.
+fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destination: &Destination) {
+    use RegisterFile as F;
+    let (version, opcode) = (context.version, instruction.opcode);
+    let (file, name) = (destination.register.file, opcode.info().mnemonic);
+    if destination.register.relative.is_some() {
+        context.breach(RuleId::V45, destination.span, "a destination is addressed relatively");
+    }
+    let (rule, allowed, expected): (RuleId, bool, &str) = match version {
+        _ if opcode == Opcode::TexKill => match version {
+            Version::Ps1_4 => (RuleId::V29, matches!(file, F::Texture | F::Temp), "t# or r#"),
+            v if v.is_ps_2() => (RuleId::V41, matches!(file, F::Texture | F::Temp), "t# or r#"),
+            _ => (RuleId::V13, file == F::Texture, "t#"),
+        },
+        v if v.is_ps_1_1_to_1_3() && is_texture(opcode) => (RuleId::V13, file == F::Texture, "t#"),
+        v if v.is_ps_1_1_to_1_3() => (RuleId::V13, matches!(file, F::Temp | F::Texture), "r# or t#"),
+        Version::Ps1_4 => (RuleId::V13, file == F::Temp, "r#"),
+        _ if opcode == Opcode::Setp => (RuleId::V57, file == F::Predicate, "p0"),
+        _ if opcode == Opcode::Mova => (RuleId::V49, file == F::Address, "a0"),
+        v if v.is_ps_2() && matches!(file, F::ColorOut | F::DepthOut) => (RuleId::V36, opcode == Opcode::Mov, "r#"),
+        v if v.is_ps_2() => (RuleId::V13, file == F::Temp, "r#, oC# or oDepth"),
+        Version::Vs1_1 if file == F::Address => (RuleId::V49, opcode == Opcode::Mov, "mov to write a0"),
+        Version::Vs2_0 if file == F::Address => (RuleId::V49, false, "mova to write a0"),
+        _ if matches!(opcode, Opcode::SinCos | Opcode::Sgn) => (RuleId::V13, file == F::Temp, "r#"),
+        _ => {
+            let output = [F::PositionOut, F::FogOut, F::PointSizeOut, F::DiffuseOut, F::TexCoordOut].contains(&file);
+            (RuleId::V13, file == F::Temp || output, "r# or an output")
+        }
+    };
+    if !allowed {
+        let message = format!("`{name}` writes `{}`, expected {expected}", destination.register);
+        context.add(Violation::new(rule, destination.span, message).label("the destination"));
+    }
+}
+
+/// V14, V20, V25, V40, V41 as far as the mask goes.
+fn mask(context: &mut Context<'_>, instruction: &Instruction, destination: &Destination) {
+    let (version, opcode, mask) = (context.version, instruction.opcode, destination.mask);
+    let texture = is_texture(opcode);
+    let (rule, allowed, expected): (RuleId, bool, &str) = match version {
+        _ if mask.0 == 0 || mask.0 > 0b1111 => (RuleId::V14, false, "one to four components"),
+        v if v.is_ps_2() && opcode == Opcode::TexKill => (RuleId::V41, mask == Mask::ALL, "no mask"),
+        v if v.is_ps_2() && texture => (RuleId::V40, mask == Mask::ALL, "no mask"),
+        Version::Ps1_4 if opcode == Opcode::TexLd => (RuleId::V25, mask == Mask::ALL, "no mask"),
+        Version::Ps1_4 if opcode == Opcode::TexCrd => {
+            let projected = instruction.sources.first().is_some_and(|s| s.modifier == Modifier::Dw);
+            if projected {
+                (RuleId::V25, mask == Mask(0b0011), ".rg (with _dw)")
+            } else {
+                (RuleId::V25, mask == Mask::RGB, ".rgb")
+            }
+        }
+        Version::Ps1_4 if opcode == Opcode::Bem => (RuleId::V27, mask == Mask(0b0011), ".rg"),
+        v if v.is_ps_1_x() && texture => (RuleId::V14, mask == Mask::ALL, "no mask"),
+        v if v.is_ps_1_1_to_1_3() && opcode == Opcode::Dp3 => {
+            (RuleId::V20, matches!(mask, Mask::RGB | Mask::ALL), ".rgb or .rgba")
+        }
+        v if v.is_ps_1_1_to_1_3() => {
+            (RuleId::V14, matches!(mask, Mask::RGB | Mask::ALPHA | Mask::ALL), ".rgb, .a or .rgba")
+        }
+        Version::Vs1_1 if opcode == Opcode::Frc => (RuleId::V14, matches!(mask.0, 0b0010 | 0b0011), ".y or .xy"),
+        _ => (RuleId::V14, true, ""),
+    };
+    if !allowed {
+        let name = opcode.info().mnemonic;
+        let message = format!("`{name}` writes {}, expected {expected}", mask_text(mask));
+        context.add(Violation::new(rule, destination.span, message).label("this mask"));
+    }
+}
+
+fn mask_text(mask: Mask) -> String {
+    let letters: String = mask.components().map(|c| ['r', 'g', 'b', 'a'][c]).collect();
+    if letters.is_empty() { "nothing".to_owned() } else { format!("`.{letters}`") }
+}
+
+/// V17, V34, V46, and the modifiers of V36 and V40.
+fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destination: &Destination) {
+    let (version, opcode) = (context.version, instruction.opcode);
+    let name = opcode.info().mnemonic;
+    let texture = is_texture(opcode) || instruction.opcode.info().destination == DestinationRule::Read;
+    let mut add = |rule: RuleId, what: &str| {
+        let message = format!("`{name}` has {what}");
+        context.add(Violation::new(rule, instruction.span, message).label("the instruction modifier"));
+    };
+    let shift = destination.shift;
+    if shift != 0 {
+        if !version.is_ps_1_x() {
+            let rule = if version.is_ps_2() { RuleId::V34 } else { RuleId::V17 };
+            add(rule, &format!("a shift, {version} has none"));
+        } else if texture {
+            add(RuleId::V17, "a shift, but only arithmetic can be shifted");
+        } else if !(-3..=3).contains(&shift) || version.is_ps_1_1_to_1_3() && !(-1..=2).contains(&shift) {
+            let expected = if version == Version::Ps1_4 { "_x8 to _d8" } else { "_x2, _x4 or _d2" };
+            add(RuleId::V17, &format!("a shift that {version} lacks: it has {expected}"));
+        }
+    }
+    let output = matches!(destination.register.file, RegisterFile::ColorOut | RegisterFile::DepthOut);
+    if destination.saturate {
+        if matches!(opcode, Opcode::Frc | Opcode::SinCos) && version.is_ps_2() {
+            add(RuleId::V46, "_sat, but its result is in range or its own affair");
+        } else if output {
+            add(RuleId::V36, "_sat, but an output is written as it is");
+        } else if texture || version.stage() == Stage::Vertex || !is_arithmetic(opcode) || opcode == Opcode::Setp {
+            add(RuleId::V17, "_sat, but only arithmetic of pixel programs can be saturated");
+        }
+    }
+    if destination.partial_precision && !version.is_ps_2() {
+        add(RuleId::V17, &format!("_pp, {version} has no partial precision"));
+    }
+    if destination.centroid {
+        add(RuleId::V17, "_centroid, which belongs on a declaration");
+    }
+}
+
+/// V28, V29, V31, V40, V43, V47: the files that sources can be of. What flow control takes is [`super::flow`]'s.
+fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instruction, k: usize) {
+    use RegisterFile as F;
+    let (version, opcode) = (context.version, instruction.opcode);
+    let source = &instruction.sources[k];
+    let file = source.register.file;
+    let (rule, allowed, expected): (RuleId, bool, &str) = match (version, opcode) {
+        (Version::Ps1_4, op) if is_texture(op) => {
+            let second = context.phase(index) == 2;
+            let rule = if file == F::Temp && op == Opcode::TexLd { RuleId::V22 } else { RuleId::V29 };
+            let expected = if second { "t# or r#" } else { "t# (in phase 1)" };
+            (rule, file == F::Texture || second && file == F::Temp, expected)
+        }
+        (Version::Ps1_4, _) if file == F::Texture => (RuleId::V28, false, "r#, c# or v#: load it with texcrd"),
+        (Version::Ps1_4, _) => (RuleId::V47, is_numeric(file), "r#, c# or v#"),
+        (v, op) if v.is_ps_1_1_to_1_3() && is_texture(op) => {
+            if k == 1 {
+                (RuleId::V31, file == F::Constant, "c# (the eye)")
+            } else {
+                (RuleId::V31, file == F::Texture, "t#")
+            }
+        }
+        (_, op) if is_texture(op) && k == 1 => (RuleId::V40, file == F::Sampler, "s#"),
+        (_, op) if is_texture(op) && k == 0 => (RuleId::V40, matches!(file, F::Temp | F::Texture), "t# or r#"),
+        (_, Opcode::SinCos) if k > 0 => (RuleId::V43, file == F::Constant, "c#"),
+        (_, Opcode::Sgn) if k > 0 => (RuleId::V59, file == F::Temp, "r# (a scratch register)"),
+        (_, op) if is_arithmetic(op) || is_texture(op) => (RuleId::V47, is_numeric(file), "a register of numbers"),
+        _ => return,
+    };
+    if !allowed {
+        let name = opcode.info().mnemonic;
+        let message = format!("`{name}` reads `{}`, expected {expected}", source.register);
+        context.add(Violation::new(rule, source.span, message).label("this source"));
+    }
+}
+
+/// V15, V40: selectors and swizzles.
+fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
+    let (version, opcode, swizzle) = (context.version, instruction.opcode, source.swizzle);
+    if swizzle.0.iter().any(|c| *c > 3) {
+        context.breach(RuleId::V15, source.span, "a selector names a component beyond the fourth");
+        return;
+    }
+    let identity = swizzle == Swizzle::IDENTITY;
+    let replicated = swizzle.replicated();
+    let alpha_only = instruction.destination.is_some_and(|d| d.mask == Mask::ALPHA);
+    let texture = is_texture(opcode);
+    let (rule, allowed, expected): (RuleId, bool, &str) = match version {
+        // The two selectors of texld and texcrd are V23's and V24's.
+        Version::Ps1_4 if texture => {
+            let xyz = matches!(swizzle.0, [0, 1, 2, 2 | 3]);
+            (RuleId::V15, xyz || swizzle.0 == [0, 1, 3, 3], ".xyz or .xyw")
+        }
+        Version::Ps1_4 => (RuleId::V15, identity || replicated.is_some(), ".r .g .b or .a"),
+        v if v.is_ps_1_1_to_1_3() && texture => (RuleId::V15, identity, "no selector"),
+        v if v.is_ps_1_1_to_1_3() => {
+            let blue = replicated == Some(2) && alpha_only;
+            (RuleId::V15, identity || replicated == Some(3) || blue, ".a, or .b where only .a is written")
+        }
+        v if v.is_ps_2() && texture => (RuleId::V40, identity || v == Version::Ps2A, "no swizzle"),
+        Version::Ps2_0 | Version::Ps2B => {
+            let rotated = matches!(swizzle.0, [1, 2, 0, 3] | [2, 0, 1, 3] | [3, 2, 1, 0]);
+            (RuleId::V15, identity || replicated.is_some() || rotated, ".x .y .z .w .yzxw .zxyw or .wzyx")
+        }
+        _ => (RuleId::V15, true, ""),
+    };
+    if !allowed {
+        let letters: String = swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w'][usize::from(*c)]).collect();
+        let message = format!("`{}` is read as `.{letters}`, {version} allows {expected} here", source.register);
+        context.add(Violation::new(rule, source.span, message).label("this selector"));
+    }
+}
+
+/// V16, V35, V40: source modifiers. `_dz`, `_dw` on texture reads of ps_1_4 and `_bx2` on those of ps_1_1 to 1_3 are
+/// left to V24 and V33.
+fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
+    use Modifier as M;
+    let (version, modifier) = (context.version, source.modifier);
+    let texture = is_texture(instruction.opcode);
+    let simple = matches!(modifier, M::None | M::Negate);
+    let (rule, allowed, expected): (RuleId, bool, &str) = match version {
+        Version::Ps1_4 if texture => {
+            (RuleId::V16, matches!(modifier, M::None | M::Dz | M::Dw), "none but _dz and _dw on texture instructions")
+        }
+        v if v.is_ps_1_1_to_1_3() && texture => {
+            (RuleId::V16, matches!(modifier, M::None | M::Bx2), "none but _bx2 on texture instructions")
+        }
+        Version::Ps1_4 if source.register.file == RegisterFile::Constant => {
+            (RuleId::V16, modifier == M::None, "none on constants")
+        }
+        v if v.is_ps_1_x() => {
+            let expands = matches!(modifier, M::Invert | M::Bias | M::BiasNegate | M::Bx2 | M::Bx2Negate);
+            let doubles = matches!(modifier, M::X2 | M::X2Negate) && v == Version::Ps1_4;
+            let all = if v == Version::Ps1_4 { "-, 1-, _bias, _bx2 and _x2" } else { "-, 1-, _bias and _bx2" };
+            (RuleId::V16, simple || expands || doubles, all)
+        }
+        v if v.is_ps_2() && texture => (RuleId::V40, modifier == M::None, "none on texture instructions"),
+        v if v.is_ps_2() => (RuleId::V35, simple, "- alone"),
+        _ => (RuleId::V16, simple, "- alone"),
+    };
+    if !allowed {
+        let message = format!("`{}` carries a source modifier, {version} allows {expected}", source.register);
+        context.add(Violation::new(rule, source.span, message).label("this modifier"));
+    }
+}

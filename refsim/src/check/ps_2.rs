@@ -1,0 +1,235 @@
+//! V36, V38, V39, V42 to V44, V50, V59: the ways of ps_2_0 and up. What vertex programs share with them is here too.
+
+use std::collections::BTreeMap;
+
+use super::allowed::Limit;
+use super::context::Context;
+use super::reads::{is_scalar, matrix_rows};
+use super::{RuleId, Violation};
+use crate::isa::{DestinationRule, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Span, Swizzle};
+
+pub(super) fn check(context: &mut Context<'_>) {
+    for (_, instruction) in context.instructions() {
+        tokens(context, instruction);
+        shared(context, instruction);
+    }
+    outputs(context);
+    dependent_reads(context);
+}
+
+/// The rules on single instructions that pixel programs share with vertex programs.
+pub(super) fn shared(context: &mut Context<'_>, instruction: &Instruction) {
+    scalars(context, instruction);
+    if instruction.opcode == Opcode::SinCos {
+        sincos(context, instruction);
+    }
+    matrix(context, instruction);
+    steps(context, instruction);
+}
+
+/// V39
+fn tokens(context: &mut Context<'_>, instruction: &Instruction) {
+    if !context.version_limits() || instruction.opcode == Opcode::SinCos {
+        return;
+    }
+    let found = instruction.sources.iter().filter(|s| s.register.file == RegisterFile::Constant).count();
+    if found > 2 {
+        let mut violation = Violation::new(
+            RuleId::V39,
+            instruction.span,
+            format!("instruction names {found} constants, {} allows 2", context.version),
+        )
+        .help("mov one of them into a temporary first");
+        violation.limit = Some(2);
+        violation.found = Some(found as u32);
+        context.add(violation);
+    }
+}
+
+fn one_component(source: &Source) -> bool {
+    source.swizzle.replicated().is_some()
+}
+
+/// V42, V44
+fn scalars(context: &mut Context<'_>, instruction: &Instruction) {
+    let opcode = instruction.opcode;
+    let name = opcode.info().mnemonic;
+    let scalar: &[Source] = match opcode {
+        op if is_scalar(op) => &instruction.sources,
+        Opcode::Dp2Add => instruction.sources.get(2..).unwrap_or_default(),
+        _ => &[],
+    };
+    for source in scalar.iter().filter(|s| !one_component(s)) {
+        let rule = if opcode == Opcode::Dp2Add { RuleId::V44 } else { RuleId::V42 };
+        let message = format!("`{name}` reads several components of `{}`", source.register);
+        context.add(Violation::new(rule, source.span, message).help("choose one: .x, .y, .z or .w"));
+    }
+}
+
+/// V43
+fn sincos(context: &mut Context<'_>, instruction: &Instruction) {
+    if let Some(destination) = instruction.destination
+        && !matches!(destination.mask.0, 0b0001..=0b0011)
+    {
+        context.breach(RuleId::V43, destination.span, "`sincos` writes other components than .x (cos) and .y (sin)");
+    }
+    let [angle, first, second] = instruction.sources.as_slice() else { return };
+    if !one_component(angle) {
+        context.breach(RuleId::V43, angle.span, "`sincos` reads several components of its angle");
+    }
+    if first.register == second.register {
+        context.breach(RuleId::V43, second.span, "`sincos` takes both its constants from one register");
+    }
+    let plain = |s: &Source| s.swizzle == Swizzle::IDENTITY && s.modifier == Modifier::None;
+    for source in [first, second].into_iter().filter(|s| !plain(s)) {
+        context.breach(RuleId::V43, source.span, "a constant of `sincos` is swizzled or negated");
+    }
+}
+
+/// V50
+fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
+    let (Some(rows), Some(source)) = (matrix_rows(instruction.opcode), instruction.sources.get(1)) else { return };
+    let name = instruction.opcode.info().mnemonic;
+    let register = source.register;
+    let last = u32::from(register.index) + u32::from(rows) - 1;
+    let count = context.count(register.file).map_or(0, |c| c.value());
+    let prefix = register.file.prefix();
+    // A first row that does not exist was reported as a register.
+    if u32::from(register.index) < count && last >= count {
+        let message =
+            format!("`{name}` reads `{prefix}{last}` for its last row, the last one is `{prefix}{}`", count - 1);
+        context.breach(RuleId::V50, source.span, message);
+    }
+    if source.swizzle != Swizzle::IDENTITY || source.modifier != Modifier::None {
+        context.breach(RuleId::V50, source.span, format!("the matrix of `{name}` is swizzled or negated"));
+    }
+    if !matches!(register.file, RegisterFile::Constant | RegisterFile::Temp) {
+        context.breach(
+            RuleId::V50,
+            source.span,
+            format!("the matrix of `{name}` is in `{prefix}#`, expected c# or r#"),
+        );
+    }
+}
+
+/// V59
+fn steps(context: &mut Context<'_>, instruction: &Instruction) {
+    let opcode = instruction.opcode;
+    let Some(destination) = instruction.destination else { return };
+    let rows = matrix_rows(opcode);
+    let several = rows.is_some() || matches!(opcode, Opcode::Crs | Opcode::Nrm | Opcode::SinCos | Opcode::Sgn);
+    if !several {
+        return;
+    }
+    let name = opcode.info().mnemonic;
+    for (k, source) in instruction.sources.iter().enumerate() {
+        let count = if k == 1 { rows.unwrap_or(1) } else { 1 };
+        let first = source.register.index;
+        let hit = source.register.file == destination.register.file
+            && source.register.relative.is_none()
+            && (first..first.saturating_add(count)).contains(&destination.register.index);
+        if hit {
+            let message = format!("`{name}` writes `{}`, which it still reads", destination.register);
+            context.add(Violation::new(RuleId::V59, source.span, message).help("write another register"));
+        }
+    }
+    if let (Opcode::Sgn, [_, a, b]) = (opcode, instruction.sources.as_slice())
+        && a.register == b.register
+    {
+        context.breach(RuleId::V59, b.span, "`sgn` has one scratch register twice");
+    }
+    let mask = destination.mask;
+    let (fits, expected) = match (opcode, rows) {
+        (Opcode::Crs, _) => (mask.0 & 0b1000 == 0, "components of .xyz"),
+        (Opcode::Nrm, _) => (matches!(mask, Mask::RGB | Mask::ALL), ".xyz or .xyzw"),
+        (_, Some(rows)) => (mask.0 == (1 << rows) - 1, "one component for each row"),
+        _ => (true, ""),
+    };
+    if !fits && mask.0 != 0 {
+        context.breach(RuleId::V59, destination.span, format!("`{name}` has another mask than {expected}"));
+    }
+}
+
+/// V36
+fn outputs(context: &mut Context<'_>) {
+    let mut written: [Option<Span>; 4] = [None; 4];
+    let mut depth: Option<Span> = None;
+    for (_, instruction) in context.instructions() {
+        let Some(destination) = instruction.destination else { continue };
+        let register = destination.register;
+        let before = match register.file {
+            RegisterFile::ColorOut => match written.get_mut(usize::from(register.index)) {
+                Some(entry) => entry.replace(instruction.span),
+                None => continue,
+            },
+            RegisterFile::DepthOut => depth.replace(instruction.span),
+            _ => continue,
+        };
+        let mut bad = |what: &str| {
+            context.breach(RuleId::V36, instruction.span, format!("`{register}` {what}"));
+        };
+        if before.is_some() {
+            bad("is written twice");
+        }
+        if instruction.predicate.is_some() {
+            bad("is written under a predicate");
+        }
+        if destination.mask != Mask::ALL {
+            bad("is written in part, expected all components");
+        }
+        let source = instruction.sources.first();
+        if source.is_some_and(|s| s.modifier != Modifier::None) {
+            bad("is written through a source modifier");
+        }
+        if register.file == RegisterFile::DepthOut && source.is_some_and(|s| !one_component(s)) {
+            bad("is written from several components, expected one: .x, .y, .z or .w");
+        }
+    }
+    let span = context.program.version_span;
+    if written[0].is_none() {
+        let violation = Violation::new(RuleId::V36, span, "program does not write `oC0`")
+            .label("this program")
+            .help("end with `mov oC0, r0`");
+        context.add(violation);
+    } else if let Some(gap) = (1..4).find(|i| written[*i].is_none())
+        && let Some(later) = written[gap..].iter().flatten().next()
+    {
+        context.breach(RuleId::V36, *later, format!("`oC{gap}` is skipped"));
+    }
+}
+
+/// V38: the level of a texture read is one more than that of the register that gives its coordinates; a value has the
+/// highest level among what it was computed from.
+fn dependent_reads(context: &mut Context<'_>) {
+    let Some(allowed) = context.limit(Limit::DependentReads) else { return };
+    let mut levels: BTreeMap<u16, u32> = BTreeMap::new();
+    let mut deepest: Option<(Span, u32)> = None;
+    for (_, instruction) in context.instructions() {
+        let read = matches!(instruction.opcode, Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP | Opcode::TexLdD);
+        let of = |s: &Source| match s.register.file {
+            RegisterFile::Temp => levels.get(&s.register.index).copied().unwrap_or(1),
+            _ => 0,
+        };
+        let from = if read { instruction.sources.first().map_or(0, of) } else { 0 };
+        let level = if read { from + 1 } else { instruction.sources.iter().map(of).max().unwrap_or(0).max(1) };
+        if read && level > allowed.value && deepest.is_none_or(|(_, l)| level > l) {
+            deepest = Some((deepest.map_or(instruction.span, |(span, _)| span), level));
+        }
+        let Some(destination) = instruction.destination.filter(|d| d.register.file == RegisterFile::Temp) else {
+            continue;
+        };
+        if instruction.opcode.info().destination == DestinationRule::Write {
+            let whole = destination.mask == Mask::ALL && instruction.predicate.is_none();
+            let entry = levels.entry(destination.register.index).or_insert(level);
+            *entry = if whole { level } else { level.max(*entry) };
+        }
+    }
+    if let Some((span, level)) = deepest {
+        let message = format!(
+            "texture reads depend on one another over {level} levels, {} allows {}",
+            allowed.owner, allowed.value
+        );
+        let label = "the first read that is too deep".to_owned();
+        context.exceed(RuleId::V38, span, level, &allowed, message, label, "read earlier, or use a further pass");
+    }
+}

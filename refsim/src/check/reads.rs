@@ -1,0 +1,84 @@
+//! Which components an instruction looks at. The checker and the executors read the same table.
+
+use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
+
+/// The rows of a matrix operation's second source.
+pub fn matrix_rows(opcode: Opcode) -> Option<u16> {
+    match opcode {
+        Opcode::M3x2 => Some(2),
+        Opcode::M3x3 | Opcode::M4x3 => Some(3),
+        Opcode::M3x4 | Opcode::M4x4 => Some(4),
+        _ => None,
+    }
+}
+
+/// Whether the operation reads one component and replicates its result.
+pub fn is_scalar(opcode: Opcode) -> bool {
+    matches!(opcode, Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Expp | Opcode::Logp | Opcode::Pow)
+}
+
+/// The lanes of source `index` that the instruction looks at, before the swizzle sends them to components.
+///
+/// `sampler` is the declared type of the sampler of a ps_2_x texture read.
+pub fn source_lanes(version: Version, instruction: &Instruction, index: usize, sampler: Option<Usage>) -> Mask {
+    let written = instruction.destination.map_or(Mask::ALL, |d| d.mask);
+    let lanes = match (instruction.opcode, index) {
+        (Opcode::Dp3 | Opcode::Nrm, _) => 0b0111,
+        (Opcode::Dp4, _) => 0b1111,
+        (Opcode::Dp2Add, 0 | 1) => 0b0011,
+        (Opcode::Dp2Add, _) => 0b0001,
+        (Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4, _) => 0b0111,
+        (Opcode::M4x3 | Opcode::M4x4, _) => 0b1111,
+        (Opcode::Crs, _) => {
+            let needs = [0b0110, 0b0101, 0b0011];
+            (0..3).filter(|c| written.contains(*c)).fold(0, |lanes, c| lanes | needs[c])
+        }
+        (Opcode::SinCos, 0) | (Opcode::IfC | Opcode::BreakC, _) => 0b0001,
+        (Opcode::SinCos, _) => 0b1111,
+        (Opcode::Sgn, 1 | 2) => 0,
+        (Opcode::Dst, 0) => written.0 & 0b0110,
+        (Opcode::Dst, _) => written.0 & 0b1010,
+        (Opcode::Lit, _) => 0b1011,
+        (Opcode::Bem, 1) => 0b0011,
+        (opcode, _) if is_scalar(opcode) => 0b0001,
+        (Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP | Opcode::TexLdD, 1) => 0,
+        (Opcode::TexLd, _) if version == Version::Ps1_4 => 0b0111,
+        (Opcode::TexLd | Opcode::TexLdD, _) => coordinates(sampler),
+        (Opcode::TexLdB | Opcode::TexLdP, _) => coordinates(sampler) | 0b1000,
+        (Opcode::TexBem | Opcode::TexBemL, _) => 0b0011,
+        (Opcode::TexReg2Ar, _) => 0b1001,
+        (Opcode::TexReg2Gb, _) => 0b0110,
+        (
+            Opcode::TexReg2Rgb
+            | Opcode::TexM3x2Pad
+            | Opcode::TexM3x2Tex
+            | Opcode::TexM3x2Depth
+            | Opcode::TexM3x3Pad
+            | Opcode::TexM3x3Tex
+            | Opcode::TexM3x3Spec
+            | Opcode::TexM3x3VSpec
+            | Opcode::TexM3x3
+            | Opcode::TexDp3
+            | Opcode::TexDp3Tex,
+            _,
+        ) => 0b0111,
+        _ => written.0,
+    };
+    Mask(lanes & 0b1111)
+}
+
+fn coordinates(sampler: Option<Usage>) -> u8 {
+    match sampler {
+        Some(Usage::SamplerCube | Usage::SamplerVolume) => 0b0111,
+        _ => 0b0011,
+    }
+}
+
+/// The components of the destination that the instruction *reads*: `texkill`'s three, `texdepth`'s two.
+pub fn destination_reads(opcode: Opcode) -> Mask {
+    match opcode {
+        Opcode::TexKill => Mask(0b0111),
+        Opcode::TexDepth => Mask(0b0011),
+        _ => Mask(0),
+    }
+}

@@ -1,0 +1,140 @@
+//! V01, V02, V03, V06, V12 and the operand counts of V47: what can be seen without looking into instructions.
+
+use super::context::Context;
+use super::{RuleId, Violation};
+use crate::isa::{ConstantValue, DestinationRule, Opcode, OpcodeClass, RegisterFile, Version};
+
+pub(super) fn check(context: &mut Context<'_>) {
+    version(context);
+    constants(context);
+    instructions(context);
+    phases(context);
+    if context.version.is_ps_1_x() {
+        order(context);
+    }
+}
+
+fn version(context: &mut Context<'_>) {
+    let (program, profile) = (context.program, context.profile);
+    if profile.supports(context.version) {
+        return;
+    }
+    let tokens: Vec<&str> = profile.limits.versions.iter().map(|v| v.token()).collect();
+    let mut violation = Violation::new(
+        RuleId::V01,
+        program.version_span,
+        format!("program is {}, `{}` runs {}", context.version, profile.name, tokens.join(" ")),
+    )
+    .label("the version")
+    .help(
+        "choose another device, or write the program in a version of this one; the list is `versions` of the profile",
+    );
+    violation.key = Some("versions");
+    context.add(violation);
+}
+
+fn constants(context: &mut Context<'_>) {
+    let program = context.program;
+    let mut seen = std::collections::BTreeSet::new();
+    for def in &program.constants {
+        let register = def.register;
+        if def.position > 0 {
+            context.add(
+                Violation::new(RuleId::V02, def.span, format!("`{register}` is defined after an instruction"))
+                    .help("move every def in front of the first instruction"),
+            );
+        }
+        let wanted = match def.value {
+            ConstantValue::Float(_) => RegisterFile::Constant,
+            ConstantValue::Int(_) => RegisterFile::ConstantInt,
+            ConstantValue::Bool(_) => RegisterFile::ConstantBool,
+        };
+        if register.file != wanted || register.relative.is_some() {
+            let message = format!("the definition is for `{register}`, expected a `{}#` register", wanted.prefix());
+            context.breach(RuleId::V02, def.span, message);
+            continue;
+        }
+        super::operands::number_in_range(context, register, def.span);
+        if !seen.insert((register.file, register.index)) {
+            context.breach(RuleId::V02, def.span, format!("`{register}` is defined twice"));
+        }
+        if let (ConstantValue::Float(values), true) = (def.value, context.version.is_ps_1_x()) {
+            // The bits of a magnitude above 1, infinity or NaN.
+            if values.iter().any(|v| v & 0x7fff_ffff > 0x3f80_0000) {
+                context.add(
+                    Violation::new(RuleId::V02, def.span, format!("`{register}` is defined beyond -1 to 1"))
+                        .help("constants of ps_1_x lie in -1 to 1: scale the value and undo it with _x2, _x4 or _x8"),
+                );
+            }
+        }
+    }
+}
+
+fn instructions(context: &mut Context<'_>) {
+    let version = context.version;
+    for instruction in &context.program.instructions {
+        let info = instruction.opcode.info();
+        let name = info.mnemonic;
+        let Some(sources) = info.source_count(version) else {
+            let has: Vec<&str> = Version::ALL.iter().filter(|v| info.available(**v)).map(|v| v.token()).collect();
+            let message = format!("{version} has no `{name}`");
+            let help = format!("`{name}` is in {}", has.join(" "));
+            context.add(Violation::new(RuleId::V03, instruction.span, message).help(help));
+            continue;
+        };
+        let wrong = |what: String| Violation::new(RuleId::V47, instruction.span, what);
+        if instruction.sources.len() != usize::from(sources) {
+            let found = instruction.sources.len();
+            context.add(wrong(format!("`{name}` has {found} sources, expected {sources} in {version}")));
+        }
+        let destination = info.destination != DestinationRule::None;
+        if instruction.destination.is_some() != destination {
+            let expected = if destination { "expected one" } else { "expected none" };
+            let found = if destination { "no destination" } else { "a destination" };
+            context.add(wrong(format!("`{name}` has {found}, {expected}")));
+        }
+        if instruction.comparison.is_some() != info.comparison {
+            let found = if info.comparison { "lacks its comparison" } else { "takes no comparison" };
+            context.add(wrong(format!("`{name}` {found}")));
+        }
+    }
+}
+
+fn phases(context: &mut Context<'_>) {
+    if context.version != Version::Ps1_4 {
+        return;
+    }
+    let markers = context.program.instructions.iter().filter(|i| i.opcode == Opcode::Phase);
+    for marker in markers.skip(1) {
+        context.add(
+            Violation::new(RuleId::V06, marker.span, "program has a second `phase`, ps_1_4 allows 1")
+                .label("the second marker")
+                .help("a program has two phases at most: use a further pass"),
+        );
+    }
+}
+
+/// V05, for the phases of ps_1_4 and the single one of ps_1_1 to 1_3.
+fn order(context: &mut Context<'_>) {
+    let program = context.program;
+    let mut arithmetic_in = 0;
+    for (index, instruction) in context.instructions() {
+        let phase = context.phase(index);
+        match instruction.opcode.info().class {
+            OpcodeClass::Arithmetic => arithmetic_in = phase,
+            OpcodeClass::Texture if arithmetic_in == phase => {
+                let name = instruction.opcode.info().mnemonic;
+                context.add(
+                    Violation::new(
+                        RuleId::V05,
+                        program.instructions[index].span,
+                        format!("`{name}` follows arithmetic"),
+                    )
+                    .label("a texture instruction too late")
+                    .help("move it in front of the phase's arithmetic, or behind `phase` in ps_1_4"),
+                );
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! V04: the instruction slots.
+
+use super::RuleId;
+use super::allowed::Limit;
+use super::context::{Context, ordinal};
+use super::facts::SlotCount;
+use crate::isa::{Instruction, Opcode, SlotCost, Span, Stage, Usage, Version};
+
+pub(super) fn check(context: &mut Context<'_>) {
+    let phases: &[u8] = match (context.version, context.phase_marker()) {
+        (Version::Ps1_4, Some(_)) => &[1, 2],
+        (Version::Ps1_4, None) => &[2],
+        _ => &[1],
+    };
+    for &phase in phases {
+        budget(context, phase, Limit::TextureInstructions, "texture instructions", |c| u32::from(c.texture));
+        budget(context, phase, Limit::ArithmeticInstructions, "arithmetic instruction slots", |c| {
+            u32::from(c.arithmetic)
+        });
+    }
+    if context.version != Version::Ps1_4 {
+        budget(context, 1, Limit::Instructions, "instruction slots", |c| {
+            u32::from(c.texture) + u32::from(c.arithmetic)
+        });
+    }
+}
+
+fn budget(context: &mut Context<'_>, phase: u8, limit: Limit, what: &str, slots: impl Fn(SlotCost) -> u32) {
+    let Some(allowed) = context.limit(limit) else { return };
+    let mut used = 0_u32;
+    let mut first: Option<(Span, u32)> = None;
+    for (index, instruction) in context.instructions() {
+        if context.phase(index) != phase {
+            continue;
+        }
+        used = used.saturating_add(slots(cost(context, index, instruction)));
+        if used > allowed.value && first.is_none() {
+            first = Some((instruction.span, used));
+        }
+    }
+    let Some((span, number)) = first else { return };
+    let place = if context.version == Version::Ps1_4 { format!(" in phase {phase}") } else { String::new() };
+    let message = format!("program uses {used} {what}{place}, {} allows {}", allowed.owner, allowed.value);
+    let label = match limit {
+        Limit::TextureInstructions => format!("the {} texture instruction{place}", ordinal(number)),
+        _ => format!("slot {number}{place}"),
+    };
+    let advice = match (context.version, phase) {
+        (Version::Ps1_4, 2) if context.phase_marker().is_none() => "split the program with `phase`",
+        (Version::Ps1_4, _) => "move work into the other phase, pair .rgb with .a, or split into passes",
+        _ => "split the program into passes",
+    };
+    context.exceed(RuleId::V04, span, used, &allowed, message, label, advice);
+}
+
+/// What an instruction costs where it stands: the second of a pair only what it costs more than the first, a predicate
+/// and a cube map extra in ps_2_x.
+fn cost(context: &Context<'_>, index: usize, instruction: &Instruction) -> SlotCost {
+    let version = context.version;
+    let mut cost = instruction.opcode.info().slot_cost(version);
+    if instruction.coissue && index > 0 && context.is_sound(index - 1) {
+        let partner = context.program.instructions[index - 1].opcode.info().slot_cost(version);
+        cost.arithmetic = cost.arithmetic.saturating_sub(partner.arithmetic);
+    }
+    if version.is_ps_2_x() {
+        let cube = context.sampled_usage(instruction) == Some(Usage::SamplerCube);
+        match instruction.opcode {
+            Opcode::TexLd if cube => cost.texture = 4,
+            Opcode::TexLdP if cube => cost.texture = cost.texture.max(4),
+            _ => {}
+        }
+        if instruction.predicate.is_some() {
+            cost.arithmetic += 1;
+        }
+    }
+    cost
+}
+
+/// The slots of each phase; only the first entry is used by versions without phases.
+pub(super) fn counts(context: &Context<'_>) -> [SlotCount; 2] {
+    let mut counts = [SlotCount::default(); 2];
+    for (index, instruction) in context.instructions() {
+        let entry = usize::from(context.phase(index) == 2);
+        let cost = cost(context, index, instruction);
+        counts[entry].texture += u32::from(cost.texture);
+        counts[entry].arithmetic += u32::from(cost.arithmetic);
+    }
+    debug_assert!(context.version.stage() == Stage::Pixel || counts[1] == SlotCount::default());
+    counts
+}
