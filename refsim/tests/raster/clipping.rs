@@ -1,0 +1,109 @@
+//! The clipper.
+
+use super::support::{CONVENTIONS, RULES, counts, set_up, state, vertex};
+use proptest::prelude::*;
+use refsim::raster::{ComponentMask, RasterRules, Vertex, Viewport};
+
+fn any_vertex() -> impl Strategy<Value = Vertex> {
+    (any::<[u32; 4]>(), any::<u32>(), any::<u32>()).prop_map(|(position, a, b)| {
+        let mut v = Vertex { position, ..Vertex::default() };
+        v.texcoords[0][0] = a;
+        v.colors[0][2] = b;
+        v
+    })
+}
+
+fn near_vertex() -> impl Strategy<Value = Vertex> {
+    let axis = || prop_oneof![-3.0f32..3.0, -200.0f32..200.0, prop::num::f32::ANY, Just(0.0f32), Just(1.0f32)];
+    [axis(), axis(), axis(), axis()].prop_map(vertex)
+}
+
+fn check(v: &[Vertex; 3], convention: usize, bits: u8, viewport: Viewport) {
+    let mut s = state(64, 48, CONVENTIONS[convention]);
+    s.viewport = viewport;
+    let rules = RasterRules { subpixel_bits: bits, ..RULES };
+    for done in set_up([&v[0], &v[1], &v[2]], &s, &rules).0 {
+        let b = done.bounds;
+        assert!(b.width > 0 && b.height > 0 && b.x + b.width <= 64 && b.y + b.height <= 48);
+        assert!(done.area > 0);
+        for (x, y) in [(b.x, b.y), (b.x + b.width - 1, b.y + b.height), (0, 0), (64, 48)] {
+            let _ = done.interpolate(x, y, ComponentMask::ALL);
+        }
+        let fragments: u32 = done.quads(s.scissor).map(|q| q.mask.count_ones()).sum();
+        assert!(fragments <= b.width * b.height);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_bits_are_drawn_or_dropped(v in [any_vertex(), any_vertex(), any_vertex()], convention in 0usize..4, bits in any::<u8>()) {
+        check(&v, convention, bits, Viewport::new(64, 48));
+    }
+
+    #[test]
+    fn nearly_sensible_vertices_too(
+        v in [near_vertex(), near_vertex(), near_vertex()], convention in 0usize..4, bits in 0u8..=8,
+        x in any::<i32>(), y in -100i32..100, width in any::<u32>(), height in 0u32..100, depths in any::<[u32; 2]>(),
+    ) {
+        check(&v, convention, bits, Viewport::new(64, 48));
+        check(&v, convention, bits, Viewport { x, y, width, height, min_depth: depths[0], max_depth: depths[1] });
+    }
+
+    /// The law of common edges holds for triangles that the clipper has cut.
+    #[test]
+    fn clipped_neighbours_share_no_pixel(
+        a in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0], b in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0],
+        up in 0.5f32..30.0, down in 0.5f32..30.0,
+    ) {
+        // Two vertices on either side of the line through a and b as seen on the screen.
+        let on_screen = |v: [f32; 4]| [v[0] / v[3], v[1] / v[3]];
+        let (p, q) = (on_screen(a), on_screen(b));
+        let across = [-(q[1] - p[1]), q[0] - p[0]];
+        prop_assume!(across[0].abs() + across[1].abs() > 0.1);
+        let beside = |k: f32| vertex([(p[0] + q[0]) / 2.0 + across[0] * k, (p[1] + q[1]) / 2.0 + across[1] * k, 0.5, 1.0]);
+        let (va, vb, vc, vd) = (vertex(a), vertex(b), beside(up), beside(-down));
+        let found = counts(&[[&va, &vb, &vc], [&va, &vb, &vd]], &state(64, 48, CONVENTIONS[0]), &RULES);
+        prop_assert!(found.iter().all(|&n| n <= 1));
+    }
+}
+
+/// One triangle far larger than the guard band covers everything once, and its attributes survive.
+#[test]
+fn a_huge_triangle_fills_the_screen() {
+    for convention in CONVENTIONS {
+        let mut v = [[-100.0f32, -100.0], [300.0, -100.0], [-100.0, 300.0]].map(|[x, y]| vertex([x, y, 0.5, 1.0]));
+        for corner in &mut v {
+            corner.texcoords[0][0] = corner.position[0];
+            corner.texcoords[1][0] = 0x4048_f5c3;
+        }
+        let s = state(64, 48, convention);
+        assert!(counts(&[[&v[0], &v[1], &v[2]]], &s, &RULES).iter().all(|&n| n == 1));
+        for done in set_up([&v[0], &v[1], &v[2]], &s, &RULES).0 {
+            for (x, y) in (0..64).map(|i| (i, i / 2)).filter(|&(x, y)| done.coverage(x, y)) {
+                let t = done.interpolate(x, y, ComponentMask::ALL).t;
+                let half = if convention.0 == refsim::raster::PixelCenter::OpenGl { 0.5 } else { 0.0 };
+                let want = (x as f32 + half) / 32.0 - 1.0;
+                assert!((f32::from_bits(t[0][0]) - want).abs() < 1e-4, "{x}: {}", f32::from_bits(t[0][0]));
+                assert_eq!(t[1][0], 0x4048_f5c3);
+            }
+        }
+    }
+}
+
+/// A floor that runs through the eye: only the part in front is seen, below the horizon.
+#[test]
+fn what_is_behind_the_eye_is_not_seen() {
+    let floor = [[-50.0f32, 20.0], [50.0, 20.0], [0.0, -30.0]].map(|[x, depth]| {
+        let near = 0.1;
+        let far = 100.0;
+        let z = (depth - near) * far / (far - near);
+        vertex([x, -1.0, z, depth])
+    });
+    let s = state(64, 48, CONVENTIONS[0]);
+    let found = counts(&[[&floor[0], &floor[1], &floor[2]]], &s, &RULES);
+    assert!(found.iter().all(|&n| n <= 1));
+    assert!(found[..24 * 64].iter().all(|&n| n == 0), "something above the horizon");
+    assert!(found[47 * 64..].iter().all(|&n| n == 1), "a hole at the feet");
+}

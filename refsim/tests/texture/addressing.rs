@@ -1,0 +1,148 @@
+//! Coordinates to texels.
+
+use super::rational::Rational;
+use num_bigint::BigInt;
+use proptest::prelude::*;
+use refsim::texture::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_index, project};
+
+pub(crate) const MODES: [AddressMode; 4] =
+    [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
+
+/// Addressing as a picture book has it: walk into the image a step at a time. `position` must be small.
+pub(crate) fn naive(mode: AddressMode, position: i64, size: i64) -> Option<u32> {
+    let mut p = position;
+    match mode {
+        AddressMode::Wrap => {
+            while p < 0 {
+                p += size;
+            }
+            while p >= size {
+                p -= size;
+            }
+        }
+        AddressMode::Mirror => {
+            // Reflect at the nearer edge until inside.
+            while !(0..size).contains(&p) {
+                p = if p < 0 { -1 - p } else { 2 * size - 1 - p };
+            }
+        }
+        AddressMode::Clamp => {
+            p = if p < 0 {
+                0
+            } else if p >= size {
+                size - 1
+            } else {
+                p
+            }
+        }
+        AddressMode::Border if !(0..size).contains(&p) => return None,
+        AddressMode::Border => {}
+    }
+    Some(p as u32)
+}
+
+/// `u * n - offset` exactly, floored to an integer in units of 1/scale, after bringing huge coordinates into reach.
+fn position(u: f32, n: u32, scale: i64, halves: i64) -> BigInt {
+    let exact =
+        Rational::of_f32(u).mul(&Rational::new(n, 1)).add(&Rational::new(halves, 2)).mul(&Rational::new(scale, 1));
+    exact.floor()
+}
+
+fn coordinate() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        -4.0f32..4.0,
+        (-64i32..64, 1u32..2048).prop_map(|(i, n)| i as f32 / n as f32),
+        -1e-3f32..1e-3,
+        prop::num::f32::SUBNORMAL,
+        Just(-0.0),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn nearest_matches_the_naive_model(u in coordinate(), n in 1u32..3000) {
+        let p = i64::try_from(position(u, n, 1, 0)).unwrap();
+        for mode in MODES {
+            prop_assert_eq!(nearest_index(mode, u.to_bits(), n, n), naive(mode, p, i64::from(n)), "{:?} {}", mode, u);
+        }
+    }
+
+    #[test]
+    fn linear_taps_match_the_naive_model(u in coordinate(), n in 1u32..3000, bits in 0u8..=12) {
+        // round(x) with halves up is floor(x + 1/2) in units of the grid.
+        let one = 1i64 << bits;
+        let doubled: BigInt = position(u, n, 2 * one, -1) + 1;
+        let p = i64::try_from(doubled).unwrap().div_euclid(2);
+        let whole = p.div_euclid(one);
+        for mode in MODES {
+            let (taps, weight) = linear_taps(mode, u.to_bits(), n, n, bits);
+            prop_assert_eq!(weight, p.rem_euclid(one) as u32);
+            prop_assert_eq!(taps, [naive(mode, whole, i64::from(n)), naive(mode, whole + 1, i64::from(n))]);
+        }
+    }
+
+    /// Coordinates of any size wrap as exact arithmetic says.
+    #[test]
+    fn huge_coordinates_wrap_exactly(bits in any::<u32>(), n in 1u32..5000) {
+        let u = f32::from_bits(bits);
+        prop_assume!(u.is_finite());
+        let p = position(u, n, 1, 0);
+        let fold = |p: &BigInt, m: i64| i64::try_from(((p % m) + m) % m).unwrap();
+        prop_assert_eq!(nearest_index(AddressMode::Wrap, bits, n, n), Some(fold(&p, i64::from(n)) as u32));
+        prop_assert_eq!(nearest_index(AddressMode::Mirror, bits, n, n), naive(AddressMode::Mirror, fold(&p, 2 * i64::from(n)), i64::from(n)));
+    }
+}
+
+/// (i + 1/2) / n, rounded to FP32, is in texel i: data textures can be addressed by their index.
+#[test]
+fn texel_centres_address_their_texel_up_to_2048() {
+    for n in 1..=2048u32 {
+        for i in 0..n {
+            let u = (i as f32 + 0.5) / n as f32;
+            assert_eq!(nearest_index(AddressMode::Clamp, u.to_bits(), n, n), Some(i), "{i} of {n}");
+        }
+    }
+}
+
+#[test]
+fn rectangles_are_addressed_in_texels() {
+    for (u, index) in [(0.0f32, 0), (0.99, 0), (1.0, 1), (6.5, 6), (7.0, 6), (-3.0, 0)] {
+        assert_eq!(nearest_index(AddressMode::Clamp, u.to_bits(), 7, 1), Some(index), "{u}");
+    }
+}
+
+/// The Direct3D table: for each face the direction of its centre, of growing u and of growing v.
+#[test]
+fn cube_faces_follow_the_table() {
+    let table = [
+        (CubeFace::PositiveX, [1., 0., 0.], [0., 0., -1.], [0., -1., 0.]),
+        (CubeFace::NegativeX, [-1., 0., 0.], [0., 0., 1.], [0., -1., 0.]),
+        (CubeFace::PositiveY, [0., 1., 0.], [1., 0., 0.], [0., 0., 1.]),
+        (CubeFace::NegativeY, [0., -1., 0.], [1., 0., 0.], [0., 0., -1.]),
+        (CubeFace::PositiveZ, [0., 0., 1.], [1., 0., 0.], [0., -1., 0.]),
+        (CubeFace::NegativeZ, [0., 0., -1.], [-1., 0., 0.], [0., -1., 0.]),
+    ];
+    for (slice, (face, centre, along_u, along_v)) in table.into_iter().enumerate() {
+        assert_eq!(face as usize, slice);
+        for (du, dv) in [(0.0f32, 0.0f32), (0.5, 0.0), (0.0, 0.5), (-0.75, 0.25)] {
+            for length in [1.0f32, 3.0, 1e-30] {
+                let d: [f32; 3] = std::array::from_fn(|i| (centre[i] + du * along_u[i] + dv * along_v[i]) * length);
+                let (found, u, v) = cube_coordinates(d.map(f32::to_bits));
+                let (u, v) = (f32::from_bits(u), f32::from_bits(v));
+                assert_eq!(found, face, "{d:?}");
+                assert!((u - (du + 1.0) / 2.0).abs() < 1e-6 && (v - (dv + 1.0) / 2.0).abs() < 1e-6, "{d:?}: {u} {v}");
+            }
+        }
+    }
+    // Ties: z before y before x.
+    let face = |d: [f32; 3]| cube_coordinates(d.map(f32::to_bits)).0;
+    assert_eq!(face([1., 1., 1.]), CubeFace::PositiveZ);
+    assert_eq!(face([-1., -1., 0.]), CubeFace::NegativeY);
+    assert_eq!(face([1., 0., -1.]), CubeFace::NegativeZ);
+}
+
+#[test]
+fn projection_divides_in_fp32() {
+    let read = project([1.0f32, 2.0, 5.0, 3.0].map(f32::to_bits)).map(f32::from_bits);
+    assert_eq!(read, [1.0 / 3.0, 2.0 / 3.0, 5.0 / 3.0, 3.0]);
+}
