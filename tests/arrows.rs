@@ -17,7 +17,7 @@ const REFSIM: Law = (
         ("check", &["num", "isa", "device"]),
         ("event", &[]),
         ("texture", &["num", "device"]),
-        ("raster", &["num", "device"]),
+        ("raster", &["num", "device", "texture"]),
         ("output", &["num", "device", "texture", "raster"]),
         ("exec", &["num", "isa", "device", "check", "texture", "raster", "output", "event"]),
         ("machine", &["num", "isa", "device", "check", "texture", "raster", "output", "exec", "event"]),
