@@ -78,8 +78,12 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
     }
     let man = i32::from(man_bits);
     let min_exp = 2 - (1 << (exp_bits - 1));
+    // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with digits
+    // behind it keeps its exponent.)
+    let left = sig.leading_zeros() & 63;
+    let (sig, exp) = (sig << left, exp - left.cast_signed());
     // The value lies in [2^top, 2^(top+1)); its unit in the last place is 2^unit.
-    let top = exp + 63 - sig.leading_zeros().cast_signed();
+    let top = if sig == 0 { exp - 1 } else { exp + 63 };
     let unit = (top - man).max(min_exp - man);
     let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
     // Exponent field and mantissa in one sum: the hidden bit adds the first one, a carry the next.

@@ -34,13 +34,10 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
     let distance = high.exp.abs_diff(low.exp);
     if distance <= 30 && high.sig >> 32 == 0 && low.sig >> 62 == 0 {
         // One word holds the exact sum.
-        let high_sig = high.sig << distance;
-        return match (high.sign == low.sign, high_sig >= low.sig) {
-            (true, _) => round(env, high.sign, high_sig + low.sig, low.exp, false),
-            (_, true) if high_sig == low.sig => zero(&env.format, cancelled(env)),
-            (_, true) => round(env, high.sign, high_sig - low.sig, low.exp, false),
-            (_, false) => round(env, low.sign, low.sig - high_sig, low.exp, false),
-        };
+        let signed = |negative: bool, sig: u64| if negative { -sig.cast_signed() } else { sig.cast_signed() };
+        let total = signed(high.sign, high.sig << distance) + signed(low.sign, low.sig);
+        let sign = if total == 0 { cancelled(env) } else { total < 0 };
+        return round(env, sign, total.unsigned_abs(), low.exp, false);
     }
     // Bits by which the higher term moves left (two stay free for the carry), and the lower one right.
     let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
