@@ -5,6 +5,7 @@
 //! arithmetic: the jump structure ([`FlowMap`]), constants as registers hold them ([`ResolvedConstants`]), bindings,
 //! and the seam through which the machine drives them ([`TileExecutor`]). They share no operation body.
 
+pub mod batch;
 mod bindings;
 mod constants;
 mod flow;

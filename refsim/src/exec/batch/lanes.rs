@@ -1,0 +1,63 @@
+//! Which lane arithmetic a format gets.
+
+use super::fixed::FixedLane;
+use super::float::{self, ANY, DOUBLE, FloatLane, HOST, SINGLE};
+use crate::num::{Format, Kind, Overflow, Rounding};
+
+/// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
+/// formats have their rounding and overflow compiled in; the rest decide at run time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum AnyLane {
+    Fixed16Even(FixedLane<0, false, 0>),
+    Fixed16Away(FixedLane<1, false, 0>),
+    Fixed16Zero(FixedLane<2, false, 0>),
+    Fixed16Down(FixedLane<3, false, 0>),
+    Fixed16Wrap(FixedLane<ANY, false, 1>),
+    Fixed32(FixedLane<ANY, true, 2>),
+    Host(FloatLane<HOST, 0>),
+    Single(FloatLane<SINGLE, 0>),
+    DoubleEven(FloatLane<DOUBLE, 0>),
+    Double(FloatLane<DOUBLE, ANY>),
+}
+
+impl AnyLane {
+    /// The arithmetic of `format`; `None` for no format that [`Format`] can be built with.
+    pub(crate) fn new(format: Format) -> Option<Self> {
+        Some(match format.kind {
+            Kind::Fixed { .. } if format.width() > 16 => Self::Fixed32(FixedLane::new(format)?),
+            Kind::Fixed { .. } if format.overflow == Overflow::Wrap => Self::Fixed16Wrap(FixedLane::new(format)?),
+            Kind::Fixed { .. } => match format.rounding {
+                Rounding::NearestEven => Self::Fixed16Even(FixedLane::new(format)?),
+                Rounding::NearestAway => Self::Fixed16Away(FixedLane::new(format)?),
+                Rounding::TowardZero => Self::Fixed16Zero(FixedLane::new(format)?),
+                Rounding::Down => Self::Fixed16Down(FixedLane::new(format)?),
+            },
+            Kind::Float { .. } => match float::path(&format) {
+                HOST => Self::Host(FloatLane::new(format)?),
+                SINGLE => Self::Single(FloatLane::new(format)?),
+                _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(format)?),
+                _ => Self::Double(FloatLane::new(format)?),
+            },
+        })
+    }
+}
+
+/// Runs a block with the arithmetic of a format, once compiled for each.
+macro_rules! with_lane {
+    ($format:expr, |$lane:ident| $body:block) => {
+        match $crate::exec::batch::lanes::AnyLane::new($format) {
+            None => {}
+            Some($crate::exec::batch::lanes::AnyLane::Fixed16Even(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Fixed16Away(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Fixed16Zero(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Fixed16Down(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Fixed16Wrap(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Fixed32(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Host(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Single(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::DoubleEven(ref $lane)) => $body,
+            Some($crate::exec::batch::lanes::AnyLane::Double(ref $lane)) => $body,
+        }
+    };
+}
+pub(crate) use with_lane;

@@ -1,0 +1,225 @@
+//! The batch executor's arithmetic against `num`: two implementations that share no code, equal on every operation.
+//!
+//! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule; wider
+//! ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
+
+use refsim::exec::batch::{LaneOperation as Op, convert, evaluate};
+use refsim::num::{DotOrder, Denormals, Format, Overflow, Rounding, Specials, ops};
+
+const OPERATIONS: &[Op] = &[
+    Op::Add, Op::Sub, Op::Mul, Op::Mad, Op::FusedMad, Op::ExactDot3, Op::ExactDot4, Op::Div, Op::Sqrt, Op::Rcp, Op::Rsq,
+    Op::Exp2, Op::Log2, Op::Min, Op::Max, Op::Floor, Op::Frc, Op::Neg, Op::Abs, Op::Scale(-3), Op::Scale(-1), Op::Scale(1), Op::Scale(3),
+    Op::Saturate, Op::Lt, Op::Le, Op::Eq, Op::Cmp, Op::Cnd,
+];
+
+fn reference(f: Format, op: Op, a: u32, b: u32, c: u32) -> u32 {
+    match op {
+        Op::Add => ops::add(f, a, b).bits,
+        Op::Sub => ops::sub(f, a, b).bits,
+        Op::Mul => ops::mul(f, a, b).bits,
+        Op::Mad => ops::mad(f, a, b, c).bits,
+        Op::FusedMad => ops::fused_mad(f, a, b, c).bits,
+        Op::ExactDot3 => ops::dot(f, DotOrder::Exact, &[(a, b), (b, c), (c, a)]).bits,
+        Op::ExactDot4 => ops::dot(f, DotOrder::Exact, &[(a, b), (b, c), (c, a), (b, b)]).bits,
+        Op::Div => ops::div(f, a, b).bits,
+        Op::Sqrt => ops::sqrt(f, a).bits,
+        Op::Rcp => ops::rcp(f, a).bits,
+        Op::Rsq => ops::rsq(f, a).bits,
+        Op::Exp2 => ops::exp2(f, a).bits,
+        Op::Log2 => ops::log2(f, a).bits,
+        Op::Min => ops::min(f, a, b).bits,
+        Op::Max => ops::max(f, a, b).bits,
+        Op::Floor => ops::floor(f, a).bits,
+        Op::Frc => ops::frc(f, a).bits,
+        Op::Neg => ops::neg(f, a).bits,
+        Op::Abs => ops::abs(f, a).bits,
+        Op::Scale(k) => ops::scale(f, a, k.into()).bits,
+        Op::Saturate => ops::saturate01(f, a).bits,
+        Op::Lt => ops::lt(f, a, b).bits,
+        Op::Le => ops::le(f, a, b).bits,
+        Op::Eq => ops::eq(f, a, b).bits,
+        Op::Cmp => ops::cmp(f, a, b, c).bits,
+        Op::Cnd => ops::cnd(f, a, b, c).bits,
+    }
+}
+
+fn is_unary(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Sqrt | Op::Rcp | Op::Rsq | Op::Exp2 | Op::Log2 | Op::Floor | Op::Frc | Op::Neg | Op::Abs | Op::Scale(_) | Op::Saturate
+    )
+}
+
+/// Compares one operation on the given operands and says where it differs first.
+fn compare(f: Format, op: Op, a: &[u32], b: &[u32], c: &[u32]) {
+    let batch = evaluate(f, op, a, b, c);
+    assert_eq!(batch.len(), a.len(), "{f}: no lane arithmetic");
+    for i in 0..a.len() {
+        let scalar = reference(f, op, a[i], b[i], c[i]);
+        assert_eq!(
+            batch[i], scalar,
+            "{f} {op:?}({:#x}, {:#x}, {:#x}): batch {:#x}, scalar {scalar:#x}",
+            a[i], b[i], c[i], batch[i]
+        );
+    }
+}
+
+const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+
+/// The layout under every combination of rules that its kind has.
+fn variants(base: Format) -> Vec<Format> {
+    let mut out = Vec::new();
+    for rounding in ROUNDINGS {
+        let f = base.with_rounding(rounding);
+        if f.is_fixed() {
+            out.push(f.with_overflow(Overflow::Saturate));
+            out.push(f.with_overflow(Overflow::Wrap));
+            continue;
+        }
+        for overflow in [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30] {
+            for denormals in [Denormals::Keep, Denormals::Flush] {
+                for specials in [Specials::Ieee, Specials::Nv] {
+                    out.push(f.with_overflow(overflow).with_denormals(denormals).with_specials(specials));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// A stream of operands: xorshift, seeded by what is compared.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    /// A pattern: anything, or near an edge, or near a power of two.
+    fn pattern(&mut self, f: &Format) -> u32 {
+        let r = self.next();
+        let any = (self.next() >> 20) as u32 & f.mask();
+        let near = (r >> 8 & 7) as u32;
+        let edges = [0, f.one(), f.max_finite(), f.min_finite(), f.sign_bit(), f.one() / 2, f.infinity(false).unwrap_or(1)];
+        match r & 15 {
+            0 => f.mask() & edges[(r >> 32) as usize % edges.len()].wrapping_add(near),
+            1 => f.mask() & edges[(r >> 32) as usize % edges.len()].wrapping_sub(near),
+            2 => any & near,
+            3 if f.is_fixed() => any >> (r >> 32 & 15),
+            // Exponents around one: sums cancel, products stay in range.
+            3..=7 if !f.is_fixed() => (f.one() ^ any & (f.one() >> 2 | f.sign_bit() | 0xff)) & f.mask(),
+            _ => any,
+        }
+    }
+
+    fn patterns(&mut self, f: &Format, n: usize) -> Vec<u32> {
+        (0..n).map(|_| self.pattern(f)).collect()
+    }
+}
+
+fn full() -> bool {
+    std::env::var_os("CROSSBAR_FULL").is_some()
+}
+
+fn layout(text: &str) -> Format {
+    text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+#[test]
+fn short_formats_agree_on_all_pairs() {
+    let layouts: &[&str] = if full() {
+        &["s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "e2m1", "e2m3", "e3m2", "e4m3", "e5m2", "e3m4", "e2m5", "e6m1"]
+    } else {
+        &["s0.1", "s2.0", "s2.3", "e2m1", "e2m3", "e3m2", "e4m1"]
+    };
+    for text in layouts {
+        for f in variants(layout(text)) {
+            let all: Vec<u32> = (0..=f.mask()).collect();
+            let n = all.len();
+            let mut random = Random::new(f.mask().into());
+            for &op in OPERATIONS {
+                if is_unary(op) {
+                    compare(f, op, &all, &all, &all);
+                    continue;
+                }
+                let a: Vec<u32> = (0..n * n).map(|i| all[i / n]).collect();
+                let b: Vec<u32> = (0..n * n).map(|i| all[i % n]).collect();
+                let c = random.patterns(&f, n * n);
+                compare(f, op, &a, &b, &c);
+            }
+        }
+    }
+}
+
+#[test]
+fn all_formats_agree_on_random_operands() {
+    let layouts = [
+        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "e5m10", "e7m16", "e8m23", "e8m7", "e3m4",
+        "e8m10", "e6m10", "e7m10", "e6m9", "e5m11", "e8m16", "e2m23", "e8m1", "e7m23",
+    ];
+    let n = if full() { 65536 } else { 512 };
+    for (seed, text) in layouts.iter().enumerate() {
+        for (k, f) in variants(layout(text)).into_iter().enumerate() {
+            let mut random = Random::new((seed * 64 + k + 1) as u64);
+            let (a, b, c) = (random.patterns(&f, n), random.patterns(&f, n), random.patterns(&f, n));
+            for &op in OPERATIONS {
+                compare(f, op, &a, &b, &c);
+            }
+        }
+    }
+}
+
+#[test]
+fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
+    let stride = if full() { 1 } else { 37 };
+    for text in ["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "bf16", "s3.12", "s3.12:rtz:wrap", "s0.15:rdn"] {
+        let f = layout(text);
+        let all: Vec<u32> = (0..=f.mask()).step_by(stride).collect();
+        for &op in OPERATIONS {
+            if is_unary(op) {
+                compare(f, op, &all, &all, &all);
+            }
+        }
+    }
+}
+
+#[test]
+fn fp16_agrees_on_pairs() {
+    let stride = if full() { 7 } else { 997 };
+    for text in ["fp16", "fp16:rtz"] {
+        let f = layout(text);
+        let all: Vec<u32> = (0..=0xffff).step_by(stride).collect();
+        for &a in &all {
+            let first = vec![a; all.len()];
+            for op in [Op::Add, Op::Mul, Op::Div] {
+                compare(f, op, &first, &all, &all);
+            }
+        }
+    }
+}
+
+#[test]
+fn conversions_agree() {
+    let texts = [
+        "s3.12", "s3.12:rna", "s3.12:rtz:wrap", "s3.12:rdn", "s3.12:rne:wrap", "s3.12:rna:wrap", "s3.12:rdn:wrap", "s1.10", "s0.8:wrap", "s0.31", "s31.0:wrap", "s15.16:rtz", "fp16",
+        "fp16:rtz", "fp16:ftz", "fp16:nvovf", "fp24", "fp24:rdn", "fp24:sat", "fp32", "fp32:ftz", "fp32:rdn", "bf16", "e3m4", "e8m10:rna",
+    ];
+    let n = if full() { 100_000 } else { 1000 };
+    for from in texts.map(layout) {
+        for to in texts.map(layout) {
+            let bits = Random::new(u64::from(from.mask()) * 31 + u64::from(to.width())).patterns(&from, n);
+            let batch = convert(from, to, &bits);
+            for (&bits, &result) in bits.iter().zip(&batch) {
+                let scalar = refsim::num::ops::convert(&from, to, bits).bits;
+                assert_eq!(result, scalar, "{from} to {to}: {bits:#x}: batch {result:#x}, scalar {scalar:#x}");
+            }
+        }
+    }
+}
