@@ -365,4 +365,9 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
     fn above_half(&self, a: i32) -> bool {
         a > self.product.half as i32
     }
+
+    #[inline(always)]
+    fn factor(&self, a: i32, _: i32) -> i32 {
+        a
+    }
 }

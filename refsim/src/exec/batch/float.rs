@@ -415,4 +415,10 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     fn above_half(&self, a: f32) -> bool {
         a > 0.5
     }
+
+    #[inline(always)]
+    fn factor(&self, a: f32, b: f32) -> f32 {
+        let finite = (a.abs() < f32::INFINITY) & (b.abs() < f32::INFINITY);
+        if ((a == 0.0) | (b == 0.0)) & !finite { 0.0 } else { a }
+    }
 }

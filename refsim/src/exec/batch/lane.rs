@@ -78,4 +78,6 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn eq(&self, a: Self::T, b: Self::T) -> bool;
     /// `a > 1/2`, the half exact; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
+    fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
 }

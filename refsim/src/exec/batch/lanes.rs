@@ -2,6 +2,7 @@
 
 use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, HOST, SINGLE};
+use super::lane::Lane;
 use crate::num::{Format, Kind, Overflow, Rounding};
 
 /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
@@ -42,22 +43,39 @@ impl AnyLane {
     }
 }
 
-/// Runs a block with the arithmetic of a format, once compiled for each.
-macro_rules! with_lane {
-    ($format:expr, |$lane:ident| $body:block) => {
-        match $crate::exec::batch::lanes::AnyLane::new($format) {
-            None => {}
-            Some($crate::exec::batch::lanes::AnyLane::Fixed16Even(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Fixed16Away(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Fixed16Zero(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Fixed16Down(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Fixed16Wrap(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Fixed32(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Host(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Single(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::DoubleEven(ref $lane)) => $body,
-            Some($crate::exec::batch::lanes::AnyLane::Double(ref $lane)) => $body,
+/// Runs a block with the arithmetic of an [`AnyLane`], once compiled for each.
+macro_rules! with_any_lane {
+    ($any:expr, |$lane:ident| $body:block) => {
+        match $any {
+            $crate::exec::batch::lanes::AnyLane::Fixed16Even($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed16Away($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed16Zero($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed16Down($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed16Wrap($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed32($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Host($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Single($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::DoubleEven($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Double($lane) => $body,
         }
     };
 }
-pub(crate) use with_lane;
+pub(crate) use with_any_lane;
+
+impl AnyLane {
+    /// A bit pattern of the format as a slot holds it.
+    pub(crate) fn decode(&self, bits: u32) -> u32 {
+        fn decode<L: Lane>(lane: &L, bits: u32) -> u32 {
+            L::store(lane.decode(bits))
+        }
+        with_any_lane!(self, |lane| { decode(lane, bits) })
+    }
+
+    /// The bit pattern of what a slot holds.
+    pub(crate) fn encode(&self, raw: u32) -> u32 {
+        fn encode<L: Lane>(lane: &L, raw: u32) -> u32 {
+            lane.encode(L::load(raw))
+        }
+        with_any_lane!(self, |lane| { encode(lane, raw) })
+    }
+}

@@ -6,6 +6,8 @@ mod float;
 mod lane;
 mod lanes;
 mod odd;
+mod ops;
 mod power;
+mod slots;
 
 pub use evaluate::{LaneOperation, convert, evaluate};

@@ -1,0 +1,223 @@
+//! Instructions as graph nodes: the arithmetic ones, under the rules of a device.
+
+use super::graph::{Arith, Graph, Kind, Node};
+use super::lanes::AnyLane;
+use super::ops::Code;
+use crate::device::{LrpMode, MadMode, Rules};
+use crate::num::{self, DotOrder, Format, Overflow};
+
+/// Four components.
+pub(crate) type Vector = [Node; 4];
+
+/// The formats of a program and their arithmetic.
+#[derive(Clone, Debug)]
+pub(crate) struct Formats {
+    formats: [Format; 4],
+    lanes: [AnyLane; 4],
+}
+
+impl Formats {
+    /// Of registers in `main`, with `_pp` arithmetic in `partial`.
+    pub(crate) fn new(main: Format, partial: Option<Format>) -> Option<Self> {
+        let formats = [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap)];
+        let [Some(a), Some(b), Some(c), Some(d)] = formats.map(AnyLane::new) else { return None };
+        Some(Self { formats, lanes: [a, b, c, d] })
+    }
+
+    pub(crate) fn format(&self, arith: Arith) -> Format {
+        self.formats[arith as usize]
+    }
+
+    pub(crate) fn lane(&self, arith: Arith) -> &AnyLane {
+        &self.lanes[arith as usize]
+    }
+}
+
+/// Makes nodes. The methods are the operations of the instruction set in one format, with the rounding sequence that
+/// the rules ask for.
+pub(crate) struct Maker<'a> {
+    pub(crate) graph: Graph,
+    pub(crate) formats: Formats,
+    pub(crate) rules: &'a Rules,
+    /// Whether zero times anything is zero in register arithmetic.
+    legacy_zero: bool,
+}
+
+impl<'a> Maker<'a> {
+    pub(crate) fn new(formats: Formats, rules: &'a Rules, pixel: bool) -> Self {
+        Self { graph: Graph::default(), formats, rules, legacy_zero: pixel && rules.zero_times_anything }
+    }
+
+    /// A bit pattern of a format in every lane.
+    pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> Node {
+        let raw = self.formats.lane(k).decode(bits);
+        self.graph.constant(raw)
+    }
+
+    pub(crate) fn zero(&mut self) -> Node {
+        self.graph.constant(0)
+    }
+
+    pub(crate) fn one(&mut self, k: Arith) -> Node {
+        self.pattern(k, self.formats.format(k).one())
+    }
+
+    fn half(&mut self, k: Arith) -> Node {
+        self.pattern(k, num::from_ratio(self.formats.format(k), false, 1, 2).bits)
+    }
+
+    pub(crate) fn compute(&mut self, k: Arith, code: Code, a: Node, b: Node, c: Node) -> Node {
+        self.graph.node(Kind::Compute(k, code, [a, b, c]))
+    }
+
+    pub(crate) fn unary(&mut self, k: Arith, code: Code, a: Node) -> Node {
+        self.compute(k, code, a, a, a)
+    }
+
+    pub(crate) fn binary(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+        self.compute(k, code, a, b, a)
+    }
+
+    /// `a` of format `from` rounded into `to`.
+    pub(crate) fn convert(&mut self, from: Arith, to: Arith, a: Node) -> Node {
+        if self.formats.format(from) == self.formats.format(to) {
+            return a;
+        }
+        self.graph.node(Kind::Convert(from, to, a))
+    }
+
+    /// The factors of a product.
+    fn factors(&mut self, k: Arith, a: Node, b: Node) -> (Node, Node) {
+        if !self.legacy_zero || k == Arith::Single {
+            return (a, b);
+        }
+        (self.binary(k, Code::Factor, a, b), self.binary(k, Code::Factor, b, a))
+    }
+
+    pub(crate) fn add(&mut self, k: Arith, a: Node, b: Node) -> Node {
+        self.binary(k, Code::Add, a, b)
+    }
+
+    pub(crate) fn sub(&mut self, k: Arith, a: Node, b: Node) -> Node {
+        self.binary(k, Code::Sub, a, b)
+    }
+
+    pub(crate) fn mul(&mut self, k: Arith, a: Node, b: Node) -> Node {
+        let (a, b) = self.factors(k, a, b);
+        self.binary(k, Code::Mul, a, b)
+    }
+
+    pub(crate) fn div(&mut self, k: Arith, a: Node, b: Node) -> Node {
+        self.binary(k, Code::Div, a, b)
+    }
+
+    pub(crate) fn neg(&mut self, k: Arith, a: Node) -> Node {
+        self.unary(k, Code::Neg, a)
+    }
+
+    /// A product rounded, and a sum rounded.
+    fn mul_add(&mut self, k: Arith, a: Node, b: Node, c: Node) -> Node {
+        let (a, b) = self.factors(k, a, b);
+        self.compute(k, Code::Mad, a, b, c)
+    }
+
+    pub(crate) fn mad(&mut self, k: Arith, a: Node, b: Node, c: Node) -> Node {
+        match self.rules.mad {
+            MadMode::TwoRoundings => self.mul_add(k, a, b, c),
+            MadMode::Fused => {
+                let (a, b) = self.factors(k, a, b);
+                self.compute(k, Code::FusedMad, a, b, c)
+            }
+        }
+    }
+
+    /// The dot product of the first `terms` components, 1 to 4.
+    pub(crate) fn dot(&mut self, k: Arith, terms: usize, a: &[Node], b: &[Node]) -> Node {
+        match self.rules.dot {
+            DotOrder::Sequential => {
+                let mut sum = self.mul(k, a[0], b[0]);
+                for i in 1..terms {
+                    sum = self.mul_add(k, a[i], b[i], sum);
+                }
+                sum
+            }
+            DotOrder::Tree => {
+                let mut level: Vec<Node> = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
+                while level.len() > 1 {
+                    level = level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
+                }
+                level[0]
+            }
+            DotOrder::Exact => {
+                let zero = self.zero();
+                let (mut left, mut right) = ([zero; 4], [zero; 4]);
+                for i in 0..terms {
+                    (left[i], right[i]) = self.factors(k, a[i], b[i]);
+                }
+                self.graph.node(Kind::Dot(k, terms as u8, left, right))
+            }
+        }
+    }
+
+    pub(crate) fn lrp(&mut self, k: Arith, factor: Node, a: Node, b: Node) -> Node {
+        match self.rules.lrp {
+            LrpMode::SubMulAdd => {
+                let difference = self.sub(k, a, b);
+                self.mad(k, factor, difference, b)
+            }
+            LrpMode::TwoProducts => {
+                let first = self.mul(k, factor, a);
+                let one = self.one(k);
+                let rest = self.sub(k, one, factor);
+                let second = self.mul(k, rest, b);
+                self.add(k, first, second)
+            }
+        }
+    }
+
+    /// `condition ? a : b` of a mask.
+    pub(crate) fn select(&mut self, condition: Node, a: Node, b: Node) -> Node {
+        self.compute(Arith::Single, Code::Select, condition, a, b)
+    }
+
+    /// The mask of a comparison with both operands in `k`.
+    pub(crate) fn holds(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+        self.binary(k, code, a, b)
+    }
+
+    /// A component after its source modifier.
+    pub(crate) fn modified(&mut self, k: Arith, modifier: crate::isa::Modifier, x: Node) -> Node {
+        use crate::isa::Modifier as M;
+        let biased = |maker: &mut Self| {
+            let half = maker.half(k);
+            maker.sub(k, x, half)
+        };
+        match modifier {
+            M::None | M::Dz | M::Dw | M::Not => x,
+            M::Negate => self.neg(k, x),
+            M::Invert => {
+                let one = self.one(k);
+                self.sub(k, one, x)
+            }
+            M::Bias => biased(self),
+            M::BiasNegate => {
+                let b = biased(self);
+                self.neg(k, b)
+            }
+            M::Bx2 => {
+                let b = biased(self);
+                self.unary(k, Code::Scale(1), b)
+            }
+            M::Bx2Negate => {
+                let b = biased(self);
+                let doubled = self.unary(k, Code::Scale(1), b);
+                self.neg(k, doubled)
+            }
+            M::X2 => self.unary(k, Code::Scale(1), x),
+            M::X2Negate => {
+                let doubled = self.unary(k, Code::Scale(1), x);
+                self.neg(k, doubled)
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A program as a graph of values: what instructions compute, a component at a time, before anybody decides in which
+//! order and where.
+//!
+//! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
+//! results and moves cost nothing at run time.
+
+use std::collections::HashMap;
+
+use super::ops::Code;
+use super::slots::Slot;
+
+/// A value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Node(pub(crate) u32);
+
+/// In which number format a value is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Arith {
+    /// The register format.
+    Main,
+    /// The format of `_pp` instructions.
+    Partial,
+    /// Single precision: coordinates and addresses.
+    Single,
+    /// The register format, wrapping: coordinates delivered by `texcrd` with their fraction kept.
+    Wrapped,
+}
+
+/// How a texture read finds its level of detail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Detail {
+    /// From differences across the quad.
+    Implicit,
+    /// Likewise, plus a bias.
+    Biased(Node),
+    /// From derivatives given by the program.
+    Gradients([Node; 4], [Node; 4]),
+}
+
+/// What a node is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Kind {
+    /// The same host bits in every lane.
+    Constant(u32),
+    /// What a fixed slot holds when the block starts: a register of a program with flow control.
+    Held(Slot),
+    /// An interpolated component, or a component of a vertex attribute; single precision.
+    Input(u16),
+    /// An operation.
+    Compute(Arith, Code, [Node; 3]),
+    /// A dot product rounded once.
+    Dot(Arith, u8, [Node; 4], [Node; 4]),
+    /// A value of one format rounded into another.
+    Convert(Arith, Arith, Node),
+    /// A single precision value clamped to [0, 1], rounded to so many steps, and then into the register format.
+    Steps(u32, Node),
+    /// A texture read: sampler, single precision coordinates, detail.
+    Fetch(u8, [Node; 4], Detail),
+    /// A component of a texture read's result.
+    Texel(Node, u8),
+    /// A float constant with a relative number: `c[index + a]`, component, `a` an integer.
+    Relative(i32, u8, Node),
+}
+
+impl Kind {
+    /// Calls `visit` with every node that this one needs.
+    pub(crate) fn needs(&self, mut visit: impl FnMut(Node)) {
+        match *self {
+            Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
+            Kind::Compute(_, code, args) => args.into_iter().take(code.arity()).for_each(visit),
+            Kind::Dot(_, terms, a, b) => {
+                a.into_iter().take(terms.into()).for_each(&mut visit);
+                b.into_iter().take(terms.into()).for_each(visit);
+            }
+            Kind::Convert(_, _, a) | Kind::Steps(_, a) | Kind::Texel(a, _) | Kind::Relative(_, _, a) => visit(a),
+            Kind::Fetch(_, coordinates, detail) => {
+                coordinates.into_iter().for_each(&mut visit);
+                match detail {
+                    Detail::Implicit => {}
+                    Detail::Biased(bias) => visit(bias),
+                    Detail::Gradients(x, y) => x.into_iter().chain(y).for_each(visit),
+                }
+            }
+        }
+    }
+}
+
+impl Code {
+    /// How many rows the operation reads.
+    pub(crate) fn arity(self) -> usize {
+        match self {
+            Code::Add | Code::Sub | Code::Mul | Code::Div | Code::Min | Code::Max | Code::Factor => 2,
+            Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or | Code::AndNot => 2,
+            Code::Mad | Code::FusedMad | Code::SelectNonNegative | Code::SelectAboveHalf | Code::Select => 3,
+            _ => 1,
+        }
+    }
+}
+
+/// The nodes, each after those it needs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Graph {
+    kinds: Vec<Kind>,
+    known: HashMap<Kind, Node>,
+}
+
+impl Graph {
+    /// The node of this kind; the one there is, if there is one.
+    pub(crate) fn node(&mut self, kind: Kind) -> Node {
+        *self.known.entry(kind).or_insert_with(|| {
+            self.kinds.push(kind);
+            Node((self.kinds.len() - 1) as u32)
+        })
+    }
+
+    pub(crate) fn constant(&mut self, raw: u32) -> Node {
+        self.node(Kind::Constant(raw))
+    }
+
+    pub(crate) fn kind(&self, node: Node) -> Kind {
+        self.kinds[node.0 as usize]
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// For each node whether a root needs it.
+    pub(crate) fn live(&self, roots: impl IntoIterator<Item = Node>) -> Vec<bool> {
+        let mut live = vec![false; self.kinds.len()];
+        for root in roots {
+            live[root.0 as usize] = true;
+        }
+        for i in (0..self.kinds.len()).rev() {
+            if live[i] {
+                self.kinds[i].needs(|n| live[n.0 as usize] = true);
+            }
+        }
+        live
+    }
+
+    /// For each node whether it is the same in every lane, given which inputs are.
+    pub(crate) fn uniform(&self, input: impl Fn(u16) -> bool) -> Vec<bool> {
+        let mut uniform = Vec::with_capacity(self.kinds.len());
+        for kind in &self.kinds {
+            let same = match *kind {
+                Kind::Constant(_) => true,
+                Kind::Input(component) => input(component),
+                // Differences of equal lanes are zeros, whose sign depends on the format: computed like the rest.
+                Kind::Held(_) | Kind::Fetch(..) | Kind::Relative(..) => false,
+                _ => {
+                    let mut all = true;
+                    kind.needs(|n| all &= uniform[n.0 as usize]);
+                    all
+                }
+            };
+            uniform.push(same);
+        }
+        uniform
+    }
+}

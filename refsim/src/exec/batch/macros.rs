@@ -1,0 +1,148 @@
+//! Operations of several rounded steps, as graph nodes. The sequences are those that the scalar executor documents.
+
+use super::arith::{Maker, Vector};
+use super::graph::{Arith, Node};
+use super::ops::Code;
+use crate::isa::Opcode;
+use crate::num;
+
+impl Maker<'_> {
+    /// What an arithmetic operation makes of its operands; operands that it lacks are zeros.
+    pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[Vector; 3], bump: &Vector) -> Vector {
+        let [a, b, c] = *s;
+        match opcode {
+            Opcode::Mov => a,
+            Opcode::Add => std::array::from_fn(|i| self.add(k, a[i], b[i])),
+            Opcode::Sub => std::array::from_fn(|i| self.sub(k, a[i], b[i])),
+            Opcode::Mul => std::array::from_fn(|i| self.mul(k, a[i], b[i])),
+            Opcode::Mad => std::array::from_fn(|i| self.mad(k, a[i], b[i], c[i])),
+            Opcode::Lrp => std::array::from_fn(|i| self.lrp(k, a[i], b[i], c[i])),
+            Opcode::Dp3 => [self.dot(k, 3, &a, &b); 4],
+            Opcode::Dp4 => [self.dot(k, 4, &a, &b); 4],
+            Opcode::Dp2Add => {
+                let dot = self.dot(k, 2, &a, &b);
+                [self.add(k, dot, c[0]); 4]
+            }
+            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, Code::SelectAboveHalf, a[i], b[i], c[i])),
+            Opcode::Cmp => std::array::from_fn(|i| self.compute(k, Code::SelectNonNegative, a[i], b[i], c[i])),
+            Opcode::Bem => self.bem(k, &a, &b, bump),
+            Opcode::Abs => a.map(|x| self.unary(k, Code::Abs, x)),
+            Opcode::Min => std::array::from_fn(|i| self.binary(k, Code::Min, a[i], b[i])),
+            Opcode::Max => std::array::from_fn(|i| self.binary(k, Code::Max, a[i], b[i])),
+            Opcode::Sge => std::array::from_fn(|i| self.flag(k, Code::LessEqual, b[i], a[i])),
+            Opcode::Slt => std::array::from_fn(|i| self.flag(k, Code::Less, a[i], b[i])),
+            Opcode::Frc => a.map(|x| self.unary(k, Code::Frc, x)),
+            Opcode::Rcp => [self.unary(k, Code::Rcp, a[0]); 4],
+            Opcode::Rsq => [self.unary(k, Code::Rsq, a[0]); 4],
+            Opcode::Exp => [self.unary(k, Code::Exp2, a[0]); 4],
+            Opcode::Log => [self.unary(k, Code::Log2, a[0]); 4],
+            Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
+            Opcode::Expp => {
+                let floor = self.unary(k, Code::Floor, a[3]);
+                let [x, y, z] = [(Code::Exp2, floor), (Code::Frc, a[3]), (Code::Exp2, a[3])].map(|(code, n)| self.unary(k, code, n));
+                [x, y, z, self.one(k)]
+            }
+            Opcode::Logp => self.logp(k, a[3]),
+            Opcode::Crs => self.crs(k, &a, &b),
+            Opcode::Nrm => self.nrm(k, &a),
+            Opcode::Sgn => a.map(|x| self.sgn(k, x)),
+            Opcode::SinCos => self.sincos(k, a[0], &b, &c),
+            Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
+            Opcode::Lit => self.lit(k, &a),
+            _ => [self.zero(); 4],
+        }
+    }
+
+    /// One where a comparison holds, else zero.
+    fn flag(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+        let holds = self.holds(k, code, a, b);
+        let (one, zero) = (self.one(k), self.zero());
+        self.select(holds, one, zero)
+    }
+
+    fn bem(&mut self, k: Arith, base: &Vector, offset: &Vector, m: &Vector) -> Vector {
+        let mut row = |base: Node, r: Node, g: Node| {
+            let first = self.mad(k, r, offset[0], base);
+            self.mad(k, g, offset[1], first)
+        };
+        let (u, v) = (row(base[0], m[0], m[2]), row(base[1], m[1], m[3]));
+        [u, v, self.zero(), self.zero()]
+    }
+
+    fn pow(&mut self, k: Arith, base: Node, exponent: Node) -> Node {
+        let log = self.unary(k, Code::Log2, base);
+        let product = self.mul(k, exponent, log);
+        self.unary(k, Code::Exp2, product)
+    }
+
+    fn logp(&mut self, k: Arith, w: Node) -> Vector {
+        let magnitude = self.unary(k, Code::Abs, w);
+        let log = self.unary(k, Code::Log2, magnitude);
+        let exponent = self.unary(k, Code::Floor, log);
+        let back = self.neg(k, exponent);
+        let scale = self.unary(k, Code::Exp2, back);
+        let mantissa = self.mul(k, magnitude, scale);
+        let (zero, one) = (self.zero(), self.one(k));
+        let is_zero = self.holds(k, Code::Equal, magnitude, zero);
+        [self.select(is_zero, log, exponent), self.select(is_zero, one, mantissa), log, one]
+    }
+
+    fn crs(&mut self, k: Arith, a: &Vector, b: &Vector) -> Vector {
+        let mut component = |i: usize, j: usize| {
+            let product = self.mul(k, a[j], b[i]);
+            let negated = self.neg(k, product);
+            self.mad(k, a[i], b[j], negated)
+        };
+        let (x, y, z) = (component(1, 2), component(2, 0), component(0, 1));
+        [x, y, z, self.zero()]
+    }
+
+    fn nrm(&mut self, k: Arith, a: &Vector) -> Vector {
+        let d = self.dot(k, 3, a, a);
+        let zero = self.zero();
+        let is_zero = self.holds(k, Code::Equal, d, zero);
+        let largest = self.pattern(k, self.formats.format(k).max_finite());
+        let root = self.unary(k, Code::Rsq, d);
+        let factor = self.select(is_zero, largest, root);
+        a.map(|x| self.mul(k, x, factor))
+    }
+
+    fn sgn(&mut self, k: Arith, a: Node) -> Node {
+        let (zero, one) = (self.zero(), self.one(k));
+        let minus = self.neg(k, one);
+        let above = self.holds(k, Code::Less, zero, a);
+        let below = self.holds(k, Code::Less, a, zero);
+        let rest = self.select(below, minus, zero);
+        self.select(above, one, rest)
+    }
+
+    fn sincos(&mut self, k: Arith, x: Node, p: &Vector, r: &Vector) -> Vector {
+        let q = self.mul(k, x, x);
+        let mut s = self.mad(k, q, p[0], p[3]);
+        s = self.mad(k, s, q, r[0]);
+        s = self.mad(k, s, q, r[3]);
+        s = self.mul(k, s, x);
+        let mut c = self.mad(k, q, p[1], p[2]);
+        c = self.mad(k, c, q, r[1]);
+        c = self.mad(k, c, q, r[2]);
+        let t = self.mul(k, s, c);
+        let sine = self.add(k, t, t);
+        let u = self.mul(k, s, s);
+        let twice = self.add(k, u, u);
+        [self.sub(k, r[2], twice), sine, self.zero(), self.zero()]
+    }
+
+    fn lit(&mut self, k: Arith, a: &Vector) -> Vector {
+        let limit_bits = num::from_ratio(self.formats.format(k), false, 32767, 256).bits;
+        let limit = self.pattern(k, limit_bits);
+        let lowest = self.neg(k, limit);
+        let clamped = self.binary(k, Code::Max, a[3], lowest);
+        let exponent = self.binary(k, Code::Min, clamped, limit);
+        let (zero, one) = (self.zero(), self.one(k));
+        let lit = self.holds(k, Code::Less, zero, a[0]);
+        let shines = self.holds(k, Code::Less, zero, a[1]);
+        let both = self.binary(Arith::Single, Code::And, lit, shines);
+        let power = self.pow(k, a[1], exponent);
+        [one, self.select(lit, a[0], zero), self.select(both, power, zero), one]
+    }
+}

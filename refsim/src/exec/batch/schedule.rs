@@ -1,0 +1,272 @@
+//! From a graph of values to steps on slots.
+
+use std::collections::HashMap;
+
+use super::graph::{Arith, Detail, Graph, Kind, Node};
+use super::ops::{Code, DotOp, LaneOp};
+use super::slots::Slot;
+
+/// A texture read with its operands in slots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct FetchStep {
+    pub(crate) sampler: usize,
+    pub(crate) coordinates: [Slot; 4],
+    pub(crate) detail: FetchDetail,
+    /// Where the components that are needed go.
+    pub(crate) to: [Option<Slot>; 4],
+}
+
+/// [`Detail`] in slots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FetchDetail {
+    Implicit,
+    Biased(Slot),
+    Gradients([Slot; 4], [Slot; 4]),
+}
+
+/// What is done at run time, in order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Lane operations of one format.
+    Lanes(Arith, Vec<LaneOp>),
+    /// A dot product rounded once.
+    Dot(Arith, DotOp),
+    /// Single precision values to steps of [0, 1], into the wide row.
+    Unorm {
+        /// Number of steps.
+        steps: u32,
+        /// The values.
+        from: Slot,
+    },
+    /// A texture read.
+    Fetch(FetchStep),
+    /// Constants with relative numbers.
+    Relative {
+        /// Number without the address.
+        base: i32,
+        /// Component.
+        component: usize,
+        /// The addresses.
+        address: Slot,
+        /// Where the values go.
+        to: Slot,
+    },
+}
+
+/// A scheduled block.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Block {
+    /// Slots with the same host bits in all lanes, filled before the first run and never overwritten.
+    pub(crate) constants: Vec<(Slot, u32)>,
+    /// Slots that the caller fills before each run: `(input component, slot)`.
+    pub(crate) inputs: Vec<(u16, Slot)>,
+    /// Slots of values given by another block: `(node, slot)`.
+    pub(crate) given: Vec<(Node, Slot)>,
+    pub(crate) steps: Vec<Step>,
+    /// Where the roots lie at the end, in the order they were asked for.
+    pub(crate) roots: Vec<Slot>,
+    /// Slots used.
+    pub(crate) slots: usize,
+}
+
+/// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
+///
+/// Slots below `first_slot` belong to the caller. Temporary slots are used again as soon as their value is read for
+/// the last time; constants, inputs, given values and roots keep theirs.
+pub(crate) fn schedule(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool, first_slot: usize) -> Block {
+    let (last_use, needed) = uses(graph, roots, &given);
+    let mut maker = Scheduler {
+        graph,
+        block: Block::default(),
+        place: HashMap::new(),
+        last_use,
+        free: Vec::new(),
+        next: first_slot,
+        texels: HashMap::new(),
+    };
+    for &node in &needed {
+        if let Kind::Texel(fetch, component) = graph.kind(node) {
+            maker.texels.entry(fetch).or_default().push((component, node));
+        }
+    }
+    for &node in &needed {
+        maker.leaf(node, &given);
+    }
+    for &node in &needed {
+        if !maker.place.contains_key(&node) {
+            maker.place_node(node);
+        }
+    }
+    maker.block.roots = roots.iter().map(|root| maker.place[root]).collect();
+    maker.block.slots = maker.next;
+    maker.block
+}
+
+/// For each node its last user, roots living for ever; and the nodes needed, in order.
+fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (HashMap<Node, u32>, Vec<Node>) {
+    let mut live = vec![false; graph.len()];
+    let mut last_use: HashMap<Node, u32> = HashMap::new();
+    for &root in roots {
+        live[root.0 as usize] = true;
+        last_use.insert(root, u32::MAX);
+    }
+    for i in (0..graph.len() as u32).rev() {
+        let node = Node(i);
+        if live[i as usize] && !given(node) {
+            graph.kind(node).needs(|n| {
+                live[n.0 as usize] = true;
+                last_use.entry(n).or_insert(i);
+            });
+        }
+    }
+    let needed = (0..graph.len() as u32).map(Node).filter(|n| live[n.0 as usize]).collect();
+    (last_use, needed)
+}
+
+struct Scheduler<'g> {
+    graph: &'g Graph,
+    block: Block,
+    place: HashMap<Node, Slot>,
+    last_use: HashMap<Node, u32>,
+    free: Vec<Slot>,
+    next: usize,
+    texels: HashMap<Node, Vec<(u8, Node)>>,
+}
+
+impl Scheduler<'_> {
+    fn fresh(&mut self) -> Slot {
+        self.next += 1;
+        (self.next - 1) as Slot
+    }
+
+    /// Gives a slot to a node that no step computes.
+    fn leaf(&mut self, node: Node, given: &impl Fn(Node) -> bool) {
+        let slot = match self.graph.kind(node) {
+            Kind::Constant(raw) => {
+                let slot = self.fresh();
+                self.block.constants.push((slot, raw));
+                slot
+            }
+            Kind::Held(slot) => slot,
+            _ if given(node) => {
+                let slot = self.fresh();
+                self.block.given.push((node, slot));
+                slot
+            }
+            Kind::Input(component) => {
+                let slot = self.fresh();
+                self.block.inputs.push((component, slot));
+                slot
+            }
+            _ => return,
+        };
+        self.place.insert(node, slot);
+    }
+
+    /// A slot for a result of `node`, after the slots of operands that it is the last to read are free again. A lane
+    /// operation may write the slot that it reads: results are made in a spare row.
+    fn result(&mut self, node: Node) -> Slot {
+        self.free.pop().unwrap_or_else(|| self.fresh_for(node))
+    }
+
+    fn fresh_for(&mut self, _: Node) -> Slot {
+        self.fresh()
+    }
+
+    /// Frees the slots of temporaries that `node` reads last.
+    fn release(&mut self, node: Node) {
+        let mut done = Vec::new();
+        let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
+        graph.kind(node).needs(|n| {
+            let kept = matches!(graph.kind(n), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
+            if !kept && last_use.get(&n) == Some(&node.0)
+                && let Some(&slot) = place.get(&n)
+                && !done.contains(&slot)
+            {
+                done.push(slot);
+            }
+        });
+        for slot in done {
+            if !self.block.given.iter().any(|&(_, s)| s == slot) {
+                self.free.push(slot);
+            }
+        }
+    }
+
+    fn at(&self, node: Node) -> Slot {
+        self.place.get(&node).copied().unwrap_or_default()
+    }
+
+    fn lane_op(&mut self, arith: Arith, op: LaneOp) {
+        let neutral = matches!(op.code, Code::Select | Code::And | Code::Or | Code::AndNot | Code::Copy);
+        match self.block.steps.last_mut() {
+            Some(Step::Lanes(last, ops)) if *last == arith || neutral => ops.push(op),
+            _ => self.block.steps.push(Step::Lanes(arith, vec![op])),
+        }
+    }
+
+    fn place_node(&mut self, node: Node) {
+        match self.graph.kind(node) {
+            Kind::Compute(arith, code, [a, b, c]) => {
+                let [a, b, c] = [a, b, c].map(|n| self.at(n));
+                self.release(node);
+                let to = self.result(node);
+                self.place.insert(node, to);
+                let op = match code.arity() {
+                    1 => LaneOp { code, to, a, b: a, c: a },
+                    2 => LaneOp { code, to, a, b, c: a },
+                    _ => LaneOp { code, to, a, b, c },
+                };
+                self.lane_op(arith, op);
+            }
+            Kind::Dot(arith, terms, a, b) => {
+                let (a, b) = (a.map(|n| self.at(n)), b.map(|n| self.at(n)));
+                self.release(node);
+                let to = self.result(node);
+                self.place.insert(node, to);
+                self.block.steps.push(Step::Dot(arith, DotOp { to, terms: terms.into(), a, b }));
+            }
+            Kind::Convert(from, target, a) => {
+                let a = self.at(a);
+                self.release(node);
+                let to = self.result(node);
+                self.place.insert(node, to);
+                self.lane_op(from, LaneOp { code: Code::Widen, to, a, b: a, c: a });
+                self.lane_op(target, LaneOp { code: Code::Narrow, to, a, b: a, c: a });
+            }
+            Kind::Steps(steps, a) => {
+                let from = self.at(a);
+                self.release(node);
+                let to = self.result(node);
+                self.place.insert(node, to);
+                self.block.steps.push(Step::Unorm { steps, from });
+                self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, a: from, b: from, c: from });
+            }
+            Kind::Relative(base, component, address) => {
+                let address = self.at(address);
+                self.release(node);
+                let to = self.result(node);
+                self.place.insert(node, to);
+                self.block.steps.push(Step::Relative { base, component: component.into(), address, to });
+            }
+            Kind::Fetch(sampler, coordinates, detail) => {
+                let coordinates = coordinates.map(|n| self.at(n));
+                let detail = match detail {
+                    Detail::Implicit => FetchDetail::Implicit,
+                    Detail::Biased(bias) => FetchDetail::Biased(self.at(bias)),
+                    Detail::Gradients(x, y) => FetchDetail::Gradients(x.map(|n| self.at(n)), y.map(|n| self.at(n))),
+                };
+                let mut to = [None; 4];
+                for (component, texel) in self.texels.remove(&node).unwrap_or_default() {
+                    let slot = self.result(texel);
+                    self.place.insert(texel, slot);
+                    to[usize::from(component & 3)] = Some(slot);
+                }
+                self.release(node);
+                self.block.steps.push(Step::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
+            }
+            // Leaves have their places, texels got theirs with the read.
+            Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
+        }
+    }
+}

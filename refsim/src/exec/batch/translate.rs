@@ -1,0 +1,310 @@
+//! One instruction at a time from the instruction set to graph nodes: operands, modifiers, results.
+
+use std::collections::HashMap;
+
+use super::arith::{Formats, Maker, Vector};
+use super::graph::{Arith, Kind, Node};
+use super::ops::Code;
+use super::slots::{Slot, TRUE};
+use crate::device::{ColorIterator, Rules};
+use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
+use crate::isa::{Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage};
+use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
+
+/// A component of a register: file, number, component.
+pub(crate) type Place = (RegisterFile, u16, u8);
+
+/// What an instruction does besides computing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Effect {
+    /// Writes a component of a register; the second node, if there is one, is the predicate's mask.
+    Write(Place, Node, Option<Node>),
+    /// Kills where the mask holds.
+    Kill(Node),
+    /// Decides the depth.
+    Depth(Arith, Node),
+}
+
+/// Makes the nodes of one program.
+pub(crate) struct Translator<'a> {
+    pub(crate) make: Maker<'a>,
+    pub(crate) program: &'a Program,
+    pub(crate) constants: &'a ResolvedConstants,
+    pub(crate) bindings: Option<&'a PixelBindings<'a>>,
+    /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds is
+    /// not known here.
+    pub(crate) registers: HashMap<Place, Node>,
+    /// The slot of `aL` in a program with flow control.
+    pub(crate) loop_counter: Option<Slot>,
+    /// Dot products left by `texm3x2pad` and `texm3x3pad`, and how many are waiting.
+    pub(crate) padded: [Node; 2],
+    pub(crate) pads: usize,
+    /// Texture reads by sampler, one an instruction.
+    pub(crate) fetches: Vec<usize>,
+}
+
+impl<'a> Translator<'a> {
+    pub(crate) fn new(
+        program: &'a Program,
+        rules: &'a Rules,
+        formats: Formats,
+        constants: &'a ResolvedConstants,
+        bindings: Option<&'a PixelBindings<'a>>,
+    ) -> Self {
+        let mut make = Maker::new(formats, rules, program.version.stage() == Stage::Pixel);
+        let zero = make.zero();
+        Self {
+            make,
+            program,
+            constants,
+            bindings,
+            registers: HashMap::new(),
+            loop_counter: None,
+            padded: [zero; 2],
+            pads: 0,
+            fetches: Vec::new(),
+        }
+    }
+
+    fn is_pixel(&self) -> bool {
+        self.program.version.stage() == Stage::Pixel
+    }
+
+    /// Bump state of a stage.
+    pub(crate) fn bump(&self, stage: u16) -> BumpStage {
+        self.bindings.and_then(|b| b.bump.get(usize::from(stage)).copied()).unwrap_or_default()
+    }
+
+    /// An interpolated coordinate, single precision; zero past the last set.
+    pub(crate) fn coordinate(&mut self, set: u16, component: usize) -> Node {
+        if set >= 8 {
+            return self.make.zero();
+        }
+        let number = TEXCOORD_COMPONENT + 4 * usize::from(set) + component;
+        self.make.graph.node(Kind::Input(number as u16))
+    }
+
+    /// A colour as the program gets it: clamped, through the iterator's precision, in the register format.
+    fn color(&mut self, number: u16, component: usize) -> Node {
+        if number >= 2 {
+            return self.make.zero();
+        }
+        let input = COLOR_COMPONENT + 4 * usize::from(number) + component;
+        let node = self.make.graph.node(Kind::Input(input as u16));
+        match self.make.rules.color_iterator {
+            ColorIterator::Unorm(width) => {
+                let steps = (1u32 << width.clamp(1, 16)) - 1;
+                self.make.graph.node(Kind::Steps(steps, node))
+            }
+            ColorIterator::Full => {
+                let clamped = self.make.unary(Arith::Single, Code::Saturate, node);
+                self.make.convert(Arith::Single, Arith::Main, clamped)
+            }
+        }
+    }
+
+    /// What a component of a register holds, in the register format.
+    pub(crate) fn held(&mut self, register: &Register, component: usize) -> Node {
+        let place = (register.file, register.index, component as u8);
+        if let Some(&node) = self.registers.get(&place) {
+            return node;
+        }
+        match register.file {
+            RegisterFile::Input if self.is_pixel() => self.color(register.index, component),
+            RegisterFile::Input if register.index < 16 => {
+                let node = self.make.graph.node(Kind::Input(4 * register.index + component as u16));
+                self.make.convert(Arith::Single, Arith::Main, node)
+            }
+            RegisterFile::Texture if self.program.version.is_ps_2() => {
+                let node = self.coordinate(register.index, component);
+                self.make.convert(Arith::Single, Arith::Main, node)
+            }
+            RegisterFile::Constant => self.constant(register, component),
+            _ => self.make.zero(),
+        }
+    }
+
+    fn constant(&mut self, register: &Register, component: usize) -> Node {
+        let address = match register.relative {
+            None => {
+                let bits = self.constants.float.get(usize::from(register.index)).map_or(0, |c| c[component]);
+                return self.make.pattern(Arith::Main, bits);
+            }
+            Some(Relative::Address(c)) => {
+                let zero = self.make.zero();
+                self.registers.get(&(RegisterFile::Address, 0, c & 3)).copied().unwrap_or(zero)
+            }
+            Some(Relative::Loop) => match self.loop_counter {
+                Some(slot) => self.make.graph.node(Kind::Held(slot)),
+                None => self.make.zero(),
+            },
+        };
+        self.make.graph.node(Kind::Relative(i32::from(register.index), component as u8, address))
+    }
+
+    /// The format that an instruction computes in.
+    pub(crate) fn arith(&self, partial: bool) -> Arith {
+        if partial && self.is_pixel() && self.make.rules.partial.is_some() { Arith::Partial } else { Arith::Main }
+    }
+
+    /// All components of an operand in format `k`, after swizzle and modifier.
+    pub(crate) fn operand(&mut self, k: Arith, source: &Source) -> Vector {
+        std::array::from_fn(|i| {
+            let raw = self.held(&source.register, usize::from(source.swizzle.0[i] & 3));
+            let converted = self.make.convert(Arith::Main, k, raw);
+            self.make.modified(k, source.modifier, converted)
+        })
+    }
+
+    /// A component of a result on its way into a register.
+    fn finished(&mut self, k: Arith, destination: &Destination, x: Node) -> Node {
+        let shifted = if destination.shift == 0 { x } else { self.make.unary(k, Code::Scale(destination.shift), x) };
+        let clamped = if destination.saturate { self.make.unary(k, Code::Saturate, shifted) } else { shifted };
+        self.make.convert(k, Arith::Main, clamped)
+    }
+
+    /// The mask of a predicate for a component, `None` where there is no predicate.
+    pub(crate) fn predicate(&mut self, instruction: &Instruction, component: usize) -> Option<Node> {
+        let predicate = instruction.predicate?;
+        let register = Register::new(RegisterFile::Predicate, 0);
+        let bit = self.held(&register, usize::from(predicate.swizzle.0[component] & 3));
+        Some(if predicate.not { self.inverted(bit) } else { bit })
+    }
+
+    /// The complement of a mask.
+    pub(crate) fn inverted(&mut self, mask: Node) -> Node {
+        let all = self.make.graph.constant(TRUE);
+        self.make.binary(Arith::Single, Code::AndNot, mask, all)
+    }
+
+    /// Writes of the components in the destination's mask.
+    pub(crate) fn writes(&mut self, instruction: &Instruction, value: Vector, effects: &mut Vec<Effect>) {
+        let Some(destination) = &instruction.destination else { return };
+        let (file, index) = (destination.register.file, destination.register.index);
+        if file == RegisterFile::DepthOut {
+            // A scalar: the lowest component of the mask carries it.
+            if let Some(c) = destination.mask.components().next() {
+                let allowed = self.predicate(instruction, c);
+                effects.push(Effect::Write((file, 0, 0), value[c], allowed));
+            }
+            return;
+        }
+        for c in destination.mask.components() {
+            let allowed = self.predicate(instruction, c);
+            effects.push(Effect::Write((file, index, c as u8), value[c], allowed));
+        }
+    }
+
+    /// An arithmetic instruction.
+    pub(crate) fn arithmetic(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
+        let Some(destination) = &instruction.destination else { return };
+        let k = self.arith(destination.partial_precision);
+        let zero = self.make.zero();
+        let mut s = [[zero; 4]; 3];
+        for (slot, source) in s.iter_mut().zip(&instruction.sources) {
+            *slot = self.operand(k, source);
+        }
+        let raw = match instruction.opcode {
+            Opcode::Dsx => s[0].map(|x| self.make.unary(k, Code::DifferenceX, x)),
+            Opcode::Dsy => s[0].map(|x| self.make.unary(k, Code::DifferenceY, x)),
+            Opcode::Setp => {
+                let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
+                let value = std::array::from_fn(|i| self.comparison(k, comparison, s[0][i], s[1][i]));
+                return self.writes(instruction, value, effects);
+            }
+            opcode if opcode == Opcode::Mova || destination.register.file == RegisterFile::Address => {
+                let code = if opcode == Opcode::Mova { Code::AddressNearest } else { Code::AddressFloor };
+                let value = s[0].map(|x| self.make.unary(Arith::Main, code, x));
+                return self.writes(instruction, value, effects);
+            }
+            opcode => match matrix_rows(opcode) {
+                Some((rows, terms)) => self.matrix(k, instruction, &s[0], rows, terms),
+                None => {
+                    let bump = self.bump(destination.register.index).matrix;
+                    let bump = bump.map(|bits| {
+                        let single = self.make.pattern(Arith::Single, bits);
+                        let main = self.make.convert(Arith::Single, Arith::Main, single);
+                        self.make.convert(Arith::Main, k, main)
+                    });
+                    self.make.operation(k, opcode, &s, &bump)
+                }
+            },
+        };
+        let value = raw.map(|x| self.finished(k, destination, x));
+        self.writes(instruction, value, effects);
+    }
+
+    fn matrix(&mut self, k: Arith, instruction: &Instruction, vector: &Vector, rows: u16, terms: usize) -> Vector {
+        let mut product = [self.make.zero(); 4];
+        if let Some(source) = instruction.sources.get(1) {
+            for row in 0..rows {
+                let mut source = *source;
+                source.register.index = source.register.index.saturating_add(row);
+                let operand = self.operand(k, &source);
+                product[usize::from(row)] = self.make.dot(k, terms, vector, &operand);
+            }
+            for slot in product.iter_mut().skip(rows.into()) {
+                let zeros = [self.make.zero(); 4];
+                *slot = self.make.dot(k, terms, vector, &zeros);
+            }
+        }
+        product
+    }
+
+    /// The mask of a comparison of two numbers.
+    pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: Node, b: Node) -> Node {
+        let (code, a, b) = match comparison {
+            Comparison::Gt => (Code::Less, b, a),
+            Comparison::Lt => (Code::Less, a, b),
+            Comparison::Ge => (Code::LessEqual, b, a),
+            Comparison::Le => (Code::LessEqual, a, b),
+            Comparison::Eq | Comparison::Ne => (Code::Equal, a, b),
+        };
+        let holds = self.make.holds(k, code, a, b);
+        if comparison == Comparison::Ne { self.inverted(holds) } else { holds }
+    }
+
+    /// The mask of a flow instruction's condition.
+    pub(crate) fn condition(&mut self, instruction: &Instruction) -> Node {
+        let [a, b] = [instruction.sources.first(), instruction.sources.get(1)];
+        match instruction.opcode {
+            Opcode::IfC | Opcode::BreakC => {
+                let (Some(a), Some(b)) = (a, b) else { return self.make.zero() };
+                let x = self.operand(Arith::Main, a)[0];
+                let y = self.operand(Arith::Main, b)[0];
+                self.comparison(Arith::Main, instruction.comparison.unwrap_or(Comparison::Eq), x, y)
+            }
+            Opcode::CallNz => self.truth(b),
+            _ => self.truth(a),
+        }
+    }
+
+    /// The mask of a boolean operand.
+    fn truth(&mut self, source: Option<&Source>) -> Node {
+        let Some(source) = source else { return self.make.zero() };
+        let value = match source.register.file {
+            RegisterFile::Predicate => {
+                let register = Register::new(RegisterFile::Predicate, 0);
+                self.held(&register, usize::from(source.swizzle.0[0] & 3))
+            }
+            RegisterFile::ConstantBool => {
+                let set = self.constants.boolean.get(usize::from(source.register.index)).copied().unwrap_or(false);
+                self.make.graph.constant(if set { TRUE } else { 0 })
+            }
+            _ => self.make.zero(),
+        };
+        if source.modifier == Modifier::Not { self.inverted(value) } else { value }
+    }
+}
+
+/// Rows of a matrix product and the terms of each row's dot product.
+fn matrix_rows(opcode: Opcode) -> Option<(u16, usize)> {
+    match opcode {
+        Opcode::M3x2 => Some((2, 3)),
+        Opcode::M3x3 => Some((3, 3)),
+        Opcode::M3x4 => Some((4, 3)),
+        Opcode::M4x3 => Some((3, 4)),
+        Opcode::M4x4 => Some((4, 4)),
+        _ => None,
+    }
+}
