@@ -22,6 +22,7 @@ pub use memory::{DepthId, TextureId};
 
 use crate::device::Profile;
 use crate::event::DrawEvents;
+use crate::exec::batch::BatchTiles;
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw, TileExecutor};
 use memory::Memory;
@@ -32,6 +33,8 @@ pub enum ExecutorKind {
     /// The reference: one value at a time.
     #[default]
     Scalar,
+    /// Tiles of 256 fragments in vector code of the host.
+    Batch,
 }
 
 /// An emulated card.
@@ -85,7 +88,7 @@ impl Machine {
         let (memory, profile, kind) = (&self.memory, &self.profile, self.executor);
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
-            walk::draw(memory, profile, call, &plan, executor.as_ref())
+            walk::draw(memory, profile, call, &plan, kind, executor.as_ref())
         };
         let drawn = match &self.pool {
             Some(pool) => pool.install(work),
@@ -102,6 +105,10 @@ impl Machine {
 fn executor<'a>(kind: ExecutorKind, draw: &TileDraw<'a>) -> Box<dyn TileExecutor + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
+        ExecutorKind::Batch => match BatchTiles::new(draw) {
+            Some(tiles) => Box::new(tiles),
+            None => Box::new(ScalarTiles::new(draw)),
+        },
     }
 }
 

@@ -1,9 +1,10 @@
 //! The vertex stage and set-up: from a call's vertices to triangles, in order.
 
 use super::validate::Plan;
-use super::{DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
+use super::{DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, StepRate, VertexSource, VertexStreams};
 use crate::device::{Profile, Rules};
 use crate::event::PrimitiveCounts;
+use crate::exec::batch::BatchVertices;
 use crate::exec::scalar::VertexProgram;
 use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
 use rayon::prelude::*;
@@ -21,13 +22,19 @@ pub(super) struct Batch {
 pub(super) enum VertexStage<'a> {
     Transformed(&'a [Vertex]),
     Program(VertexProgram<'a>, &'a VertexStreams<'a>),
+    Batch(BatchVertices, &'a VertexStreams<'a>),
 }
 
 impl<'a> VertexStage<'a> {
-    pub(super) fn new(call: &'a DrawCall<'a>, rules: &'a Rules) -> Self {
+    pub(super) fn new(call: &'a DrawCall<'a>, rules: &'a Rules, kind: ExecutorKind) -> Self {
         match &call.vertices {
             VertexSource::Transformed(vertices) => Self::Transformed(vertices),
             VertexSource::Program { program, constants, streams } => {
+                if kind == ExecutorKind::Batch
+                    && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants)
+                {
+                    return Self::Batch(batch, streams);
+                }
                 Self::Program(VertexProgram::new(crate::exec::program(program), rules, constants), streams)
             }
         }
@@ -50,6 +57,26 @@ impl<'a> VertexStage<'a> {
                     vertices: results.into_iter().map(|r| r.vertex).collect(),
                 }
             }
+            Self::Batch(program, streams) => Self::run_batch(program, streams, first, count, plan),
+        }
+    }
+
+    /// [`Self::run`] for a batch program, some 256 vertices to a worker.
+    fn run_batch(program: &BatchVertices, streams: &VertexStreams<'_>, first: usize, count: usize, plan: &Plan) -> Batch {
+        let total = count * plan.vertex_count;
+        let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let range = chunk * SETUP_CHUNK..((chunk + 1) * SETUP_CHUNK).min(total);
+                let inputs: Vec<_> = range
+                    .map(|i| attributes(streams, first + i / plan.vertex_count, i % plan.vertex_count))
+                    .collect();
+                program.run(&inputs)
+            })
+            .collect();
+        Batch {
+            slots: parts.iter().map(|p| p.1).sum(),
+            vertices: parts.into_iter().flat_map(|p| p.0).collect(),
         }
     }
 
@@ -57,7 +84,7 @@ impl<'a> VertexStage<'a> {
     pub(super) fn bytes(&self) -> (u64, u64) {
         match self {
             Self::Transformed(_) => (size_of::<Vertex>() as u64, 0),
-            Self::Program(_, streams) => {
+            Self::Program(_, streams) | Self::Batch(_, streams) => {
                 let of = |step| 16 * streams.streams.iter().filter(|s| s.step == step).count() as u64;
                 (of(StepRate::Vertex), of(StepRate::Instance))
             }

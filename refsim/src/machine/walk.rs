@@ -3,7 +3,7 @@
 use super::memory::Memory;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
-use super::{DrawCall, MachineError};
+use super::{DrawCall, ExecutorKind, MachineError};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
 use crate::exec::{TILE, TileExecutor};
@@ -36,9 +36,10 @@ pub(super) fn draw(
     profile: &Profile,
     call: &DrawCall<'_>,
     plan: &Plan,
+    kind: ExecutorKind,
     executor: &dyn TileExecutor,
 ) -> Result<Drawn, MachineError> {
-    let stage = VertexStage::new(call, &profile.rules);
+    let stage = VertexStage::new(call, &profile.rules, kind);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
     let mut work = tiles(plan.raster.scissor);
     let round = (ROUND / plan.triangles.len().max(1)).max(1);

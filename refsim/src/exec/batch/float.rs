@@ -25,7 +25,6 @@ pub(crate) const ANY: u8 = 4;
 /// number, or [`ANY`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
-    format: Format,
     rounding: u8,
     man_bits: u32,
     exp_bits: u32,
@@ -98,7 +97,6 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
             }
         };
         Some(FloatLane {
-            format,
             rounding: rounding_index(format.rounding),
             man_bits: u32::from(man_bits),
             exp_bits: u32::from(exp_bits),

@@ -1,13 +1,40 @@
-//! The batch executor: programs on whole tiles of fragments, in vector code of the host.
+//! The batch executor: programs on whole tiles of fragments, in vector code of the host. Equal to
+//! [`super::scalar`] bit for bit; `refsim/tests/agree_*.rs` prove it. The two share no arithmetic.
+//!
+//! - `lane`: what an arithmetic has to offer; `fixed`, `float`: the two kinds, in host integers and host floats; `odd`,
+//!   `power`: exact results squeezed into doubles; `lanes`: which format gets which.
+//! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
+//!   device's rules; `schedule`: the graph as steps on `slots`, without what nothing reads.
+//! - `ops`, `steps`, `fetch`, `raster`, `output`: carrying the steps out, 256 lanes at a time.
+//! - `program`, `flow`: programs without and with flow control; `tile`, `vertex`: the ways in.
+//!
+//! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
+//! vector width is chosen once for each run of lane operations by the `multiversion` crate. No unsafe code.
 
+mod arith;
 mod evaluate;
+mod fetch;
 mod fixed;
 mod float;
+mod flow;
+mod graph;
 mod lane;
 mod lanes;
+mod macros;
 mod odd;
 mod ops;
+mod output;
 mod power;
+mod program;
+mod raster;
+mod schedule;
 mod slots;
+mod steps;
+mod tile;
+mod translate;
+mod translate_texture;
+mod vertex;
 
 pub use evaluate::{LaneOperation, convert, evaluate};
+pub use tile::BatchTiles;
+pub use vertex::BatchVertices;

@@ -53,8 +53,6 @@ pub(crate) enum Code {
     And,
     Or,
     AndNot,
-    /// A copy.
-    Copy,
 }
 
 /// One operation on whole rows.
@@ -232,7 +230,6 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         Code::And => bitwise(a, b, out, |a, b| a & b),
         Code::Or => bitwise(a, b, out, |a, b| a | b),
         Code::AndNot => bitwise(a, b, out, |a, b| !a & b),
-        Code::Copy => **out = *a,
     }
     slots.commit(op.to);
 }

@@ -71,14 +71,20 @@ pub(crate) struct Block {
 
 /// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
 ///
-/// Slots below `first_slot` belong to the caller. Temporary slots are used again as soon as their value is read for
+/// Slots below `first_slot` belong to the caller, who has put the nodes of `placed` there. Temporary slots are used again as soon as their value is read for
 /// the last time; constants, inputs, given values and roots keep theirs.
-pub(crate) fn schedule(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool, first_slot: usize) -> Block {
+pub(crate) fn schedule(
+    graph: &Graph,
+    roots: &[Node],
+    given: impl Fn(Node) -> bool,
+    placed: &HashMap<Node, Slot>,
+    first_slot: usize,
+) -> Block {
     let (last_use, needed) = uses(graph, roots, &given);
     let mut maker = Scheduler {
         graph,
         block: Block::default(),
-        place: HashMap::new(),
+        place: placed.clone(),
         last_use,
         free: Vec::new(),
         next: first_slot,
@@ -90,7 +96,9 @@ pub(crate) fn schedule(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bo
         }
     }
     for &node in &needed {
-        maker.leaf(node, &given);
+        if !placed.contains_key(&node) {
+            maker.leaf(node, &given);
+        }
     }
     for &node in &needed {
         if !maker.place.contains_key(&node) {
@@ -163,14 +171,13 @@ impl Scheduler<'_> {
         self.place.insert(node, slot);
     }
 
-    /// A slot for a result of `node`, after the slots of operands that it is the last to read are free again. A lane
+    /// A slot for a result, after the slots of operands that it is the last to read are free again. A lane
     /// operation may write the slot that it reads: results are made in a spare row.
-    fn result(&mut self, node: Node) -> Slot {
-        self.free.pop().unwrap_or_else(|| self.fresh_for(node))
-    }
-
-    fn fresh_for(&mut self, _: Node) -> Slot {
-        self.fresh()
+    fn result(&mut self) -> Slot {
+        match self.free.pop() {
+            Some(slot) => slot,
+            None => self.fresh(),
+        }
     }
 
     /// Frees the slots of temporaries that `node` reads last.
@@ -198,7 +205,7 @@ impl Scheduler<'_> {
     }
 
     fn lane_op(&mut self, arith: Arith, op: LaneOp) {
-        let neutral = matches!(op.code, Code::Select | Code::And | Code::Or | Code::AndNot | Code::Copy);
+        let neutral = matches!(op.code, Code::Select | Code::And | Code::Or | Code::AndNot);
         match self.block.steps.last_mut() {
             Some(Step::Lanes(last, ops)) if *last == arith || neutral => ops.push(op),
             _ => self.block.steps.push(Step::Lanes(arith, vec![op])),
@@ -210,7 +217,7 @@ impl Scheduler<'_> {
             Kind::Compute(arith, code, [a, b, c]) => {
                 let [a, b, c] = [a, b, c].map(|n| self.at(n));
                 self.release(node);
-                let to = self.result(node);
+                let to = self.result();
                 self.place.insert(node, to);
                 let op = match code.arity() {
                     1 => LaneOp { code, to, a, b: a, c: a },
@@ -222,14 +229,14 @@ impl Scheduler<'_> {
             Kind::Dot(arith, terms, a, b) => {
                 let (a, b) = (a.map(|n| self.at(n)), b.map(|n| self.at(n)));
                 self.release(node);
-                let to = self.result(node);
+                let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Dot(arith, DotOp { to, terms: terms.into(), a, b }));
             }
             Kind::Convert(from, target, a) => {
                 let a = self.at(a);
                 self.release(node);
-                let to = self.result(node);
+                let to = self.result();
                 self.place.insert(node, to);
                 self.lane_op(from, LaneOp { code: Code::Widen, to, a, b: a, c: a });
                 self.lane_op(target, LaneOp { code: Code::Narrow, to, a, b: a, c: a });
@@ -237,7 +244,7 @@ impl Scheduler<'_> {
             Kind::Steps(steps, a) => {
                 let from = self.at(a);
                 self.release(node);
-                let to = self.result(node);
+                let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Unorm { steps, from });
                 self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, a: from, b: from, c: from });
@@ -245,7 +252,7 @@ impl Scheduler<'_> {
             Kind::Relative(base, component, address) => {
                 let address = self.at(address);
                 self.release(node);
-                let to = self.result(node);
+                let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Relative { base, component: component.into(), address, to });
             }
@@ -258,7 +265,7 @@ impl Scheduler<'_> {
                 };
                 let mut to = [None; 4];
                 for (component, texel) in self.texels.remove(&node).unwrap_or_default() {
-                    let slot = self.result(texel);
+                    let slot = self.result();
                     self.place.insert(texel, slot);
                     to[usize::from(component & 3)] = Some(slot);
                 }

@@ -1,0 +1,201 @@
+//! Texture reads of a batch: whole rows of nearest texels out of a table where that is all there is to do, the texture
+//! room's own functions a lane at a time otherwise.
+
+use multiversion::multiversion;
+
+use super::arith::Formats;
+use super::graph::Arith;
+use super::lane::{LANES, Lane};
+use super::lanes::{AnyLane, with_any_lane};
+use super::odd;
+use super::schedule::{FetchDetail, FetchStep};
+use super::slots::{Row, Slots};
+use crate::exec::SamplerBinding;
+use crate::num::ops;
+use crate::num::Format;
+use crate::texture::{AddressMode, ChannelValue, Lod, SampleRules, Texel, TextureKind, fetch_nearest, lod_from_derivatives, sample};
+
+/// Texels of the largest image that gets a table: 4 MiB of it.
+const LARGEST_TABLE: usize = 1 << 18;
+/// Coordinates from here on are even integers and address alike: stands for the larger ones.
+const FAR: f64 = 16_777_216.0;
+
+/// A bound texture, ready to be read by batches.
+#[derive(Debug)]
+pub(crate) struct BatchTexture<'a> {
+    binding: SamplerBinding<'a>,
+    rules: SampleRules,
+    table: Option<Table>,
+}
+
+/// All texels of a plane in the register format, as slots hold them, the border texel last.
+#[derive(Debug)]
+struct Table {
+    texels: Vec<[u32; 4]>,
+    width: u32,
+    height: u32,
+    /// What a coordinate of 1 is in texels.
+    scale: [f64; 2],
+    modes: [AddressMode; 2],
+}
+
+impl<'a> BatchTexture<'a> {
+    /// Prepares the texture of a sampler.
+    pub(crate) fn new(binding: SamplerBinding<'a>, rules: SampleRules, lane: &AnyLane) -> Self {
+        let table = Table::new(&binding, &rules, lane);
+        Self { binding, rules, table }
+    }
+
+    /// Reads texels for the lanes that `run` names into the slots of the step.
+    pub(crate) fn read(&self, step: &FetchStep, formats: &Formats, run: &Row, slots: &mut Slots) {
+        match &self.table {
+            Some(table) => {
+                let mut index = [0u32; LANES];
+                table.indices(slots.row(step.coordinates[0]), slots.row(step.coordinates[1]), &mut index);
+                for (c, to) in step.to.iter().enumerate() {
+                    let Some(to) = *to else { continue };
+                    for (value, &i) in slots.row_mut(to).iter_mut().zip(&index) {
+                        *value = table.texels.get(i as usize).map_or(0, |t| t[c]);
+                    }
+                }
+            }
+            None => self.read_lanes(step, formats, run, slots),
+        }
+    }
+
+    fn read_lanes(&self, step: &FetchStep, formats: &Formats, run: &Row, slots: &mut Slots) {
+        let single = formats.lane(Arith::Single);
+        let vector = |slots: &Slots, from: &[u16; 4], lane: usize| from.map(|s| single.encode(slots.row(s)[lane]));
+        for lane in (0..LANES).filter(|&l| run[l] != 0) {
+            let at = |l: usize| vector(slots, &step.coordinates, l);
+            let coordinates = at(lane);
+            let bits = if self.binding.is_plain() {
+                fetch_nearest(self.binding.image, &self.binding.state, &self.rules, coordinates)
+            } else {
+                let lod = if self.binding.needs_detail() {
+                    let across = |bit: usize| {
+                        let (low, high) = (at(lane & !bit), at(lane | bit));
+                        std::array::from_fn(|i| ops::sub(Format::FP32, high[i], low[i]).bits)
+                    };
+                    let (ddx, ddy) = match &step.detail {
+                        FetchDetail::Gradients(x, y) => (vector(slots, x, lane), vector(slots, y, lane)),
+                        _ => (across(1), across(16)),
+                    };
+                    let level = lod_from_derivatives(self.binding.image, coordinates, ddx, ddy, self.rules.lod_fraction_bits);
+                    Lod::Level(match step.detail {
+                        FetchDetail::Biased(bias) => {
+                            ops::add(Format::FP32, level, single.encode(slots.row(bias)[lane])).bits
+                        }
+                        _ => level,
+                    })
+                } else {
+                    Lod::Base
+                };
+                sample(Some(self.binding.image), &self.binding.state, &self.rules, coordinates, lod)
+            };
+            let main = formats.lane(Arith::Main);
+            for (to, bits) in step.to.iter().zip(bits) {
+                if let Some(to) = *to {
+                    slots.row_mut(to)[lane] = main.decode(bits);
+                }
+            }
+        }
+    }
+}
+
+impl Table {
+    fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
+        let image = binding.image;
+        let kind = image.kind();
+        let (width, height) = (image.width(), image.height());
+        let plane = matches!(kind, TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
+        if !binding.is_plain() || !plane || width as usize * height as usize > LARGEST_TABLE {
+            return None;
+        }
+        let mut texels = Vec::with_capacity((width * height) as usize + 1);
+        for y in 0..height {
+            for x in 0..width {
+                let texel = image.texel(0, 0, y, x, rules.signed_texel_minimum);
+                texels.push(in_slot(&texel, rules.format, lane));
+            }
+        }
+        let state = &binding.state;
+        let modes = match kind {
+            TextureKind::Rectangle => [state.address_u, state.address_v]
+                .map(|m| if m == AddressMode::Border { m } else { AddressMode::Clamp }),
+            _ => [state.address_u, state.address_v],
+        };
+        if modes.contains(&AddressMode::Border) {
+            // NaN addresses as 0: a read far outside gets the border colour.
+            let outside = [0x4b80_0000, 0x4b80_0000, 0, 0];
+            let bordered = crate::texture::SamplerState {
+                address_u: AddressMode::Border,
+                address_v: if kind == TextureKind::D1 { state.address_v } else { AddressMode::Border },
+                ..*state
+            };
+            texels.push(fetch_nearest(image, &bordered, rules, outside).map(|bits| lane.decode(bits)));
+        }
+        let scale = match kind {
+            TextureKind::Rectangle => [1.0, 1.0],
+            TextureKind::D1 => [f64::from(width), 0.0],
+            _ => [f64::from(width), f64::from(height)],
+        };
+        Some(Self { texels, width, height, scale, modes })
+    }
+
+    /// The index of each lane's texel.
+    fn indices(&self, u: &Row, v: &Row, out: &mut Row) {
+        let (mut x, mut y) = ([0i32; LANES], [0i32; LANES]);
+        axis(u, self.scale[0], self.width, self.modes[0], &mut x);
+        axis(v, self.scale[1], self.height, self.modes[1], &mut y);
+        let (width, border) = (self.width.cast_signed(), (self.width * self.height).cast_signed());
+        for i in 0..LANES {
+            let inside = (x[i] >= 0) & (y[i] >= 0);
+            out[i] = (if inside { y[i] * width + x[i] } else { border }).cast_unsigned();
+        }
+    }
+}
+
+/// Texel numbers along one axis; -1 for the border.
+///
+/// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of less
+/// than 2^15 can't be rounded up to an integer that it doesn't reach.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i32; LANES]) {
+    let n = f64::from(size);
+    for i in 0..LANES {
+        let c = f64::from(f32::from_bits(coordinate[i]));
+        let finite = if c.abs() < f64::INFINITY { c } else { 0.0 };
+        let low = if finite > -FAR { finite } else { -FAR };
+        let tamed = if low < FAR { low } else { FAR };
+        let position = (tamed * scale).floor();
+        let index = match mode {
+            AddressMode::Wrap => position - (position / n).floor() * n,
+            AddressMode::Mirror => {
+                let folded = position - (position / (2.0 * n)).floor() * (2.0 * n);
+                if folded < n { folded } else { 2.0 * n - 1.0 - folded }
+            }
+            AddressMode::Clamp => {
+                let above = if position > 0.0 { position } else { 0.0 };
+                if above < n - 1.0 { above } else { n - 1.0 }
+            }
+            AddressMode::Border => if (position >= 0.0) & (position < n) { position } else { -1.0 },
+        };
+        out[i] = index as i32;
+    }
+}
+
+/// A texel in the register format, as slots hold it.
+fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
+    fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
+        L::store(lane.from_f64(x))
+    }
+    texel.0.map(|channel| match channel {
+        // Both below 2^24: one division, rounded to odd.
+        ChannelValue::Ratio { numerator, denominator } if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 => {
+            let x = odd::div_odd(numerator as f64, f64::from(denominator));
+            with_any_lane!(lane, |lane| { rounded(lane, x) })
+        }
+        _ => lane.decode(channel.to_format(format)),
+    })
+}

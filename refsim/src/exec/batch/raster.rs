@@ -1,0 +1,146 @@
+//! Rasterisation of a triangle within a tile: coverage by the exact edge functions, interpolation in host single precision,
+//! step by step as the raster room defines it.
+
+use multiversion::multiversion;
+
+use super::lane::LANES;
+use super::lanes::AnyLane;
+use super::slots::{Row, TRUE};
+use crate::num::Format;
+use crate::raster::{Plane, TriangleSetup, Weights};
+use crate::texture::Region;
+
+/// Column and row of a lane within its tile.
+pub(crate) const fn place(lane: usize) -> (u32, u32) {
+    ((lane & 15) as u32, (lane >> 4) as u32)
+}
+
+/// Which lanes of the tile at `origin` a triangle covers within `region`. Returns how many.
+pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, out: &mut Row) -> u64 {
+    let inside = region.intersect(setup.bounds);
+    if inside.width == 0 || inside.height == 0 {
+        out.fill(0);
+        return 0;
+    }
+    if inside.width == 16 && inside.height == 16 && setup.covers(inside) {
+        out.fill(TRUE);
+        return LANES as u64;
+    }
+    let edges = setup.edges.map(|e| [e.a, e.b, e.at(origin.0, origin.1) - e.bias]);
+    let columns = (inside.x - origin.0, inside.x - origin.0 + inside.width);
+    let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);
+    cover_lanes(&edges, columns, rows, out);
+    out.iter().map(|&m| u64::from(m & 1)).sum()
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn cover_lanes(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
+    for i in 0..LANES {
+        let (x, y) = place(i);
+        let at = |e: &[i64; 3]| e[0] * i64::from(x) + e[1] * i64::from(y) + e[2];
+        let within = (x >= columns.0) & (x < columns.1) & (y >= rows.0) & (y < rows.1);
+        // All three at least zero: no sign bit in any.
+        let signs = at(&edges[0]) | at(&edges[1]) | at(&edges[2]);
+        out[i] = if within & (signs >= 0) { TRUE } else { 0 };
+    }
+}
+
+/// The lanes whose quad has a covered lane.
+pub(crate) fn quads(covered: &Row, out: &mut Row) {
+    for i in 0..LANES {
+        let (row, column) = (i & !16, i & !1);
+        out[i] = covered[row & column] | covered[(row & column) | 1] | covered[(row & column) | 16] | covered[(row & column) | 17];
+    }
+}
+
+/// The weights of vertices 1 and 2 in every lane of a tile.
+#[derive(Clone, Debug)]
+pub(crate) struct TileWeights {
+    linear: [[f32; LANES]; 2],
+    perspective: [[f32; LANES]; 2],
+    /// What they were computed from: edges 1 and 2, area, reciprocals of w.
+    made_from: Option<Origin>,
+}
+
+/// What weights depend on within a tile.
+type Origin = ([[i64; 3]; 2], u32, Option<[u32; 3]>, (u32, u32));
+
+impl TileWeights {
+    pub(crate) fn new() -> Self {
+        Self { linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
+    }
+
+    /// Computes the weights of a triangle, unless they are those of the triangle before.
+    pub(crate) fn make(&mut self, setup: &TriangleSetup, origin: (u32, u32)) {
+        let edges = [1, 2].map(|i: usize| [setup.edges[i].a, setup.edges[i].b, setup.edges[i].c]);
+        let w = (!setup.affine).then_some(setup.reciprocal_w);
+        let made_from = Some((edges, setup.area_bits, w, origin));
+        if self.made_from == made_from {
+            return;
+        }
+        self.made_from = made_from;
+        let local = [1, 2].map(|i: usize| {
+            let e = &setup.edges[i];
+            [e.a, e.b, e.at(origin.0, origin.1)]
+        });
+        linear(&local, f32::from_bits(setup.area_bits), &mut self.linear);
+        match w {
+            Some(w) => perspective(&self.linear, w.map(f32::from_bits), &mut self.perspective),
+            None => self.perspective = self.linear,
+        }
+    }
+
+    /// Depth in every lane.
+    pub(crate) fn depth(&self, setup: &TriangleSetup, out: &mut Row) {
+        if setup.depth_constant { out.fill(setup.depth.base) } else { along(&setup.depth, &self.linear, out) }
+    }
+
+    /// A component in every lane, single precision.
+    pub(crate) fn component(&self, setup: &TriangleSetup, component: usize, single: &AnyLane, out: &mut Row) {
+        let Some(plane) = setup.planes.get(component) else {
+            return out.fill(0);
+        };
+        if setup.constant.has(component) {
+            out.fill(single.decode(plane.base));
+        } else if setup.iterator_format == Format::FP32 {
+            along(plane, &self.perspective, out);
+        } else {
+            for (i, slot) in out.iter_mut().enumerate() {
+                let at = |rows: &[[f32; LANES]; 2]| [single.encode(rows[0][i].to_bits()), single.encode(rows[1][i].to_bits())];
+                let weights = Weights { linear: at(&self.linear), perspective: at(&self.perspective) };
+                *slot = single.decode(setup.component_at(component, &weights));
+            }
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn linear(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
+    for (e, row) in edges.iter().zip(out) {
+        for i in 0..LANES {
+            let (x, y) = place(i);
+            row[i] = (e[0] * i64::from(x) + e[1] * i64::from(y) + e[2]) as f32 / area;
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn perspective(linear: &[[f32; LANES]; 2], w: [f32; 3], out: &mut [[f32; LANES]; 2]) {
+    let [first, second] = out;
+    for i in 0..LANES {
+        let (l1, l2) = (linear[0][i], linear[1][i]);
+        let l0 = (1.0 - l1) - l2;
+        let (g0, g1, g2) = (l0 * w[0], l1 * w[1], l2 * w[2]);
+        let sum = (g0 + g1) + g2;
+        first[i] = g1 / sum;
+        second[i] = g2 / sum;
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn along(plane: &Plane, weights: &[[f32; LANES]; 2], out: &mut Row) {
+    let [base, d1, d2] = [plane.base, plane.d1, plane.d2].map(f32::from_bits);
+    for i in 0..LANES {
+        out[i] = ((base + weights[0][i] * d1) + weights[1][i] * d2).to_bits();
+    }
+}

@@ -1,0 +1,69 @@
+//! Carrying out scheduled steps.
+
+use super::arith::Formats;
+use super::fetch::BatchTexture;
+use super::graph::Arith;
+use super::lane::LANES;
+use super::odd;
+use super::ops;
+use super::schedule::{Block, Step};
+use super::slots::{Row, Slots};
+
+/// What steps need besides slots.
+#[derive(Debug)]
+pub(crate) struct Surroundings<'a> {
+    pub(crate) formats: &'a Formats,
+    /// By sampler.
+    pub(crate) textures: &'a [Option<BatchTexture<'a>>],
+    /// Float constants as slots hold them.
+    pub(crate) constants: &'a [[u32; 4]],
+}
+
+/// Fills the constants of a block.
+pub(crate) fn fill_constants(block: &Block, slots: &mut Slots) {
+    for &(slot, raw) in &block.constants {
+        slots.fill(slot, raw);
+    }
+}
+
+/// Runs steps. Reads that can't be made in rows are made for the lanes that `run` names.
+pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, slots: &mut Slots) {
+    for step in steps {
+        match step {
+            Step::Lanes(arith, lane_ops) => ops::run(around.formats.lane(*arith), lane_ops, slots),
+            Step::Dot(arith, op) => ops::run_dot(around.formats.lane(*arith), op, slots),
+            Step::Unorm { steps, from } => to_steps(*steps, *from, slots),
+            Step::Fetch(fetch) => {
+                if let Some(Some(texture)) = around.textures.get(fetch.sampler) {
+                    texture.read(fetch, around.formats, run, slots);
+                }
+            }
+            Step::Relative { base, component, address, to } => {
+                for lane in 0..LANES {
+                    let number = i64::from(*base) + i64::from(slots.row(*address)[lane].cast_signed());
+                    let constant = usize::try_from(number).ok().and_then(|n| around.constants.get(n));
+                    slots.row_mut(*to)[lane] = constant.map_or(0, |c| c[*component]);
+                }
+            }
+        }
+    }
+}
+
+/// Clamps to [0, 1] and rounds to the nearest of evenly spaced steps, halves up; the exact fraction, rounded to odd,
+/// goes into the wide row.
+fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
+    let count = f64::from(steps);
+    for i in 0..LANES {
+        let x = f64::from(f32::from_bits(slots.row(from)[i]));
+        let low = if x > 0.0 { x } else { 0.0 };
+        let clamped = if low < 1.0 { low } else { 1.0 };
+        // 24 and 16 bits: the product is exact, and so is the sum where it comes near an integer.
+        slots.wide[i] = odd::div_odd((clamped * count + 0.5).floor(), count);
+    }
+}
+
+/// Float constants as slots hold them.
+pub(crate) fn raw_constants(constants: &[[u32; 4]], formats: &Formats) -> Vec<[u32; 4]> {
+    let lane = formats.lane(Arith::Main);
+    constants.iter().map(|c| c.map(|bits| lane.decode(bits))).collect()
+}
