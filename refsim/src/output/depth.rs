@@ -66,7 +66,7 @@ impl DepthFormat {
             Self::Unorm32 => ratio(0xffff_ffff),
             Self::Float32 => crate::num::ops::convert(&Format::FP32, format, stored).bits,
             Self::Float24 => {
-                let field = (stored >> 20 & 15) as i32;
+                let field = (stored >> 20 & 15).cast_signed();
                 let fraction = u64::from(stored & 0x000f_ffff);
                 let significand = if field == 0 { fraction } else { fraction | 1 << 20 };
                 let exponent = field.max(1) - 15 - 20;

@@ -46,7 +46,7 @@ pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item
 /// The `i`th triangle.
 fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
     // A quad's corners in turn, split along the diagonal from the first.
-    let half = |[a, b, c, d]: [usize; 4]| if i % 2 == 0 { [a, b, c] } else { [a, c, d] };
+    let half = |[a, b, c, d]: [usize; 4]| if i.is_multiple_of(2) { [a, b, c] } else { [a, c, d] };
     match primitive {
         Primitive::TriangleStrip if i % 2 == 1 => [i, i + 2, i + 1],
         Primitive::TriangleStrip => [i, i + 1, i + 2],

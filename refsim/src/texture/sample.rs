@@ -170,7 +170,7 @@ fn pick_levels(image: &Image, state: &SamplerState, rules: &SampleRules, lod: Lo
         value::scaled_floor(wanted, 1, bits, false).clamp(-(128 << bits), 128 << bits)
     };
     let filter = if lambda > 0 { state.min } else { state.mag };
-    let last = image.levels().len() as i64 - 1;
+    let last = i64::from(image.levels().len() as u32) - 1;
     let first = i64::from(state.max_mip_level).min(last);
     let (level, weight) = match state.mip {
         MipFilter::None => (first, 0),

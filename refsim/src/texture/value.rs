@@ -111,7 +111,7 @@ pub(crate) fn exact(format: Format, bits: u32) -> Exact {
 /// The exact value of an FP32 pattern.
 pub(crate) fn exact32(bits: u32) -> Exact {
     let negative = bits >> 31 == 1;
-    let field = (bits >> 23 & 0xff) as i32;
+    let field = (bits >> 23 & 0xff).cast_signed();
     let fraction = u64::from(bits & 0x007f_ffff);
     match field {
         255 if fraction != 0 => Exact::Nan,
@@ -134,7 +134,7 @@ pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bo
     let product = i128::from(significand) * i128::from(factor);
     let signed = if negative { -product } else { product };
     // One more bit below the point than asked for, so that a half can be added before the floor.
-    let shift = exponent + fraction_bits as i32 + 1;
+    let shift = exponent + fraction_bits.cast_signed() + 1;
     let doubled = if shift >= 0 {
         if shift > 64 { signed.signum() << 100 } else { signed << shift }
     } else if shift < -120 {

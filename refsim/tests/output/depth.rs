@@ -63,6 +63,23 @@ proptest! {
     }
 }
 
+/// Halves of the last of 20 bits go to even; 0.5 has exponent field 14.
+#[test]
+fn float_24_rounds_to_even() {
+    let q = |eighths: u32| DepthFormat::Float24.quantise(Format::FP32, 0x3f00_0000 + eighths, TargetRounding::Nearest);
+    let half = 14 << 20;
+    for (last_bits, want) in [(3, 0), (4, 0), (5, 1), (11, 1), (12, 2), (13, 2), (20, 2), (28, 4)] {
+        assert_eq!(q(last_bits), half + want, "{last_bits} eighths");
+    }
+    // The carry past the mantissa reaches the exponent, and just below 1 becomes 1.
+    assert_eq!(DepthFormat::Float24.quantise(Format::FP32, 0x3f7f_ffff, TargetRounding::Nearest), 15 << 20);
+    assert_eq!(DepthFormat::Float24.quantise(Format::FP32, 0x3eff_ffff, TargetRounding::Nearest), half);
+    // Subnormals: the unit is 2^-34.
+    let small = |v: f32| DepthFormat::Float24.quantise(Format::FP32, v.to_bits(), TargetRounding::Nearest);
+    let unit = 1.0 / (1u64 << 34) as f32;
+    assert_eq!([small(unit), small(unit * 0.5), small(unit * 1.5), small(unit * 1048575.0)], [1, 0, 2, 0xf_ffff]);
+}
+
 /// texdepth's r5.r / r5.g reaches the buffer from the register format in one step.
 #[test]
 fn register_depths_are_converted_once() {
