@@ -1,0 +1,106 @@
+//! Running one program on one quad, from text, and looking at every step of it.
+#![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
+
+use refsim::asm::assemble;
+use refsim::device::{Profile, Rules};
+use refsim::exec::scalar::{FragmentResult, PixelProgram, VertexProgram, VertexResult};
+use refsim::exec::{CheckedProgram, Constants, PixelBindings, Step, Trace};
+use refsim::isa::Program;
+use refsim::num::{Format, ops};
+use refsim::raster::FragmentInput;
+
+/// Assembles and checks; panics with all that is wrong.
+pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
+    let program = assemble(text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
+    ready(program, profile).unwrap_or_else(|e| panic!("{text}\n{e}"))
+}
+
+/// Checks a program.
+pub(crate) fn ready(program: Program, _: &Profile) -> Result<CheckedProgram, String> {
+    Ok(program)
+}
+
+/// An ideal device of a format.
+pub(crate) fn ideal(format: &str) -> Profile {
+    Profile::named(&format!("ideal-{format}")).unwrap()
+}
+
+/// Single precision patterns.
+pub(crate) fn bits(v: [f32; 4]) -> [u32; 4] {
+    v.map(f32::to_bits)
+}
+
+/// A single precision vector in a format.
+pub(crate) fn into(format: Format, v: [f32; 4]) -> [u32; 4] {
+    bits(v).map(|x| ops::convert(&Format::FP32, format, x).bits)
+}
+
+/// Constants c0 on.
+pub(crate) fn constants(values: &[[f32; 4]]) -> Constants {
+    Constants { float: values.iter().map(|&v| bits(v)).collect(), ..Constants::default() }
+}
+
+/// What a program made of a quad whose lanes all have the same input.
+pub(crate) struct Ran {
+    pub(crate) results: [FragmentResult; 4],
+    pub(crate) steps: Vec<Step>,
+    pub(crate) fetches: [u64; 16],
+}
+
+impl Ran {
+    /// The value that the last write of instruction `index` stored in lane 0.
+    pub(crate) fn value(&self, index: usize) -> [u32; 4] {
+        let step = self.steps.iter().rev().find(|s| s.instruction == index);
+        step.unwrap_or_else(|| panic!("instruction {index} did not run")).value
+    }
+}
+
+/// Runs a pixel program on a quad of inputs.
+pub(crate) fn run_quad(text: &str, profile: &Profile, bindings: &PixelBindings<'_>, inputs: &[FragmentInput; 4]) -> Ran {
+    let program = checked(text, profile);
+    run_program(&program, &profile.rules, bindings, inputs)
+}
+
+pub(crate) fn run_program(
+    program: &CheckedProgram,
+    rules: &Rules,
+    bindings: &PixelBindings<'_>,
+    inputs: &[FragmentInput; 4],
+) -> Ran {
+    let mut trace = Trace::of_lane(0);
+    let mut fetches = [0; 16];
+    let prepared = PixelProgram::new(program, rules, bindings);
+    let results = prepared.run_observed(inputs, 0b1111, &mut fetches, &mut trace);
+    Ran { results, steps: trace.steps, fetches }
+}
+
+/// Runs a pixel program with constants alone.
+pub(crate) fn run(text: &str, profile: &Profile, values: &[[f32; 4]]) -> Ran {
+    let constants = constants(values);
+    run_quad(text, profile, &PixelBindings::new(&constants), &[FragmentInput::default(); 4])
+}
+
+/// Runs a pixel program with t0 on.
+pub(crate) fn run_with_coordinates(text: &str, profile: &Profile, sets: &[[f32; 4]]) -> Ran {
+    let constants = Constants::default();
+    run_quad(text, profile, &PixelBindings::new(&constants), &[input(sets); 4])
+}
+
+/// A fragment with coordinate sets t0 on.
+pub(crate) fn input(sets: &[[f32; 4]]) -> FragmentInput {
+    let mut input = FragmentInput::default();
+    for (slot, &set) in input.t.iter_mut().zip(sets) {
+        *slot = bits(set);
+    }
+    input
+}
+
+/// Runs a vertex program on attributes v0 on.
+pub(crate) fn run_vertex(text: &str, profile: &Profile, constants: &Constants, values: &[[f32; 4]]) -> VertexResult {
+    let program = checked(text, profile);
+    let mut attributes = [[0; 4]; 16];
+    for (slot, &v) in attributes.iter_mut().zip(values) {
+        *slot = bits(v);
+    }
+    VertexProgram::new(&program, &profile.rules, constants).run(&attributes)
+}
