@@ -82,11 +82,19 @@ fn write(written: &mut Written, version: Version, instruction: &Instruction) {
     let register = destination.register;
     let whole = version.is_ps_1_x() && is_texture(instruction.opcode) && instruction.opcode != Opcode::TexCrd;
     let mask = if whole { Mask::ALL } else { destination.mask };
+    let mut mask = mask.0;
     if instruction.opcode == Opcode::TexCrd {
-        // The fourth component, and the third with _dw, is left in no defined state.
+        // The fourth component, and the third with _dw, is left in no defined state; of a register only what is there
+        // is passed on.
+        let source = instruction.sources.first().filter(|s| s.register.file == RegisterFile::Temp);
+        if let Some(source) = source {
+            let there = written.get(source.register.file, source.register.index);
+            let passed = |c: &usize| there >> (source.swizzle.0[*c] & 3) & 1 == 1;
+            mask = Mask(mask).components().filter(passed).fold(0, |m, c| m | 1 << c);
+        }
         written.0.remove(&(register.file, register.index));
     }
-    written.add(register.file, register.index, mask.0);
+    written.add(register.file, register.index, mask);
 }
 
 /// Whether reading this file needs an earlier write.
@@ -110,8 +118,9 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
         if !is_followed(version, file) {
             continue;
         }
-        // The address of texld in ps_1_4 is V22's.
-        if version == Version::Ps1_4 && instruction.opcode == Opcode::TexLd {
+        // The address of texld in ps_1_4 is V22's; texcrd passes on what there is, as long as there is something.
+        let passes = instruction.opcode == Opcode::TexCrd && written.get(file, first) & Mask::RGB.0 != 0;
+        if version == Version::Ps1_4 && (instruction.opcode == Opcode::TexLd || passes) {
             continue;
         }
         let rule = if file == RegisterFile::Predicate { RuleId::V57 } else { RuleId::V11 };

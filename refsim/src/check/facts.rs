@@ -29,9 +29,9 @@ pub struct Facts {
     pub main_end: usize,
     /// Whether there is flow control.
     pub has_flow: bool,
-    /// One more than the highest `r#`.
+    /// One more than the highest `r#`, matrix rows included.
     pub temporaries: u16,
-    /// One more than the highest `c#` named, matrix rows included; relative addresses may go beyond.
+    /// One more than the highest `c#` named or defined, matrix rows included; relative addresses may go beyond.
     pub constants: u16,
     /// Whether constants are addressed relatively.
     pub relative_constants: bool,
@@ -120,6 +120,9 @@ pub(super) fn derive(context: &Context<'_>) -> Facts {
             *entry = Some(declaration.usage);
         }
     }
+    for def in program.constants.iter().filter(|d| d.register.file == RegisterFile::Constant) {
+        facts.constants = facts.constants.max(def.register.index.saturating_add(1));
+    }
     for instruction in &program.instructions {
         note(&mut facts, context, instruction);
     }
@@ -131,10 +134,10 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
     let bit = |index: u16| 1_u32.checked_shl(u32::from(index)).unwrap_or(0);
     for (k, source) in instruction.sources.iter().enumerate() {
         let register = source.register;
+        let rows = if k == 1 { super::matrix_rows(opcode).unwrap_or(1) } else { 1 };
         match register.file {
-            RegisterFile::Temp => facts.temporaries = facts.temporaries.max(register.index.saturating_add(1)),
+            RegisterFile::Temp => facts.temporaries = facts.temporaries.max(register.index.saturating_add(rows)),
             RegisterFile::Constant => {
-                let rows = if k == 1 { super::matrix_rows(opcode).unwrap_or(1) } else { 1 };
                 facts.constants = facts.constants.max(register.index.saturating_add(rows));
                 facts.relative_constants |= register.relative.is_some();
             }
