@@ -12,15 +12,15 @@ const FAR: i32 = 1 << 20;
 /// the result, or nothing can be said about it.
 pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     let env = env.into();
+    if sig >> 64 == 0 {
+        return round(&env, sign, sig as u64, exp, sticky);
+    }
     let exp = exp.clamp(-FAR, FAR);
     match env.format.kind {
         Kind::Fixed { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, sig, exp, sticky)
         }
         Kind::Float { exp_bits, man_bits } => {
-            if sig >> 64 == 0 {
-                return round_float(&env, exp_bits, man_bits, sign, sig as u64, exp, sticky);
-            }
             // 64 leading bits and the knowledge whether more follow are all that rounding asks for.
             let drop = 64 - sig.leading_zeros();
             let lost = sig & ((1 << drop) - 1) != 0;
@@ -29,7 +29,20 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
     }
 }
 
+/// [`from_parts`] for magnitudes of one word: the way of nearly all results.
+#[inline]
+pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
+    let exp = exp.clamp(-FAR, FAR);
+    match env.format.kind {
+        Kind::Fixed { int_bits, frac_bits } => {
+            round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, u128::from(sig), exp, sticky)
+        }
+        Kind::Float { exp_bits, man_bits } => round_float(env, exp_bits, man_bits, sign, sig, exp, sticky),
+    }
+}
+
 /// Whether the kept magnitude goes up by one unit.
+#[inline]
 fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -> bool {
     match rounding {
         Rounding::NearestEven => half && (below || odd),
@@ -40,6 +53,7 @@ fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -
 }
 
 /// `sig / 2^shift` rounded to an integer, and whether anything was lost.
+#[inline]
 fn shift_round(rounding: Rounding, sign: bool, sig: u64, shift: i32, sticky: bool) -> (u64, bool) {
     if shift <= 0 {
         return (sig << -shift, sticky);
@@ -55,6 +69,7 @@ fn shift_round(rounding: Rounding, sign: bool, sig: u64, shift: i32, sticky: boo
     (kept + u64::from(up), half || below)
 }
 
+#[inline]
 fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let format = &env.format;
     let sign_bits = if sign { format.sign_bit() } else { 0 };
@@ -63,8 +78,12 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
     }
     let man = i32::from(man_bits);
     let min_exp = 2 - (1 << (exp_bits - 1));
+    // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with digits
+    // behind it keeps its exponent.)
+    let left = sig.leading_zeros() & 63;
+    let (sig, exp) = (sig << left, exp - left.cast_signed());
     // The value lies in [2^top, 2^(top+1)); its unit in the last place is 2^unit.
-    let top = exp + 63 - sig.leading_zeros().cast_signed();
+    let top = if sig == 0 { exp - 1 } else { exp + 63 };
     let unit = (top - man).max(min_exp - man);
     let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
     // Exponent field and mantissa in one sum: the hidden bit adds the first one, a carry the next.
@@ -104,6 +123,7 @@ fn overflow_float(format: &Format, sign: bool, huge: bool) -> Outcome {
     Outcome::new(bits, Flags::OVERFLOW | Flags::INEXACT)
 }
 
+#[inline]
 fn round_fixed(
     format: &Format,
     magnitude_bits: u8,
@@ -118,9 +138,11 @@ fn round_fixed(
         let left = shift.unsigned_abs();
         let kept = if left >= 128 { 0 } else { sig << left };
         (kept, sig != 0 && sig.leading_zeros() < left, sticky)
+    } else if sig >> 64 == 0 {
+        let (kept, inexact) = shift_round(format.rounding, sign, sig as u64, shift, sticky);
+        (u128::from(kept), false, inexact)
     } else if shift > 128 {
-        let lost = sig != 0 || sticky;
-        (u128::from(goes_up(format.rounding, sign, false, false, lost)), false, lost)
+        (u128::from(goes_up(format.rounding, sign, false, false, true)), false, true)
     } else {
         let half = (sig >> (shift - 1)) & 1 == 1;
         let below = sticky || sig & ((1 << (shift - 1)) - 1) != 0;

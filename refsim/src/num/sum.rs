@@ -3,7 +3,7 @@
 use super::env::Env;
 use super::flags::Outcome;
 use super::format::Rounding;
-use super::round::{from_parts, zero};
+use super::round::{from_parts, round, zero};
 
 /// `(-1)^sign * sig * 2^exp`, exact; `sig` below `2^64`.
 #[derive(Clone, Copy, Debug)]
@@ -25,13 +25,20 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
         return zero(&env.format, sign);
     }
     if b.sig == 0 {
-        return from_parts(*env, a.sign, a.sig.into(), a.exp, false);
+        return round(env, a.sign, a.sig, a.exp, false);
     }
     if a.sig == 0 {
-        return from_parts(*env, b.sign, b.sig.into(), b.exp, false);
+        return round(env, b.sign, b.sig, b.exp, false);
     }
     let (high, low) = if a.exp >= b.exp { (a, b) } else { (b, a) };
     let distance = high.exp.abs_diff(low.exp);
+    if distance <= 30 && high.sig >> 32 == 0 && low.sig >> 62 == 0 {
+        // One word holds the exact sum.
+        let signed = |negative: bool, sig: u64| if negative { -sig.cast_signed() } else { sig.cast_signed() };
+        let total = signed(high.sign, high.sig << distance) + signed(low.sign, low.sig);
+        let sign = if total == 0 { cancelled(env) } else { total < 0 };
+        return round(env, sign, total.unsigned_abs(), low.exp, false);
+    }
     // Bits by which the higher term moves left (two stay free for the carry), and the lower one right.
     let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
     let right = distance - left;

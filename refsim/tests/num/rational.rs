@@ -111,7 +111,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
     }
     let low = below(f, end, against);
     let inexact = against(unit(low)).is_ne();
-    let whole = low + u64::from(inexact && up(f.rounding, negative, unit(low), unit(low + 1), low % 2 == 0, against));
+    let whole = low + u64::from(inexact && up(f.rounding, negative, unit(low), unit(low + 1), low.is_multiple_of(2), against));
     let end = range / 2 - u64::from(!negative);
     if whole <= end {
         let bits = if negative { (range - whole) as u32 } else { whole as u32 } & f.mask();
@@ -133,7 +133,7 @@ fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn
     let low = below(f, infinity.into(), against) as u32;
     let (here, next) = (magnitude(f, low), magnitude(f, low + 1));
     let inexact = against(here).is_ne();
-    let rounded = low + u32::from(inexact && up(f.rounding, negative, here, next, low % 2 == 0, against));
+    let rounded = low + u32::from(inexact && up(f.rounding, negative, here, next, low.is_multiple_of(2), against));
     if beyond || rounded == infinity {
         let infinite = match (f.overflow, f.rounding) {
             (Overflow::Saturate, _) => false,

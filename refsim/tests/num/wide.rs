@@ -49,7 +49,7 @@ fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
         return Some(sign | 0x7f_0000);
     }
     // 2^top <= magnitude, but not below the smallest normal exponent.
-    let top = ((magnitude.to_bits() >> 52) as i64 as i32 - 1023).clamp(-62, 200);
+    let top = (((magnitude.to_bits() >> 52) as u32).cast_signed() - 1023).clamp(-62, 200);
     let units = magnitude * power(16 - top);
     let mut whole = units.floor();
     let rest = units - whole;
@@ -75,7 +75,7 @@ fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
     let bits = if subnormal {
         (value * power(78)) as u32
     } else {
-        let top = (value.to_bits() >> 52) as i64 as i32 - 1023;
+        let top = ((value.to_bits() >> 52) as u32).cast_signed() - 1023;
         ((top + 63) as u32) << 16 | ((value * power(16 - top)) as u32 & 0xffff)
     };
     Some(sign | bits)

@@ -2,7 +2,7 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::round::{divide_by_zero, from_parts, infinite, zero};
+use crate::num::round::{divide_by_zero, infinite, round, zero};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a / b`. A finite nonzero `a` over zero is `DIVIDE_BY_ZERO`: infinity of the quotient's sign, or the end of the
@@ -35,7 +35,7 @@ fn div_values(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
             // last bit is 2^-32 or less, half a unit of the finest format.
             let left = ma.leading_zeros();
             let dividend = ma << left;
-            from_parts(*env, sa != sb, u128::from(dividend / mb), ea - left.cast_signed() - eb, dividend % mb != 0)
+            round(env, sa != sb, dividend / mb, ea - left.cast_signed() - eb, dividend % mb != 0)
         }
     }
 }

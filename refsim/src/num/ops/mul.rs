@@ -2,7 +2,7 @@
 
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
-use crate::num::round::{from_parts, infinite};
+use crate::num::round::{infinite, round};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// `a * b`. `0 * inf` is `INVALID`.
@@ -13,7 +13,7 @@ pub fn mul(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     match (a, b) {
         (Finite { sign: sa, sig: ma, exp: ea }, Finite { sign: sb, sig: mb, exp: eb }) => {
             // At most 2^31 * 2^31.
-            from_parts(env, sa != sb, u128::from(ma * mb), ea + eb, false)
+            round(&env, sa != sb, ma * mb, ea + eb, false)
         }
         (Nan { .. }, _) | (_, Nan { .. }) => nan_result(&env.format, &[a, b]),
         (Inf { .. }, Finite { sig: 0, .. }) | (Finite { sig: 0, .. }, Inf { .. }) => invalid(&env.format),
