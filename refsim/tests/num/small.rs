@@ -149,7 +149,7 @@ fn multiply_add() {
 
 #[test]
 fn dot_products() {
-    let rounds = if full() { 200_000 } else { 300 };
+    let rounds = if full() { 50_000 } else { 300 };
     for_all(|r| {
         let mut cases = Cases(11);
         for round in 0..rounds {

@@ -82,7 +82,7 @@ fn operands(f: &Format, exp_bits: u32, man_bits: u32) -> Vec<u32> {
         let step = if full() { 1 } else { 7 };
         return (0..=f.mask()).step_by(step).collect();
     }
-    let count = if full() { 2_000_000 } else { 6_000 };
+    let count = if full() { 400_000 } else { 6_000 };
     let mut cases = Cases(99);
     (0..count).map(|_| cases.float_bits(exp_bits, man_bits)).collect()
 }

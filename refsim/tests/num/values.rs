@@ -94,6 +94,16 @@ fn format_strings() {
     );
 }
 
+/// Formats are strings in data files.
+#[test]
+fn formats_in_files() {
+    let table: std::collections::BTreeMap<String, Format> =
+        toml::from_str("alu = \"fp24:rtz:ftz\"").expect("a table of formats");
+    assert_eq!(toml::to_string(&table).as_deref(), Ok("alu = \"e7m16:rtz:ftz\"\n"));
+    let bad = toml::from_str::<std::collections::BTreeMap<String, Format>>("alu = \"fp23\"");
+    assert!(bad.is_err_and(|error| error.to_string().contains("number format `fp23`: expected a layout")));
+}
+
 #[test]
 fn decimal_text() {
     let f = &Format::FP32;

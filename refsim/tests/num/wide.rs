@@ -101,7 +101,7 @@ fn add_to_odd(a: f64, b: f64) -> f64 {
 /// numbers are never nearer than 2^-36 of their size to a number or midpoint of fp24 that they don't equal.
 #[test]
 fn fp24_equals_double() {
-    let cases = if full() { 400_000_000 } else { 1_000_000 };
+    let cases = if full() { 100_000_000 } else { 1_000_000 };
     for rounding in ROUNDINGS {
         let f = Format::FP24.with_rounding(rounding);
         let zero = |bits: u32| bits & 0x7f_ffff == 0;

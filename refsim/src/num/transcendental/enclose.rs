@@ -107,3 +107,44 @@ pub(super) fn log2_long(sig: u64, places: u32) -> Enclosure<BigInt> {
     }
     Enclosure { high: &digits + 4, low: digits, exp: -places.cast_signed() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the finer enclosure lies within the coarser one: a wrong constant or error bound shows here, where
+    /// rounded results would hide it all but once in a billion operands.
+    fn nested<T: Into<BigInt>>(coarse: Enclosure<T>, fine: Enclosure<BigInt>) -> bool {
+        let shift = (coarse.exp - fine.exp).unsigned_abs();
+        let (low, high): (BigInt, BigInt) = (coarse.low.into(), coarse.high.into());
+        low << shift <= fine.low && fine.high <= high << shift
+    }
+
+    /// Odd significands of up to 32 bits, dense and sparse.
+    fn significands() -> impl Iterator<Item = u64> {
+        let scattered = (1..400u64).map(|i| (i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) | 1);
+        scattered.chain((1..24).flat_map(|k| [(1 << k) + 1, (1 << k) - 1, 3 << k | 1]))
+    }
+
+    #[test]
+    fn exponential_enclosures_nest() {
+        for sig in significands() {
+            for exp in [-1, -2, -7, -16, -31, -40, -64, -65, -100, -149] {
+                for sign in [false, true] {
+                    let long = exp2_long(sign, sig, exp, 256);
+                    assert!(nested(exp2_quick(sign, sig, exp), long.clone()), "{sign} {sig} {exp}: quick");
+                    assert!(nested(exp2_long(sign, sig, exp, 128), long), "{sign} {sig} {exp}: 128 places");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn logarithm_enclosures_nest() {
+        for sig in significands().filter(|sig| *sig > 1) {
+            let long = log2_long(sig, 256);
+            assert!(nested(log2_quick(sig), long.clone()), "{sig}: quick");
+            assert!(nested(log2_long(sig, 128), long), "{sig}: 128 places");
+        }
+    }
+}
