@@ -95,39 +95,74 @@ proptest! {
         }
     }
 
-    /// Programs built from a few legal lines in random order: many of them pass, so the first law bites.
+    /// Well-nested flow control is legal on a device without limits, and safe to run.
     #[test]
-    fn lines_in_any_order_are_judged(lines in prop::collection::vec(0..LINES.len(), 0..14), version in 0..2_usize) {
-        let text = format!("{}\n{}", HEADS[version], lines.iter().map(|l| LINES[*l]).collect::<String>());
-        let program = refsim::asm::assemble(&text).map_err(|e| TestCaseError::reject(format!("{e:?}")));
-        let Ok(program) = program else { return Ok(()) };
-        for device in ["nv30", "ideal-fp16"] {
-            let profile = Profile::named(device).unwrap();
-            if let Ok(checked) = check::check(program.clone(), &profile) {
+    fn nested_blocks_are_legal(body in block()) {
+        let text = format!("{HEAD}{}{TAIL}", body.concat());
+        let program = refsim::asm::assemble(&text).unwrap();
+        let checked = check::check(program, &Profile::named("ideal-fp16").unwrap());
+        let checked = checked.map_err(|r| TestCaseError::fail(format!("{text}\n{:?}", r.violations)))?;
+        prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(()));
+    }
+
+    /// With a line missing or doubled a program is still judged, and what passes is still safe.
+    #[test]
+    fn broken_blocks_are_judged(body in block(), at in any::<prop::sample::Index>(), double in any::<bool>()) {
+        let mut lines: Vec<&str> = body.iter().flat_map(|b| b.split_inclusive('\n')).collect();
+        let at = at.index(lines.len());
+        let line = lines.remove(at);
+        if double {
+            lines.insert(at, line);
+            lines.insert(at, line);
+        }
+        let program = refsim::asm::assemble(&format!("{HEAD}{}{TAIL}", lines.concat())).unwrap();
+        let opens = |l: &str| ["if", "rep", "end", "els"].iter().any(|w| l.starts_with(w));
+        match check::check(program, &Profile::named("ideal-fp16").unwrap()) {
+            Ok(checked) => {
+                prop_assert!(!opens(line) || line == "else\n", "{line} is missed by nobody");
                 prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(()));
             }
+            Err(report) => prop_assert!(!report.violations.is_empty()),
         }
     }
 }
 
-const HEADS: [&str; 2] =
-    ["ps_2_a\ndcl t0\ndcl_2d s0\nmov r0, t0\nmov oC0, t0", "vs_2_0\ndcl_position v0\nmov r0, v0\nmov oPos, v0"];
-const LINES: [&str; 17] = [
-    "mov r0, c0\n",
-    "if b0\n",
-    "if_gt r0.x, c0.x\n",
-    "else\n",
-    "endif\n",
-    "rep i0\n",
-    "endrep\n",
-    "loop aL, i0\n",
-    "endloop\n",
-    "break_lt r0.x, c0.x\n",
-    "call l0\n",
-    "ret\n",
-    "label l0\n",
-    "add r1, r0, c1\n",
-    "texld r2, t0, s0\n",
-    "mul r0, r0, c[aL + 2]\n",
-    "m3x3 r3.xyz, r0, c4\n",
-];
+const HEAD: &str = "ps_2_a\ndcl t0\ndcl_2d s0\nmov r0, t0\nsetp_gt p0, r0, c0\n";
+const TAIL: &str = "call l3\nmov oC0, r0\nret\nlabel l3\nmul r0, r0, c5\nret\n";
+
+/// Well-nested statements, one or more lines an entry.
+fn block() -> impl Strategy<Value = Vec<String>> {
+    let line = prop::sample::select(vec![
+        "mul r0, r0, c1\n",
+        "(p0.x) mov r0, c2\n",
+        "texld r2, t0, s0\n",
+        "m3x3 r3.xyz, r0, c4\n",
+        "setp_lt p0, r0, c3\n",
+    ]);
+    let leaf = line.prop_map(|l| vec![l.to_owned()]);
+    let nested = leaf.prop_recursive(4, 40, 4, |inner| {
+        let many = prop::collection::vec(inner, 1..4).prop_map(|v| v.concat());
+        let condition = prop::sample::select(vec!["if b0\n", "if !p0.x\n", "if_ge r0.x, c0.y\n"]);
+        prop_oneof![
+            many.clone(),
+            (condition.clone(), many.clone()).prop_map(|(c, b)| wrap(c, b, "endif\n")),
+            (condition, many.clone(), many.clone()).prop_map(|(c, mut a, b)| {
+                a.push("else\n".to_owned());
+                a.extend(b);
+                wrap(c, a, "endif\n")
+            }),
+            (many.clone(), many).prop_map(|(mut a, b)| {
+                a.push("break_gt r0.x, c0.z\n".to_owned());
+                a.extend(b);
+                wrap("rep i0\n", a, "endrep\n")
+            }),
+        ]
+    });
+    nested
+}
+
+fn wrap(open: &str, mut body: Vec<String>, close: &str) -> Vec<String> {
+    body.insert(0, open.to_owned());
+    body.push(close.to_owned());
+    body
+}

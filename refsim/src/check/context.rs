@@ -62,6 +62,7 @@ impl<'a> Context<'a> {
     }
 
     /// A violation of a figure.
+    #[expect(clippy::too_many_arguments, reason = "each is one of the facts that the message is made of")]
     pub(super) fn exceed(
         &mut self,
         rule: RuleId,
