@@ -123,3 +123,20 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }
+
+#[test]
+fn every_format_that_a_profile_lists_exists() {
+    let mut names = Profile::card_names();
+    names.push("ideal-fp32");
+    for name in names {
+        let limits = Profile::named(name).unwrap().limits;
+        for format in limits.texture_formats.iter().chain(&limits.target_formats) {
+            let known: refsim::texture::TexelFormat = format.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(known.name(), format, "{name} uses another spelling");
+        }
+        for format in &limits.depth_formats {
+            let known: refsim::output::DepthFormat = format.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(known.name(), format, "{name} uses another spelling");
+        }
+    }
+}
