@@ -18,10 +18,7 @@ const FAR: i64 = 400;
 /// Text that is not a decimal number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("decimal number `{text}`: expected {expected} at character {at}, found {found}")]
-#[diagnostic(
-    code(num::decimal),
-    help("write a number like `-12.5`, `3e-7`, `inf` or `nan`, without spaces")
-)]
+#[diagnostic(code(num::decimal), help("write a number like `-12.5`, `3e-7`, `inf` or `nan`, without spaces"))]
 pub struct DecimalError {
     /// The text, cut short if it is very long.
     pub text: String,

@@ -22,10 +22,7 @@ pub enum FormatError {
     #[error(
         "number format `{text}`: expected a layout `sI.F`, `eXmY` or one of ps14, fx12, fp16, fp24, fp32, bf16, found `{found}`"
     )]
-    #[diagnostic(
-        code(num::format_layout),
-        help("write for example `s3.12` (fixed point) or `e5m10` (float)")
-    )]
+    #[diagnostic(code(num::format_layout), help("write for example `s3.12` (fixed point) or `e5m10` (float)"))]
     Layout {
         /// The whole string.
         text: String,
@@ -34,10 +31,7 @@ pub enum FormatError {
     },
     /// A layout whose bit counts are out of range.
     #[error("number format `{text}`: expected {expected}, found `{found}`")]
-    #[diagnostic(
-        code(num::format_range),
-        help("fixed point goes up to 32 bits, floats from `e2m1` to `e8m23`")
-    )]
+    #[diagnostic(code(num::format_range), help("fixed point goes up to 32 bits, floats from `e2m1` to `e8m23`"))]
     Range {
         /// The whole string.
         text: String,

@@ -43,7 +43,8 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
     let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
     let right = distance - left;
     let high_sig = u128::from(high.sig) << left;
-    let (low_sig, sticky) = if right >= 64 { (0, true) } else { (low.sig >> right, low.sig << (64 - right).min(63) != 0) };
+    let (low_sig, sticky) =
+        if right >= 64 { (0, true) } else { (low.sig >> right, low.sig << (64 - right).min(63) != 0) };
     let sticky = right != 0 && sticky;
     let low_sig = u128::from(low_sig);
     let exp = high.exp - left.cast_signed();

@@ -22,8 +22,11 @@ fn float() -> impl Strategy<Value = Format> {
     let overflow = prop_oneof![Just(Overflow::Infinity), Just(Overflow::Saturate), Just(Overflow::Nv30)];
     (2u8..=8, 1u8..=23, rounding(), overflow, any::<(bool, bool)>()).prop_map(|(x, m, r, o, (flush, nv))| {
         let f = Format::float(x, m).expect("in range").with_rounding(r).with_overflow(o);
-        f.with_denormals(if flush { Denormals::Flush } else { Denormals::Keep })
-            .with_specials(if nv { Specials::Nv } else { Specials::Ieee })
+        f.with_denormals(if flush { Denormals::Flush } else { Denormals::Keep }).with_specials(if nv {
+            Specials::Nv
+        } else {
+            Specials::Ieee
+        })
     })
 }
 

@@ -111,7 +111,8 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
     }
     let low = below(f, end, against);
     let inexact = against(unit(low)).is_ne();
-    let whole = low + u64::from(inexact && up(f.rounding, negative, unit(low), unit(low + 1), low.is_multiple_of(2), against));
+    let whole =
+        low + u64::from(inexact && up(f.rounding, negative, unit(low), unit(low + 1), low.is_multiple_of(2), against));
     let end = range / 2 - u64::from(!negative);
     if whole <= end {
         let bits = if negative { (range - whole) as u32 } else { whole as u32 } & f.mask();

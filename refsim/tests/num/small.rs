@@ -12,8 +12,7 @@ use crate::rational::{self, Q};
 use crate::small_ops::Reference;
 use crate::{Cases, full};
 
-const ROUNDINGS: [Rounding; 4] =
-    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
 
 /// Every layout of at most 6 bits under every combination of rules that has a meaning.
 fn formats() -> Vec<Format> {
@@ -202,7 +201,8 @@ fn ratios_and_parts() {
                 let raw = u128::from(cases.next()) << 64 | u128::from(cases.next());
                 (raw >> (127 - bits % 128)).max(1)
             };
-            let (num, den) = (wide(&mut cases, choice), wide(&mut cases, choice.wrapping_add(choice >> 7 & 15).wrapping_sub(6)));
+            let (num, den) =
+                (wide(&mut cases, choice), wide(&mut cases, choice.wrapping_add(choice >> 7 & 15).wrapping_sub(6)));
             let negative = choice >> 60 & 1 == 1;
             let (n, d) = (BigUint::from(num), BigUint::from(den));
             let expected = rational::round(&r.f, r.tininess, negative, |c| {

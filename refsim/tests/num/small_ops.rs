@@ -11,7 +11,9 @@ use crate::rational::{self, Q, magnitude};
 /// What a pattern means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Val {
-    Nan { signaling: bool },
+    Nan {
+        signaling: bool,
+    },
     Inf(bool),
     /// A sign and a magnitude, so that -0 can be told.
     Num(bool, Q),
@@ -360,9 +362,8 @@ impl Reference {
     fn dot_exact(&self, terms: &[(u32, u32)]) -> Outcome {
         let values: Vec<[Val; 2]> = terms.iter().map(|&(a, b)| [self.val(a), self.val(b)]).collect();
         let products: Vec<_> = values.iter().map(|&[a, b]| self.product(a, b)).collect();
-        let zero_by_infinity = |[a, b]: &[Val; 2]| {
-            !matches!(a, Nan { .. }) && !matches!(b, Nan { .. }) && self.product(*a, *b).is_err()
-        };
+        let zero_by_infinity =
+            |[a, b]: &[Val; 2]| !matches!(a, Nan { .. }) && !matches!(b, Nan { .. }) && self.product(*a, *b).is_err();
         let infinite = |sign| products.iter().any(|p| matches!(p, Ok(Inf(x)) if *x == sign));
         if values.iter().any(zero_by_infinity) || (infinite(true) && infinite(false)) {
             return self.invalid();

@@ -20,10 +20,12 @@ fn value(f: &Format, bits: u32) -> BigInt {
 /// `2^(2^-i)` for i from 1, by repeated square roots.
 fn roots() -> Vec<BigInt> {
     let mut root = BigInt::from(2) << PLACES;
-    (0..160).map(|_| {
-        root = (&root << PLACES).sqrt();
-        root.clone()
-    }).collect()
+    (0..160)
+        .map(|_| {
+            root = (&root << PLACES).sqrt();
+            root.clone()
+        })
+        .collect()
 }
 
 /// `2^x` for `x` in units of `2^-PLACES`, accurate to about `2^-300` of its size.

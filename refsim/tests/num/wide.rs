@@ -8,8 +8,7 @@ use rustc_apfloat::ieee::Single;
 use crate::half::{MODES, agree};
 use crate::{Cases, full};
 
-const ROUNDINGS: [Rounding; 4] =
-    [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
 
 /// Runs `body` on generators of 64 seeds, in parallel.
 fn seeds(cases: u64, body: impl Fn(&mut Cases) + Sync) {

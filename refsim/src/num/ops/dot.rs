@@ -33,10 +33,13 @@ pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcom
         DotOrder::Tree => {
             let mut level: Vec<Outcome> = products().collect();
             while level.len() > 1 {
-                level = level.chunks(2).map(|pair| match pair {
-                    [a, b] => add(env, a.bits, b.bits).also(a.flags | b.flags),
-                    _ => pair[0],
-                }).collect();
+                level = level
+                    .chunks(2)
+                    .map(|pair| match pair {
+                        [a, b] => add(env, a.bits, b.bits).also(a.flags | b.flags),
+                        _ => pair[0],
+                    })
+                    .collect();
             }
             level.first().copied().unwrap_or(Outcome::exact(0))
         }

@@ -42,7 +42,8 @@ pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sig, exp, .. } => {
             // 1/sqrt(s * 2^e) = sqrt(2^126 / s) * 2^(-e/2 - 63) with s in [2^31, 2^33): the floor of the root of a
             // floor is the floor of the root, and the root is exact only if both steps are.
-            let left = sig.leading_zeros() - 32 + (exp - sig.leading_zeros().cast_signed()).rem_euclid(2).unsigned_abs();
+            let left =
+                sig.leading_zeros() - 32 + (exp - sig.leading_zeros().cast_signed()).rem_euclid(2).unsigned_abs();
             let (s, e) = (u128::from(sig) << left, exp - left.cast_signed());
             let quotient = (1u128 << 126) / s;
             let root = quotient.isqrt();
