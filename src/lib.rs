@@ -2,6 +2,7 @@
 //!
 //! The emulated cards are in [`refsim`]; the systems that ran on them, the studies and the program are here.
 
+pub mod case;
 pub mod cli;
 pub mod geom;
 pub mod io;
@@ -9,3 +10,4 @@ pub mod report;
 pub mod scene;
 pub mod ray_engine;
 pub mod study;
+pub mod shader;

@@ -1,11 +1,12 @@
 //! How errors look on the terminal, in a log and to a machine.
 
-use std::{
-    io::{self, IsTerminal as _, Write as _},
-    path::{Path, PathBuf},
+use std::io::{self, IsTerminal as _, Write as _};
+
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report};
+use crate::io::atomic::WriteError;
 
 /// Columns of an error that goes to a file or pipe, so that its text does not depend on a terminal.
 const PLAIN_WIDTH: usize = 100;
@@ -19,30 +20,10 @@ pub struct OutputError(#[from] io::Error);
 /// Bad input that a command found itself; the rooms bring errors of their own.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum Problem {
-    /// A file that cannot be read.
-    #[error("`{}` cannot be read", path.display())]
-    #[diagnostic(
-        code(crossbar::unreadable),
-        help("check the path: it is taken from the folder the program was started in")
-    )]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// A folder or file that cannot be written.
-    #[error("`{}` cannot be written", path.display())]
-    #[diagnostic(
-        code(crossbar::unwritable),
-        help("name a folder that you may write to; nothing was left half-written")
-    )]
-    Unwritable {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
+    /// A file or folder that cannot be written; nothing of it was left behind.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::unwritable))]
+    Unwritable(#[from] WriteError),
     /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
@@ -55,18 +36,6 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// For `map_err` on reading `path`.
-    pub fn unreadable(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        let path = path.to_owned();
-        move |source| Self::Unreadable { path, source }
-    }
-
-    /// For `map_err` on writing `path`.
-    pub fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        let path = path.to_owned();
-        move |source| Self::Unwritable { path, source }
-    }
-
     /// Options that do not go together.
     pub fn usage(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage { what: what.into(), help: help.into() }
@@ -74,19 +43,31 @@ impl Problem {
 }
 
 /// Colours and box drawing on a terminal; plain text of fixed width anywhere else.
+fn handler(terminal: bool) -> Box<dyn ReportHandler> {
+    if terminal {
+        Box::new(MietteHandlerOpts::new().build())
+    } else {
+        let plain = GraphicalReportHandler::new_themed(GraphicalTheme::none());
+        Box::new(plain.with_width(PLAIN_WIDTH).with_links(false))
+    }
+}
+
+/// Chooses how errors look on standard error.
 pub(super) fn install_renderer() {
     let terminal = io::stderr().is_terminal();
     // Fails only if a hook is there already.
-    miette::set_hook(Box::new(move |_| {
-        if terminal {
-            Box::new(MietteHandlerOpts::new().build())
-        } else {
-            Box::new(
-                GraphicalReportHandler::new_themed(GraphicalTheme::none()).with_width(PLAIN_WIDTH).with_links(false),
-            )
+    miette::set_hook(Box::new(move |_| handler(terminal))).ok();
+}
+
+/// What a check found, as text for standard output.
+pub(super) fn render_finding(finding: impl Diagnostic) -> String {
+    struct Shown<D>(D, Box<dyn ReportHandler>);
+    impl<D: Diagnostic> std::fmt::Display for Shown<D> {
+        fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            self.1.debug(&self.0, f)
         }
-    }))
-    .ok();
+    }
+    Shown(finding, handler(io::stdout().is_terminal())).to_string().trim_end().to_owned()
 }
 
 /// Writes the error to standard error: there is nowhere to complain if that fails.

@@ -5,11 +5,14 @@
 //! input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
+mod check;
 mod devices;
 mod error;
 mod out;
 mod progress;
+mod run;
 mod size;
+mod switch;
 
 use std::{io::Write as _, process::ExitCode};
 
@@ -68,7 +71,9 @@ Examples:
 #[derive(Debug, Subcommand)]
 enum Command {
     Alu(alu::Args),
+    Check(check::Args),
     Devices(devices::Args),
+    Run(run::Args),
 }
 
 /// Runs the program on the arguments of the process.
@@ -88,7 +93,7 @@ pub fn main() -> ExitCode {
         rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
     }
     let mut out = Out::new(cli.json);
-    let result = run(cli.command, &mut out).and_then(|verdict| {
+    let result = obey(cli.command, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
         Ok(verdict)
     });
@@ -105,9 +110,11 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn run(command: Command, out: &mut Out) -> miette::Result<Verdict> {
+fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::Alu(args) => alu::run(&args, out),
+        Command::Check(args) => check::run(&args, out),
         Command::Devices(args) => devices::run(&args, out),
+        Command::Run(args) => run::run(&args, out),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] = &["alu", "devices"];
+const COMMANDS: &[&str] = &["alu", "check", "devices", "run"];
 
 #[test]
 fn program() {

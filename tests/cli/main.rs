@@ -2,6 +2,8 @@
 
 mod alu;
 mod bad_input;
+mod case;
+mod check;
 mod devices;
 mod help;
 

@@ -1,5 +1,6 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
+mod cases;
 mod geometry;
 mod ground_truth;
 mod models;

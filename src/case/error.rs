@@ -1,0 +1,127 @@
+//! What can be wrong with a case.
+
+use std::{ops::Range, path::PathBuf, sync::Arc};
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+
+use refsim::machine::MachineError;
+
+use crate::{report::ReportError, shader::ShaderError};
+
+/// The text of a case with its name, cheap to hand to every error.
+pub(super) type Source = NamedSource<Arc<str>>;
+
+/// Why a case cannot be run.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum CaseError {
+    /// The file is no TOML, or something in it is not what the schema says.
+    #[error("{message}")]
+    #[diagnostic(code(crossbar::case), help("{help}"))]
+    Schema {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+        /// The text.
+        #[source_code]
+        source_code: Source,
+        /// Where in the text.
+        #[label("here")]
+        span: Option<SourceSpan>,
+    },
+    /// A file that cannot be read.
+    #[error("`{}` cannot be read", path.display())]
+    #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are taken from the folder of the case"))]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// The text of the case, if a case names the file.
+        #[source_code]
+        source_code: Option<Source>,
+        /// Where in the case.
+        #[label("named here")]
+        span: Option<SourceSpan>,
+    },
+    /// The case is no text.
+    #[error("expected a case file in UTF-8, found byte {byte:#04x} at offset {offset}")]
+    #[diagnostic(code(crossbar::case::text), help("save the file as UTF-8"))]
+    NotText {
+        /// The byte.
+        byte: u8,
+        /// Its place in the file.
+        offset: usize,
+    },
+    /// The case is longer than any case needs to be.
+    #[error("expected a case file of at most {most} bytes, found {found}")]
+    #[diagnostic(code(crossbar::case::length), help("keep texels in image files"))]
+    TooLong {
+        /// The limit in bytes.
+        most: usize,
+        /// The length in bytes.
+        found: usize,
+    },
+    /// The device cannot do what the case asks.
+    #[error("the case cannot be drawn: {0}")]
+    #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
+    Draw(MachineError),
+    /// A picture of the result cannot be made.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] ReportError),
+    /// A shader that does not assemble or breaks a rule.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Shader(#[from] ShaderError),
+}
+
+impl From<MachineError> for CaseError {
+    fn from(error: MachineError) -> Self {
+        Self::Draw(error)
+    }
+}
+
+/// Places errors in the text of a case.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    source: Source,
+}
+
+impl Place {
+    pub(super) fn new(name: &str, text: &str) -> Self {
+        Self { source: NamedSource::new(name, Arc::from(text)).with_language("toml") }
+    }
+
+    /// The error of the TOML reader: its message is ours to pass on, its span too.
+    pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
+        CaseError::Schema {
+            message: error.message().trim_end().replace('\n', ", "),
+            help: "docs/cases.md describes what a case may say".to_owned(),
+            source_code: self.source.clone(),
+            span: error.span().map(|span| self.clamp(span)),
+        }
+    }
+
+    /// Something at `span` is not as it should be.
+    pub(super) fn wrong(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> CaseError {
+        CaseError::Schema {
+            message: message.into(),
+            help: help.into(),
+            source_code: self.source.clone(),
+            span: Some(self.clamp(span)),
+        }
+    }
+
+    /// The file that the text at `span` names cannot be read.
+    pub(super) fn unreadable(&self, span: Range<usize>, path: PathBuf, source: std::io::Error) -> CaseError {
+        CaseError::Unreadable { path, source, source_code: Some(self.source.clone()), span: Some(self.clamp(span)) }
+    }
+
+    /// A span that the renderer can show: inside the text, whatever the reader said.
+    fn clamp(&self, span: Range<usize>) -> SourceSpan {
+        let length = self.source.inner().len();
+        let start = span.start.min(length);
+        (start, span.end.clamp(start, length) - start).into()
+    }
+}

@@ -1,0 +1,105 @@
+//! Whether a pixel is what was expected.
+
+use std::fmt;
+
+use refsim::{
+    num::{Format, ops},
+    output::DepthSurface,
+    texture::{ChannelValue, Image, SignedTexelMinimum},
+};
+use serde::Serialize;
+
+use super::setup::{Expected, Probe};
+
+/// What stands at a probed pixel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Found {
+    /// Red, green, blue, alpha as numbers.
+    Color([f64; 4]),
+    /// The stored channels.
+    Raw(Vec<u32>),
+    /// The depth as a number.
+    Depth(f64),
+}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Color(channels) => write!(f, "{channels:?}"),
+            Self::Raw(channels) => write!(f, "raw {channels:?}"),
+            Self::Depth(depth) => write!(f, "depth {depth:?}"),
+        }
+    }
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Color(channels) => write!(f, "{channels:?}"),
+            Self::Raw(channels) => write!(f, "raw {channels:?}"),
+            Self::Depth(depth) => write!(f, "depth {depth:?}"),
+        }
+    }
+}
+
+/// The answer to a probe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeResult {
+    /// The question.
+    pub probe: Probe,
+    /// What was found.
+    pub found: Found,
+    /// Whether it is what was expected.
+    pub passed: bool,
+}
+
+/// A channel as a double: exact but for ratios, which are rounded once.
+pub(super) fn number(value: ChannelValue) -> f64 {
+    match value {
+        ChannelValue::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
+        ChannelValue::Float { format, bits } => single(format, bits),
+    }
+}
+
+/// A float of any of the emulator's formats: each of them fits a single.
+fn single(format: Format, bits: u32) -> f64 {
+    f64::from(f32::from_bits(ops::convert(&format, Format::FP32, bits).bits))
+}
+
+/// Answers a probe from the target that it names, or from the depth buffer.
+pub(super) fn answer(
+    probe: &Probe,
+    target: &Image,
+    depth: Option<&DepthSurface>,
+    minimum: SignedTexelMinimum,
+) -> ProbeResult {
+    let [x, y] = probe.pixel;
+    let close = |expected: f64, found: f64| {
+        expected == found || (expected.is_nan() && found.is_nan()) || (expected - found).abs() <= probe.tolerance
+    };
+    let (found, passed) = match &probe.expected {
+        Expected::Color(expected) => {
+            let found = target.texel(0, 0, y, x, minimum).0.map(number);
+            let passed = expected.iter().zip(found).all(|(&expected, found)| close(expected, found));
+            (Found::Color(found), passed)
+        }
+        Expected::Raw(expected) => {
+            let raw = target.raw(0, 0, y, x);
+            let channels = target.format().record().stored().iter();
+            let mask = |bits: u8| u32::MAX >> (32 - u32::from(bits.clamp(1, 32)));
+            let found: Vec<u32> = channels.map(|c| (raw >> c.shift) as u32 & mask(c.bits)).collect();
+            let passed = expected.len() <= found.len() && found.starts_with(expected);
+            (Found::Raw(found), passed)
+        }
+        Expected::Depth(expected) => {
+            // The set-up let this probe through only with a depth buffer.
+            let found = depth.and_then(|surface| {
+                let stored = surface.get(x, y)?;
+                Some(single(Format::FP32, surface.format().to_format(stored, Format::FP32)))
+            });
+            (Found::Depth(found.unwrap_or(f64::NAN)), found.is_some_and(|found| close(*expected, found)))
+        }
+    };
+    ProbeResult { probe: probe.clone(), found, passed }
+}

@@ -1,0 +1,218 @@
+//! Draws a case once and looks at what came out.
+
+use refsim::{
+    event::DrawEvents,
+    isa::SlotCost,
+    machine::{AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams},
+    num::Format,
+    output::WriteMask,
+    raster::{ClipSpace, Cull, PixelCenter},
+    texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
+};
+use serde::Serialize;
+
+use super::{
+    CaseError, ProbeResult, Setup, probe,
+    schema::{self, Convention},
+    setup::Vertices,
+};
+use crate::{
+    report::{Channel, ReportError, exr, picture},
+    shader,
+};
+
+/// What a case did.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Every target, and the depth buffer, as a picture.
+    pub pictures: Vec<Picture>,
+    /// The answers to the probes, in their order.
+    pub probes: Vec<ProbeResult>,
+    /// What happened, as counts.
+    pub events: DrawEvents,
+    /// The work of the pixel program.
+    pub slots: ShaderSlots,
+}
+
+/// A file's name and contents.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// `target0.png` for example.
+    pub name: String,
+    /// The file.
+    pub bytes: Vec<u8>,
+}
+
+/// The slots that the pixel program took: how much work, not how long it took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ShaderSlots {
+    /// Texture instruction slots of a fragment.
+    pub texture: u64,
+    /// Arithmetic instruction slots of a fragment.
+    pub arithmetic: u64,
+    /// Both, over all shaded fragments.
+    pub total: u64,
+}
+
+impl Outcome {
+    /// Whether every probe found what it expected.
+    pub fn passed(&self) -> bool {
+        self.probes.iter().all(|result| result.passed)
+    }
+}
+
+/// Draws the case.
+///
+/// # Errors
+/// If the device cannot do what the case asks, or a picture cannot be encoded.
+pub fn run(setup: &Setup, executor: ExecutorKind) -> Result<Outcome, CaseError> {
+    let mut machine = Machine::new(setup.profile.clone(), executor);
+    let [width, height] = setup.size;
+    let mut targets = Vec::new();
+    for &format in &setup.targets {
+        let target = machine.create_target(format, width, height)?;
+        machine.clear_target(target, setup.clear)?;
+        targets.push(target);
+    }
+    let depth_buffer = match setup.depth {
+        Some((format, clear, _)) => {
+            let buffer = machine.create_depth(format, width, height)?;
+            machine.clear_depth(buffer, clear)?;
+            Some(buffer)
+        }
+        None => None,
+    };
+    let mut samplers = Vec::new();
+    for (&slot, (image, state)) in &setup.textures {
+        samplers.push((slot, machine.create_texture(image.clone())?, *state));
+    }
+    let streams = streams(setup);
+    let mut call = draw_call(setup, &streams, targets.clone());
+    call.depth_buffer = depth_buffer;
+    for (slot, texture, state) in samplers {
+        call = call.with_texture(slot, texture, state);
+    }
+    let events = machine.draw(&call)?;
+    let surfaces = targets.iter().map(|&target| machine.read_back(target)).collect::<Result<Vec<_>, MachineError>>()?;
+    let depth = depth_buffer.map(|buffer| machine.read_depth(buffer)).transpose()?;
+    let minimum = setup.profile.rules.signed_texel_minimum;
+    let mut pictures = Vec::new();
+    for (index, surface) in surfaces.iter().enumerate() {
+        pictures.push(picture_of(&format!("target{index}"), surface, minimum)?);
+    }
+    if let Some(surface) = depth {
+        let values: Vec<f32> = surface
+            .data()
+            .iter()
+            .map(|&stored| f32::from_bits(surface.format().to_format(stored, Format::FP32)))
+            .collect();
+        let bytes = exr(width as usize, height as usize, &[("depth", Channel::Float(&values))])?;
+        pictures.push(Picture { name: "depth.exr".to_owned(), bytes });
+    }
+    let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
+    Ok(Outcome {
+        pictures,
+        probes: setup.probes.iter().map(answer).collect(),
+        events,
+        slots: slots(shader::slots(&setup.pixel), events.fragments.shaded),
+    })
+}
+
+fn slots(cost: SlotCost, fragments: u64) -> ShaderSlots {
+    let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
+    ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments) }
+}
+
+/// The values of each attribute register, vertex by vertex.
+fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
+    match &setup.geometry.vertices {
+        Vertices::Transformed(_) => Vec::new(),
+        Vertices::Attributes(vertices) => {
+            (0..16).map(|register| vertices.iter().map(|attributes| attributes[register]).collect()).collect()
+        }
+    }
+}
+
+fn draw_call<'a>(
+    setup: &'a Setup,
+    streams: &'a [Vec<[u32; 4]>],
+    targets: Vec<refsim::machine::TextureId>,
+) -> DrawCall<'a> {
+    let vertices = match (&setup.geometry.vertices, &setup.vertex) {
+        (Vertices::Attributes(vertices), Some(program)) => VertexSource::Program {
+            program,
+            constants: &setup.vertex_constants,
+            streams: VertexStreams {
+                vertex_count: vertices.len(),
+                instance_count: 1,
+                streams: (0..)
+                    .zip(streams)
+                    .map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data })
+                    .collect(),
+            },
+        },
+        (Vertices::Transformed(vertices), _) => VertexSource::Transformed(vertices),
+        // Attributes are made for a program only.
+        (Vertices::Attributes(_), None) => VertexSource::Transformed(&[]),
+    };
+    let opengl = setup.geometry.convention == Convention::Opengl;
+    // The set-up lets no case through without a target.
+    let first = targets[0];
+    DrawCall {
+        center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
+        clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
+        cull: match setup.geometry.cull {
+            schema::Cull::None => Cull::None,
+            schema::Cull::Clockwise => Cull::Clockwise,
+            schema::Cull::CounterClockwise => Cull::CounterClockwise,
+        },
+        alpha_test: setup.alpha,
+        depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
+        blend: setup.blend,
+        masks: [WriteMask(setup.write_mask); refsim::output::MOST_TARGETS],
+        targets,
+        ..DrawCall::new(vertices, setup.geometry.primitive, &setup.pixel, &setup.pixel_constants, first)
+    }
+}
+
+/// A target as PNG where its channels are unsigned fractions, else as EXR with the values as singles.
+fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<Picture, ReportError> {
+    let (width, height) = (target.width() as usize, target.height() as usize);
+    let record = target.format().record();
+    let texels = (0..target.height())
+        .flat_map(|y| (0..target.width()).map(move |x| (x, y)))
+        .map(|(x, y)| target.texel(0, 0, y, x, minimum));
+    if record.stored().iter().all(|channel| channel.class == ChannelClass::Unorm) {
+        let deep = record.stored().iter().any(|channel| channel.bits > 8);
+        let bytes = if deep {
+            let samples: Vec<u16> = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 65535) as u16)).collect();
+            picture::rgba16(width, height, &samples)?
+        } else {
+            let samples: Vec<u8> = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 255) as u8)).collect();
+            picture::rgba8(width, height, &samples)?
+        };
+        return Ok(Picture { name: format!("{stem}.png"), bytes });
+    }
+    let values: Vec<[f32; 4]> = texels.map(|texel| texel.to_format(Format::FP32).map(f32::from_bits)).collect();
+    let plane = |channel: usize| values.iter().map(|value| value[channel]).collect::<Vec<f32>>();
+    let planes = [plane(0), plane(1), plane(2), plane(3)];
+    let [red, green, blue, alpha] = &planes;
+    let channels = [
+        ("R", Channel::Float(red)),
+        ("G", Channel::Float(green)),
+        ("B", Channel::Float(blue)),
+        ("A", Channel::Float(alpha)),
+    ];
+    Ok(Picture { name: format!("{stem}.exr"), bytes: exr(width, height, &channels)? })
+}
+
+/// An unsigned fraction in steps of `1 / most`, to the nearest.
+fn scaled(value: ChannelValue, most: u64) -> u64 {
+    match value {
+        ChannelValue::Ratio { numerator, denominator } => {
+            let (k, n) = (numerator.max(0).unsigned_abs(), u64::from(denominator));
+            ((2 * k * most + n) / (2 * n)).min(most)
+        }
+        ChannelValue::Float { .. } => 0,
+    }
+}

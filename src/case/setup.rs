@@ -1,0 +1,390 @@
+//! From the words of a case to a device, programs, images and state.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use refsim::{
+    check::Checked,
+    device::Profile,
+    exec::Constants,
+    isa::{Program, Stage, Version},
+    machine::{ExecutorKind, Machine, MachineError},
+    num::Format,
+    output::{AlphaTest, BlendState, DepthFormat, DepthState},
+    raster::{Primitive, Vertex},
+    texture::{Image, SamplerState, TexelFormat},
+};
+use toml::Spanned;
+
+use super::{
+    CaseError,
+    error::Place,
+    schema::{self, Case},
+    state, texels,
+    value::Number,
+    vertices,
+};
+use crate::shader::{ShaderError, ShaderText};
+
+/// The longest case file that is read, in bytes.
+const LONGEST: usize = 1 << 26;
+
+/// A case that is ready to be drawn.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// What the case shows.
+    pub title: Option<String>,
+    /// The device with the case's switches and format.
+    pub profile: Profile,
+    /// The pixel program.
+    pub pixel: Checked<Program>,
+    /// The vertex program.
+    pub vertex: Option<Checked<Program>>,
+    /// Constants of the pixel program.
+    pub pixel_constants: Constants,
+    /// Constants of the vertex program.
+    pub vertex_constants: Constants,
+    /// Textures by sampler.
+    pub textures: BTreeMap<usize, (Image, SamplerState)>,
+    /// What is drawn.
+    pub geometry: Geometry,
+    /// Width and height of all targets, in pixels.
+    pub size: [u32; 2],
+    /// The colour targets.
+    pub targets: Vec<TexelFormat>,
+    /// What the colour targets hold before the draw, IEEE singles.
+    pub clear: [u32; 4],
+    /// Which channels are written: red is bit 0.
+    pub write_mask: u8,
+    /// The depth buffer: format, what it holds before the draw (IEEE single), state.
+    pub depth: Option<(DepthFormat, u32, DepthState)>,
+    /// The alpha test.
+    pub alpha: Option<AlphaTest>,
+    /// Blending.
+    pub blend: Option<BlendState>,
+    /// What must come out.
+    pub probes: Vec<Probe>,
+}
+
+/// What is drawn, and how.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    /// How vertices make triangles.
+    pub primitive: Primitive,
+    /// The vertices.
+    pub vertices: Vertices,
+    /// Which side is left out.
+    pub cull: schema::Cull,
+    /// Whose rules hold for pixel centres and clip space.
+    pub convention: schema::Convention,
+}
+
+/// Vertices before or after the vertex program.
+#[derive(Clone, Debug)]
+pub enum Vertices {
+    /// Attributes `v0` to `v15` of each vertex, for the vertex program.
+    Attributes(Vec<[[u32; 4]; 16]>),
+    /// What the rasteriser takes: there is no vertex program.
+    Transformed(Vec<Vertex>),
+}
+
+/// What must come out at a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Which target.
+    pub target: usize,
+    /// What is expected.
+    pub expected: Expected,
+    /// How far numbers may be off.
+    pub tolerance: f64,
+}
+
+/// What a probe compares with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expected {
+    /// Red, green, blue, alpha, from the first on, as numbers.
+    Color(Vec<f64>),
+    /// The stored channels, to the bit.
+    Raw(Vec<u32>),
+    /// The depth as a number.
+    Depth(f64),
+}
+
+impl Setup {
+    /// Reads a case and everything that it names.
+    ///
+    /// # Errors
+    /// [`CaseError`] for the first thing in the case that is not as it should be.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let unreadable =
+            |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        Self::from_bytes(&path.display().to_string(), &bytes, folder)
+    }
+
+    /// A case from the bytes of a file called `name`; the paths in it are taken from `folder`.
+    ///
+    /// # Errors
+    /// As [`Setup::read`].
+    pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
+        if bytes.len() > LONGEST {
+            return Err(CaseError::TooLong { most: LONGEST, found: bytes.len() });
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let offset = error.valid_up_to();
+            CaseError::NotText { byte: bytes.get(offset).copied().unwrap_or_default(), offset }
+        })?;
+        let place = Place::new(name, text);
+        let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
+        Binder { place, name, folder }.bind(case)
+    }
+}
+
+/// What every step needs: where to report, where files are.
+pub(super) struct Binder<'a> {
+    pub(super) place: Place,
+    name: &'a str,
+    folder: &'a Path,
+}
+
+impl Binder<'_> {
+    fn bind(&self, case: Case) -> Result<Setup, CaseError> {
+        let (profile, model) = self.profile(&case)?;
+        // A card to try on: what it refuses is reported where it stands in the case.
+        let mut card = Machine::new(profile.clone(), ExecutorKind::default());
+        let pixel = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
+        let vertex = case
+            .vertex
+            .as_ref()
+            .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
+            .transpose()?;
+        let mut textures = BTreeMap::new();
+        for texture in &case.texture {
+            let (slot, image, sampler) = texels::bind(self, texture)?;
+            self.accepted(card.create_texture(image.clone()), texture.get_ref().format.span())?;
+            if textures.insert(slot, (image, sampler)).is_some() {
+                let help = "give every texture a slot of its own";
+                return Err(self.place.wrong(texture.get_ref().slot.span(), format!("slot {slot} is taken"), help));
+            }
+        }
+        let geometry = vertices::bind(self, &case.geometry, vertex.as_deref())?;
+        let size = self.size(&case.target.size)?;
+        let targets = state::targets(self, &case.target)?;
+        for &target in &targets {
+            self.accepted(card.create_target(target, size[0], size[1]), case.target.format.span())?;
+        }
+        let depth = case.depth.as_ref().map(|depth| state::depth(self, depth)).transpose()?;
+        let probes = state::probes(self, &case.probe, size, targets.len(), depth.is_some())?;
+        Ok(Setup {
+            title: case.title,
+            pixel_constants: self.constants(&case.constants)?,
+            vertex_constants: self.constants(&case.vertex_constants)?,
+            clear: self.optional_vector(case.target.clear.as_ref(), [0; 4])?,
+            write_mask: state::write_mask(self, case.target.write.as_ref())?,
+            alpha: case.alpha.as_ref().map(state::alpha),
+            blend: case.blend.as_ref().map(state::blend),
+            profile,
+            pixel,
+            vertex,
+            textures,
+            geometry,
+            size,
+            targets,
+            depth,
+            probes,
+        })
+    }
+
+    /// What the card said to something in the case.
+    fn accepted<T>(&self, answer: Result<T, MachineError>, span: std::ops::Range<usize>) -> Result<T, CaseError> {
+        let help = "change the case, or choose a device that can: `crossbar devices` lists them";
+        answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
+    }
+
+    /// The device, and the version that the pixel program must have.
+    fn profile(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
+        let (mut profile, model) = match (&case.device, &case.shader_model) {
+            (Some(device), None) => (self.named(device)?, None),
+            (None, Some(model)) => {
+                let Some(format) = &case.format else {
+                    let help = "add for example `format = \"s3.12\"`: the format of the pixel registers";
+                    return Err(self.place.wrong(model.span(), "`shader_model` without `format`", help));
+                };
+                let version = model.get_ref().parse::<Version>().map_err(|error| {
+                    self.place.wrong(
+                        model.span(),
+                        error.to_string(),
+                        "name a pixel shader version, `ps_1_4` for example",
+                    )
+                })?;
+                if version.stage() != Stage::Pixel {
+                    let message = format!("expected a pixel shader version, found `{version}`");
+                    return Err(self.place.wrong(model.span(), message, "`ps_1_4` for example"));
+                }
+                let name = format!("ideal-{}", self.format(format)?);
+                (self.named(&Spanned::new(format.span(), name))?, Some(version))
+            }
+            (Some(_), Some(model)) => {
+                let help = "keep `device`, or `shader_model` and `format`: a device knows its versions";
+                return Err(self.place.wrong(model.span(), "both `device` and `shader_model`", help));
+            }
+            (None, None) => {
+                let help = "add `device = \"r200\"`, or `shader_model = \"ps_1_4\"` and `format = \"s3.12\"`";
+                return Err(self.place.wrong(0..0, "the case names no device", help));
+            }
+        };
+        for (name, value) in &case.switches {
+            profile.set_switch(name, value.get_ref()).map_err(|error| {
+                let help = format!("`crossbar devices {}` lists the switches", profile.name);
+                self.place.wrong(value.span(), error.to_string(), help)
+            })?;
+        }
+        if let (Some(_), Some(format)) = (&case.device, &case.format) {
+            profile.set_format(self.format(format)?);
+        }
+        Ok((profile, model))
+    }
+
+    fn named(&self, device: &Spanned<String>) -> Result<Profile, CaseError> {
+        Profile::named(device.get_ref())
+            .map_err(|error| self.place.wrong(device.span(), error.to_string(), "`crossbar devices` lists the devices"))
+    }
+
+    fn format(&self, format: &Spanned<String>) -> Result<Format, CaseError> {
+        format.get_ref().parse().map_err(|error: refsim::num::FormatError| {
+            self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
+        })
+    }
+
+    /// Reads, assembles and judges a program.
+    fn program(
+        &self,
+        shader: &Spanned<schema::Shader>,
+        table: &str,
+        stage: Stage,
+        profile: &Profile,
+        model: Option<Version>,
+    ) -> Result<Checked<Program>, CaseError> {
+        let text = match (&shader.get_ref().file, &shader.get_ref().source) {
+            (Some(file), None) => {
+                let path = self.path(file.get_ref());
+                ShaderText::read(&path).map_err(|error| match error {
+                    ShaderError::Unreadable { source, .. } => self.place.unreadable(file.span(), path, source),
+                    other => CaseError::from(other),
+                })?
+            }
+            (None, Some(source)) => ShaderText::new(format!("{} [{table}]", self.name), source.get_ref().as_str()),
+            (Some(_), Some(source)) => {
+                let help = "keep one of the two";
+                return Err(self.place.wrong(source.span(), format!("[{table}] has both `file` and `source`"), help));
+            }
+            (None, None) => {
+                let help = "name a `file`, or write the program as `source`";
+                return Err(self.place.wrong(shader.span(), format!("[{table}] has no program"), help));
+            }
+        };
+        let program = text.assemble()?;
+        let wrong = |expected: &str, help: &str| {
+            let message = format!("expected {expected} program in [{table}], found `{}`", program.version);
+            Err(self.place.wrong(shader.span(), message, help))
+        };
+        if program.version.stage() != stage {
+            return match stage {
+                Stage::Pixel => wrong("a pixel", "a vertex program goes into [vertex]"),
+                Stage::Vertex => wrong("a vertex", "a pixel program goes into [pixel]"),
+            };
+        }
+        if let Some(model) = model.filter(|model| *model != program.version) {
+            return wrong(&format!("a {model}"), "make `shader_model` and the program's first line agree");
+        }
+        Ok(text.check(program, profile)?)
+    }
+
+    pub(super) fn path(&self, file: &Path) -> PathBuf {
+        self.folder.join(file)
+    }
+
+    fn size(&self, size: &Spanned<[u32; 2]>) -> Result<[u32; 2], CaseError> {
+        let [width, height] = *size.get_ref();
+        if (1..=4096).contains(&width) && (1..=4096).contains(&height) {
+            return Ok([width, height]);
+        }
+        let message = format!("expected a target of 1 to 4096 pixels a side, found {width}x{height}");
+        Err(self.place.wrong(size.span(), message, "write `size = [width, height]`"))
+    }
+
+    /// Exactly four numbers, as IEEE singles.
+    fn four(&self, numbers: &[Number], span: std::ops::Range<usize>) -> Result<[u32; 4], CaseError> {
+        <[Number; 4]>::try_from(numbers).map(|four| four.map(Number::single)).map_err(|_| {
+            let message = format!("expected 4 numbers, found {}", numbers.len());
+            self.place.wrong(span, message, "write all four: x, y, z, w, or red, green, blue, alpha")
+        })
+    }
+
+    pub(super) fn optional_vector(
+        &self,
+        vector: Option<&Spanned<Vec<Number>>>,
+        default: [u32; 4],
+    ) -> Result<[u32; 4], CaseError> {
+        vector.map_or(Ok(default), |vector| self.four(vector.get_ref(), vector.span()))
+    }
+
+    fn constants(&self, written: &BTreeMap<String, Spanned<schema::Constant>>) -> Result<Constants, CaseError> {
+        let mut constants = Constants::default();
+        for (name, value) in written {
+            let number = register(name, 256);
+            let wrong = |message: String| {
+                let help = "write for example `c0 = [0.5, 0, 0, 1]`, `i0 = [3, 0, 1, 0]` or `b0 = true`";
+                Err(self.place.wrong(value.span(), message, help))
+            };
+            match (name.bytes().next(), number, value.get_ref()) {
+                (Some(b'c'), Some(number), schema::Constant::Vector(numbers)) => {
+                    *place_at(&mut constants.float, number) = self.four(numbers, value.span())?;
+                }
+                (Some(b'i'), Some(number @ 0..16), schema::Constant::Vector(numbers)) => match integers(numbers) {
+                    Some(four) => *place_at(&mut constants.int, number) = four,
+                    None => return wrong(format!("expected 4 whole numbers of 32 bits for `{name}`")),
+                },
+                (Some(b'b'), Some(number @ 0..16), schema::Constant::Bool(value)) => {
+                    *place_at(&mut constants.boolean, number) = *value;
+                }
+                (Some(b'c' | b'i' | b'b'), Some(_), _) => {
+                    return wrong(format!("the value of `{name}` does not fit the register, or there is no such one"));
+                }
+                _ => return wrong(format!("expected a constant c0 to c255, i0 to i15 or b0 to b15, found `{name}`")),
+            }
+        }
+        Ok(constants)
+    }
+}
+
+/// The number of a register such as `c17`, below `count`; no sign, no leading zeros.
+pub(super) fn register(name: &str, count: usize) -> Option<usize> {
+    let digits = name.get(1..)?;
+    let plain = digits.bytes().all(|byte| byte.is_ascii_digit()) && (digits == "0" || !digits.starts_with('0'));
+    digits.parse().ok().filter(|number| plain && *number < count)
+}
+
+fn place_at<T: Clone + Default>(list: &mut Vec<T>, index: usize) -> &mut T {
+    if list.len() <= index {
+        list.resize(index + 1, T::default());
+    }
+    &mut list[index]
+}
+
+fn integers(numbers: &[Number]) -> Option<[i32; 4]> {
+    let whole = |number: &Number| match *number {
+        // Within the range of `i32` a whole double converts exactly.
+        Number::Value(value) if value >= -2_147_483_648.0 && value <= 2_147_483_647.0 && value % 1.0 == 0.0 => {
+            Some(value as i32)
+        }
+        _ => None,
+    };
+    let four: Vec<i32> = numbers.iter().map(whole).collect::<Option<_>>()?;
+    four.try_into().ok()
+}

@@ -1,0 +1,176 @@
+//! Targets, tests, blending and probes: from words to the emulator's state.
+
+use refsim::{
+    output::{AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState},
+    texture::TexelFormat,
+};
+use toml::Spanned;
+
+use super::{
+    CaseError,
+    schema::{self, BlendOperation, Compare, Factor},
+    setup::{Binder, Expected, Probe},
+    value::Number,
+};
+
+/// 1.0 as an IEEE single.
+const ONE: u32 = 0x3f80_0000;
+
+/// The formats of the colour targets.
+pub(super) fn targets(binder: &Binder<'_>, target: &schema::Target) -> Result<Vec<TexelFormat>, CaseError> {
+    let names = &target.format.get_ref().0;
+    if names.is_empty() || names.len() > refsim::output::MOST_TARGETS {
+        let message = format!("expected 1 to {} target formats, found {}", refsim::output::MOST_TARGETS, names.len());
+        return Err(binder.place.wrong(target.format.span(), message, "write for example `format = \"rgba8\"`"));
+    }
+    names.iter().map(|name| texel_format(binder, name, target.format.span())).collect()
+}
+
+/// A texel format by name.
+pub(super) fn texel_format(
+    binder: &Binder<'_>,
+    name: &str,
+    span: std::ops::Range<usize>,
+) -> Result<TexelFormat, CaseError> {
+    name.parse().map_err(|error: refsim::texture::TextureError| {
+        binder.place.wrong(span, error.to_string(), "`crossbar devices NAME` lists those that a device has")
+    })
+}
+
+/// The written channels as a mask, red in bit 0.
+pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -> Result<u8, CaseError> {
+    let Some(write) = write else { return Ok(0b1111) };
+    let mut mask = 0;
+    for letter in write.get_ref().chars() {
+        let Some(channel) = "rgba".find(letter).filter(|channel| mask >> channel & 1 == 0) else {
+            let message = format!("expected some of `rgba`, each once, found `{}`", write.get_ref());
+            return Err(binder.place.wrong(write.span(), message, "`write = \"rgb\"` leaves alpha as it is"));
+        };
+        mask |= 1 << channel;
+    }
+    Ok(mask)
+}
+
+/// The depth buffer: format, contents, state.
+pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(DepthFormat, u32, DepthState), CaseError> {
+    let format = depth.format.as_ref().map_or(Ok(DepthFormat::Unorm24), |format| {
+        format.get_ref().parse().map_err(|error: refsim::output::OutputError| {
+            binder.place.wrong(format.span(), error.to_string(), "`d24` for example")
+        })
+    })?;
+    let state = DepthState { test: depth.test.map(compare), write: depth.write.unwrap_or(depth.test.is_some()) };
+    Ok((format, depth.clear.map_or(ONE, Number::single), state))
+}
+
+/// The alpha test.
+pub(super) fn alpha(alpha: &schema::Alpha) -> AlphaTest {
+    AlphaTest { function: compare(alpha.test), reference: alpha.reference.single() }
+}
+
+/// Blending; alpha as colour where nothing else is said.
+pub(super) fn blend(blend: &schema::Blend) -> BlendState {
+    let color = BlendEquation {
+        source: factor(blend.source),
+        destination: factor(blend.destination),
+        op: operation(blend.operation),
+    };
+    let alpha = BlendEquation {
+        source: blend.alpha_source.map_or(color.source, factor),
+        destination: blend.alpha_destination.map_or(color.destination, factor),
+        op: blend.alpha_operation.map_or(color.op, operation),
+    };
+    BlendState { color, alpha }
+}
+
+/// The probes: inside the target, one expectation each.
+pub(super) fn probes(
+    binder: &Binder<'_>,
+    probes: &[Spanned<schema::Probe>],
+    size: [u32; 2],
+    targets: usize,
+    has_depth: bool,
+) -> Result<Vec<Probe>, CaseError> {
+    let one = |probe: &Spanned<schema::Probe>| {
+        let written = probe.get_ref();
+        let pixel = *written.pixel.get_ref();
+        if pixel[0] >= size[0] || pixel[1] >= size[1] {
+            let message = format!("pixel ({}, {}) is not in a target of {}x{}", pixel[0], pixel[1], size[0], size[1]);
+            return Err(binder.place.wrong(written.pixel.span(), message, "columns and rows count from 0"));
+        }
+        let target = written.target as usize;
+        if target >= targets {
+            let message = format!("there is no target {target}: the case has {targets}");
+            return Err(binder.place.wrong(probe.span(), message, "targets count from 0"));
+        }
+        let expected = expected(binder, probe, has_depth)?;
+        let tolerance = written.tolerance.as_ref().map_or(0.0, |tolerance| tolerance.get_ref().double());
+        if tolerance.is_nan() || tolerance < 0.0 {
+            let span = written.tolerance.as_ref().map_or(probe.span(), Spanned::span);
+            return Err(binder.place.wrong(span, "expected a tolerance of 0 or more", "leave it out for 0"));
+        }
+        Ok(Probe { pixel, target, expected, tolerance })
+    };
+    probes.iter().map(one).collect()
+}
+
+fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool) -> Result<Expected, CaseError> {
+    let wrong = |message: &str, help: &str| Err(binder.place.wrong(probe.span(), message, help));
+    let four = |found: usize, span| {
+        let message = format!("expected 1 to 4 channels, found {found}");
+        Err(binder.place.wrong(span, message, "red, green, blue, alpha; leave out from the end"))
+    };
+    let written = probe.get_ref();
+    match (&written.expected, &written.raw, written.depth) {
+        (Some(color), None, None) => match color.get_ref().len() {
+            1..=4 => Ok(Expected::Color(color.get_ref().iter().map(|number| number.double()).collect())),
+            found => four(found, color.span()),
+        },
+        (None, Some(raw), None) => match raw.get_ref().len() {
+            1..=4 => Ok(Expected::Raw(raw.get_ref().clone())),
+            found => four(found, raw.span()),
+        },
+        (None, None, Some(depth)) if has_depth => Ok(Expected::Depth(depth.double())),
+        (None, None, Some(_)) => wrong("the probe asks for depth, but the case has no depth buffer", "add [depth]"),
+        (None, None, None) => wrong("the probe expects nothing", "write `expected`, `raw` or `depth`"),
+        _ => wrong("the probe expects several things at once", "write one probe for each"),
+    }
+}
+
+fn compare(compare: Compare) -> CompareFunction {
+    match compare {
+        Compare::Never => CompareFunction::Never,
+        Compare::Less => CompareFunction::Less,
+        Compare::Equal => CompareFunction::Equal,
+        Compare::LessEqual => CompareFunction::LessEqual,
+        Compare::Greater => CompareFunction::Greater,
+        Compare::NotEqual => CompareFunction::NotEqual,
+        Compare::GreaterEqual => CompareFunction::GreaterEqual,
+        Compare::Always => CompareFunction::Always,
+    }
+}
+
+fn factor(factor: Factor) -> BlendFactor {
+    match factor {
+        Factor::Zero => BlendFactor::Zero,
+        Factor::One => BlendFactor::One,
+        Factor::SourceColor => BlendFactor::SrcColor,
+        Factor::InverseSourceColor => BlendFactor::InvSrcColor,
+        Factor::SourceAlpha => BlendFactor::SrcAlpha,
+        Factor::InverseSourceAlpha => BlendFactor::InvSrcAlpha,
+        Factor::DestinationColor => BlendFactor::DestColor,
+        Factor::InverseDestinationColor => BlendFactor::InvDestColor,
+        Factor::DestinationAlpha => BlendFactor::DestAlpha,
+        Factor::InverseDestinationAlpha => BlendFactor::InvDestAlpha,
+        Factor::SourceAlphaSaturate => BlendFactor::SrcAlphaSat,
+    }
+}
+
+fn operation(operation: BlendOperation) -> BlendOp {
+    match operation {
+        BlendOperation::Add => BlendOp::Add,
+        BlendOperation::Subtract => BlendOp::Subtract,
+        BlendOperation::ReverseSubtract => BlendOp::ReverseSubtract,
+        BlendOperation::Min => BlendOp::Min,
+        BlendOperation::Max => BlendOp::Max,
+    }
+}

@@ -1,0 +1,220 @@
+//! Textures of a case: inline texels or PNG files, and how they are read.
+
+use std::io::Cursor;
+
+use image::{ImageFormat, ImageReader};
+use refsim::{
+    event::SAMPLERS,
+    num::{self, Format},
+    texture::{
+        AddressMode, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureError, TextureKind,
+    },
+};
+use toml::Spanned;
+
+use super::{
+    CaseError,
+    schema::{self, Kind},
+    setup::Binder,
+    state::texel_format,
+    value::{Number, vector},
+};
+
+/// Longest side of an image file, in pixels.
+const LONGEST_SIDE: u32 = 16384;
+/// Memory that decoding an image file may take, in bytes.
+const MOST_DECODED: u64 = 1 << 30;
+
+/// The sampler, the image and how it is read.
+pub(super) fn bind(
+    binder: &Binder<'_>,
+    texture: &Spanned<schema::Texture>,
+) -> Result<(usize, Image, SamplerState), CaseError> {
+    let written = texture.get_ref();
+    let slot = *written.slot.get_ref() as usize;
+    if slot >= SAMPLERS {
+        let message = format!("expected a slot from 0 to {}, found {slot}", SAMPLERS - 1);
+        return Err(binder.place.wrong(written.slot.span(), message, "the slot is the number of the sampler or stage"));
+    }
+    let format = texel_format(binder, written.format.get_ref(), written.format.span())?;
+    let wrong = |message: &str, help: &str| Err(binder.place.wrong(texture.span(), message, help));
+    let image = match (&written.file, &written.texels) {
+        (Some(file), None) => from_file(binder, written, format, file)?,
+        (None, Some(texels)) => from_texels(binder, texture, format, texels)?,
+        (Some(_), Some(_)) => return wrong("the texture has both `file` and `texels`", "keep one of the two"),
+        (None, None) => return wrong("the texture has no texels", "name a PNG `file`, or list `texels`"),
+    };
+    Ok((slot, image, sampler(binder, written)?))
+}
+
+fn kind(kind: Kind) -> TextureKind {
+    match kind {
+        Kind::D1 => TextureKind::D1,
+        Kind::D2 => TextureKind::D2,
+        Kind::Rectangle => TextureKind::Rectangle,
+        Kind::Cube => TextureKind::Cube,
+        Kind::Volume => TextureKind::Volume,
+    }
+}
+
+/// Width, height and depth from as many numbers as the kind has axes.
+fn extents(kind: Kind, size: &[u32]) -> Option<[u32; 3]> {
+    match (kind, size) {
+        (Kind::D1, &[width]) => Some([width, 1, 1]),
+        (Kind::D2 | Kind::Rectangle, &[width, height]) => Some([width, height, 1]),
+        (Kind::Cube, &[side]) => Some([side, side, 1]),
+        (Kind::Volume, &[width, height, depth]) => Some([width, height, depth]),
+        _ => None,
+    }
+}
+
+fn from_texels(
+    binder: &Binder<'_>,
+    texture: &Spanned<schema::Texture>,
+    format: TexelFormat,
+    texels: &Spanned<Vec<Vec<Number>>>,
+) -> Result<Image, CaseError> {
+    let written = texture.get_ref();
+    let Some(size) = &written.size else {
+        let help = "add `size = [width, height]`";
+        return Err(binder.place.wrong(texture.span(), "the texture has `texels` but no `size`", help));
+    };
+    let Some(extents) = extents(written.kind, size.get_ref()) else {
+        let message = format!("{} numbers are no size of such a texture", size.get_ref().len());
+        let help = "1d and cube have one number, 2d and rectangle two, volume three";
+        return Err(binder.place.wrong(size.span(), message, help));
+    };
+    // Before memory is taken for the size: so many texels must have been written.
+    let faces = if written.kind == Kind::Cube { 6 } else { 1 };
+    let expected = extents.iter().try_fold(faces, |product: usize, &side| product.checked_mul(side as usize));
+    if expected != Some(texels.get_ref().len()) {
+        let expected = expected.map_or_else(|| "far more".to_owned(), |number| number.to_string());
+        let message = format!("expected {expected} texels for the size, found {}", texels.get_ref().len());
+        return Err(binder.place.wrong(texels.span(), message, "rows from the top, then faces or slices"));
+    }
+    let wrong = |error: TextureError| binder.place.wrong(size.span(), error.to_string(), "change `size` or `mipmaps`");
+    let levels = u32::try_from(written.mipmaps.len()).unwrap_or(u32::MAX).saturating_add(1);
+    let mut image = Image::new(format, kind(written.kind), extents, levels).map_err(wrong)?;
+    fill(binder, &mut image, 0, texels)?;
+    for (level, texels) in (1..).zip(&written.mipmaps) {
+        fill(binder, &mut image, level, texels)?;
+    }
+    Ok(image)
+}
+
+/// Writes the texels of one level.
+fn fill(
+    binder: &Binder<'_>,
+    image: &mut Image,
+    level: u32,
+    texels: &Spanned<Vec<Vec<Number>>>,
+) -> Result<(), CaseError> {
+    let Some(&extent) = image.levels().get(level as usize) else { return Ok(()) };
+    let expected = extent.width as usize * extent.height as usize * extent.slices as usize;
+    let found = texels.get_ref().len();
+    if found != expected {
+        let message = format!("expected {expected} texels in level {level}, found {found}");
+        return Err(binder.place.wrong(texels.span(), message, "each level has half the sides of the one before"));
+    }
+    let mut values = texels.get_ref().iter();
+    for slice in 0..extent.slices {
+        for y in 0..extent.height {
+            for (x, texel) in (0..extent.width).zip(&mut values) {
+                let Some(bits) = vector(texel) else {
+                    let message = format!("expected 1 to 4 numbers in texel ({x}, {y}), found {}", texel.len());
+                    return Err(binder.place.wrong(texels.span(), message, "red, green, blue, alpha"));
+                };
+                let stored = image.store([level, slice, y, x], Format::FP32, bits, TargetRounding::Nearest);
+                stored.map_err(|error| binder.place.wrong(texels.span(), error.to_string(), "change `size`"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn from_file(
+    binder: &Binder<'_>,
+    written: &schema::Texture,
+    format: TexelFormat,
+    file: &Spanned<std::path::PathBuf>,
+) -> Result<Image, CaseError> {
+    let path = binder.path(file.get_ref());
+    let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
+    if matches!(written.kind, Kind::Cube | Kind::Volume) || !written.mipmaps.is_empty() {
+        let help = "list `texels` for cubes, volumes and mip maps";
+        return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
+    }
+    let bytes = std::fs::read(&path).map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(LONGEST_SIDE);
+    limits.max_image_height = Some(LONGEST_SIDE);
+    limits.max_alloc = Some(MOST_DECODED);
+    reader.limits(limits);
+    let decoded = reader.decode().map_err(|error| {
+        let message = format!("expected a PNG picture, found something else in `{}`: {error}", path.display());
+        wrong(message, "save the picture as PNG, 8 or 16 bits a channel")
+    })?;
+    let picture = decoded.into_rgba16();
+    if let Some(size) = &written.size {
+        let found = [picture.width(), picture.height()];
+        if extents(written.kind, size.get_ref()) != Some([found[0], found[1], 1]) {
+            let message = format!("the picture is {}x{}, not what `size` says", found[0], found[1]);
+            return Err(binder.place.wrong(size.span(), message, "leave `size` out: a picture has its own"));
+        }
+    }
+    // A channel of n bits is k / (2^n - 1), rounded once into a single, from which the texel format takes it.
+    let single = |k: u16| num::from_ratio(Format::FP32, false, k.into(), 65535).bits;
+    let values: Vec<[u32; 4]> = picture.pixels().map(|pixel| pixel.0.map(single)).collect();
+    let extents = [picture.width(), picture.height(), 1];
+    Image::from_values(format, kind(written.kind), extents, Format::FP32, &values, TargetRounding::Nearest)
+        .map_err(|error| wrong(error.to_string(), "use another picture, or another `kind`"))
+}
+
+fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerState, CaseError> {
+    let filter = |filter: Option<schema::Filter>| match filter.or(written.filter) {
+        Some(schema::Filter::Linear) => Filter::Linear,
+        _ => Filter::Nearest,
+    };
+    let [address_u, address_v, address_w] = address(binder, written)?;
+    Ok(SamplerState {
+        min: filter(written.min),
+        mag: filter(written.mag),
+        mip: match written.mip {
+            schema::MipFilter::None => MipFilter::None,
+            schema::MipFilter::Nearest => MipFilter::Nearest,
+            schema::MipFilter::Linear => MipFilter::Linear,
+        },
+        address_u,
+        address_v,
+        address_w,
+        border: binder.optional_vector(written.border.as_ref(), [0; 4])?,
+        lod_bias: written.lod_bias.map_or(0, Number::single),
+        max_mip_level: u8::try_from(written.max_mip_level).unwrap_or(u8::MAX),
+    })
+}
+
+/// One mode for all axes, or one an axis; clamp where nothing is said.
+fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMode; 3], CaseError> {
+    let Some(address) = &written.address else { return Ok([AddressMode::Clamp; 3]) };
+    let mode = |name: &String| match name.as_str() {
+        "wrap" => Ok(AddressMode::Wrap),
+        "mirror" => Ok(AddressMode::Mirror),
+        "clamp" => Ok(AddressMode::Clamp),
+        "border" => Ok(AddressMode::Border),
+        _ => {
+            let message = format!("expected wrap, mirror, clamp or border, found `{name}`");
+            Err(binder.place.wrong(address.span(), message, "one for all axes, or a list with one an axis"))
+        }
+    };
+    let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<_>, _>>()?;
+    match modes[..] {
+        [all] => Ok([all; 3]),
+        [u, v] => Ok([u, v, AddressMode::Clamp]),
+        [u, v, w] => Ok([u, v, w]),
+        _ => {
+            let message = format!("expected 1 to 3 address modes, found {}", modes.len());
+            Err(binder.place.wrong(address.span(), message, "one for all axes, or one an axis"))
+        }
+    }
+}

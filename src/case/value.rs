@@ -1,0 +1,184 @@
+//! Numbers as cases write them.
+
+use std::fmt;
+
+use serde::{
+    Deserialize, Deserializer,
+    de::{self, SeqAccess, Visitor},
+};
+
+use super::schema::Constant;
+
+/// A number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// Written as a number; rounded to nearest even where a single is wanted.
+    Value(f64),
+    /// Written as a bit pattern.
+    Bits(u32),
+}
+
+impl Number {
+    /// The IEEE single. NaN is the positive quiet one.
+    pub fn single(self) -> u32 {
+        match self {
+            Self::Bits(bits) => bits,
+            Self::Value(value) if value.is_nan() => 0x7fc0_0000,
+            // A cast rounds to nearest even, and says infinity beyond the range.
+            Self::Value(value) => (value as f32).to_bits(),
+        }
+    }
+
+    /// The number as a double: exact for a bit pattern.
+    pub fn double(self) -> f64 {
+        match self {
+            Self::Bits(bits) => f64::from(f32::from_bits(bits)),
+            Self::Value(value) => value,
+        }
+    }
+}
+
+struct NumberVisitor;
+
+impl Visitor<'_> for NumberVisitor {
+    type Value = Number;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, or the bits of a single as \"0x3f800000\"")
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
+        Ok(Number::Value(value as f64))
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Number, E> {
+        Ok(Number::Value(value as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
+        Ok(Number::Value(value))
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<Number, E> {
+        let digits = text
+            .strip_prefix("0x")
+            .filter(|digits| (1..=8).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_hexdigit()));
+        digits
+            .and_then(|digits| u32::from_str_radix(digits, 16).ok())
+            .map(Number::Bits)
+            .ok_or_else(|| E::invalid_value(de::Unexpected::Str(text), &self))
+    }
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberVisitor)
+    }
+}
+
+/// One text, or a list of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OneOrMany(pub Vec<String>);
+
+struct OneOrManyVisitor;
+
+impl<'de> Visitor<'de> for OneOrManyVisitor {
+    type Value = OneOrMany;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a text or a list of texts")
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<OneOrMany, E> {
+        Ok(OneOrMany(vec![text.to_owned()]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<OneOrMany, A::Error> {
+        let mut texts = Vec::new();
+        while let Some(text) = list.next_element()? {
+            texts.push(text);
+        }
+        Ok(OneOrMany(texts))
+    }
+}
+
+impl<'de> Deserialize<'de> for OneOrMany {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(OneOrManyVisitor)
+    }
+}
+
+struct ConstantVisitor;
+
+impl<'de> Visitor<'de> for ConstantVisitor {
+    type Value = Constant;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list of four numbers, or true or false")
+    }
+
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Constant, E> {
+        Ok(Constant::Bool(value))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Constant, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = list.next_element()? {
+            numbers.push(number);
+        }
+        Ok(Constant::Vector(numbers))
+    }
+}
+
+impl<'de> Deserialize<'de> for Constant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ConstantVisitor)
+    }
+}
+
+/// Up to four numbers; those that are not written come from (0, 0, 0, 1), as Direct3D fills up vertex data.
+pub(super) fn vector(numbers: &[Number]) -> Option<[u32; 4]> {
+    if numbers.is_empty() || numbers.len() > 4 {
+        return None;
+    }
+    let mut bits = [0, 0, 0, 1.0_f32.to_bits()];
+    for (place, number) in bits.iter_mut().zip(numbers) {
+        *place = number.single();
+    }
+    Some(bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, Deserialize)]
+    struct Holder {
+        n: Number,
+    }
+
+    fn single(text: &str) -> Result<u32, String> {
+        toml::from_str::<Holder>(&format!("n = {text}"))
+            .map(|holder| holder.n.single())
+            .map_err(|error| error.message().to_owned())
+    }
+
+    #[test]
+    fn numbers_become_singles() {
+        assert_eq!(single("1"), Ok(0x3f80_0000));
+        assert_eq!(single("-0.0"), Ok(0x8000_0000));
+        assert_eq!(single("0.1"), Ok(0x3dcc_cccd));
+        assert_eq!(single("1e300"), Ok(0x7f80_0000));
+        assert_eq!(single("-inf"), Ok(0xff80_0000));
+        assert_eq!(single("-nan"), Ok(0x7fc0_0000));
+        assert_eq!(single("\"0xffc12345\""), Ok(0xffc1_2345));
+    }
+
+    #[test]
+    fn other_texts_are_errors() {
+        for text in ["\"1.0\"", "\"0x\"", "\"0x123456789\"", "\"0x+1\"", "true", "[1]"] {
+            let message = single(text).expect_err("no number");
+            assert!(message.contains("0x3f800000"), "the message says what is wanted: {message}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What is drawn: vertices by attribute name.
+
+use std::collections::BTreeMap;
+
+use refsim::{
+    isa::{Program, Usage},
+    raster::{Primitive, Vertex},
+};
+use toml::Spanned;
+
+use super::{
+    CaseError,
+    schema::{self, Convention},
+    setup::{Binder, Geometry, Vertices, register},
+    value::{Number, vector},
+};
+
+/// 1.0 and -1.0 as IEEE singles.
+const ONE: u32 = 0x3f80_0000;
+const MINUS_ONE: u32 = 0xbf80_0000;
+/// The most vertices of a case.
+const MOST_VERTICES: usize = 1 << 20;
+
+type Attributes = BTreeMap<String, Spanned<Vec<Number>>>;
+
+/// Binds the geometry to the vertex program, if there is one.
+pub(super) fn bind(
+    binder: &Binder<'_>,
+    geometry: &Spanned<schema::Geometry>,
+    program: Option<&Program>,
+) -> Result<Geometry, CaseError> {
+    let written = geometry.get_ref();
+    let wrong = |message: &str, help: &str| Err(binder.place.wrong(geometry.span(), message, help));
+    if written.full_screen && !written.vertices.is_empty() {
+        return wrong("the geometry has both `full_screen` and `vertices`", "keep one of the two");
+    }
+    if !written.full_screen && written.vertices.is_empty() {
+        return wrong("the geometry has no vertices", "list `vertices`, or write `full_screen = true`");
+    }
+    if written.vertices.len() > MOST_VERTICES {
+        return wrong("the geometry has more than 1048576 vertices", "split the case");
+    }
+    let reader = Reader { binder, all: &written.attributes, program };
+    let vertices = match program {
+        Some(_) if written.full_screen => {
+            let corners = corners(written.convention).map(|corner| reader.program_corner(corner, geometry));
+            Vertices::Attributes(corners.into_iter().collect::<Result<_, _>>()?)
+        }
+        Some(_) => {
+            Vertices::Attributes(written.vertices.iter().map(|v| reader.attributes(v)).collect::<Result<_, _>>()?)
+        }
+        None if written.full_screen => {
+            let corners = corners(written.convention).map(|corner| reader.plain_corner(corner));
+            Vertices::Transformed(corners.into_iter().collect::<Result<_, _>>()?)
+        }
+        None => Vertices::Transformed(written.vertices.iter().map(|v| reader.plain(v)).collect::<Result<_, _>>()?),
+    };
+    let primitive = if written.full_screen { Primitive::QuadList } else { primitive(written.primitive) };
+    Ok(Geometry { primitive, vertices, cull: written.cull, convention: written.convention })
+}
+
+fn primitive(primitive: schema::Primitive) -> Primitive {
+    match primitive {
+        schema::Primitive::Triangles => Primitive::TriangleList,
+        schema::Primitive::TriangleStrip => Primitive::TriangleStrip,
+        schema::Primitive::TriangleFan => Primitive::TriangleFan,
+        schema::Primitive::Quads => Primitive::QuadList,
+        schema::Primitive::QuadStrip => Primitive::QuadStrip,
+    }
+}
+
+/// Position and `t0` of a corner of the screen.
+type Corner = ([u32; 4], [u32; 4]);
+
+/// The corners of the screen in turn; `t0` grows with columns and rows, and row 0 is the upper one in Direct3D only.
+fn corners(convention: Convention) -> [Corner; 4] {
+    [(0, 0), (ONE, 0), (ONE, ONE), (0, ONE)].map(|(s, t)| {
+        let x = if s == 0 { MINUS_ONE } else { ONE };
+        let y = if (t == 0) == (convention == Convention::Direct3d) { ONE } else { MINUS_ONE };
+        ([x, y, 0, ONE], [s, t, 0, ONE])
+    })
+}
+
+struct Reader<'a> {
+    binder: &'a Binder<'a>,
+    /// Attributes of every vertex.
+    all: &'a Attributes,
+    program: Option<&'a Program>,
+}
+
+impl Reader<'_> {
+    /// A vertex without a vertex program.
+    fn plain(&self, written: &Spanned<Attributes>) -> Result<Vertex, CaseError> {
+        let mut vertex = Vertex::default();
+        for (name, value) in self.all.iter().chain(written.get_ref()) {
+            self.set(&mut vertex, name, value)?;
+        }
+        if !self.all.contains_key("position") && !written.get_ref().contains_key("position") {
+            let help = "write for example `position = [-1, 1]`: clip space, z 0 and w 1 if left out";
+            return Err(self.binder.place.wrong(written.span(), "the vertex has no `position`", help));
+        }
+        Ok(vertex)
+    }
+
+    fn plain_corner(&self, (position, t0): Corner) -> Result<Vertex, CaseError> {
+        let mut vertex = Vertex { position, ..Vertex::default() };
+        vertex.texcoords[0] = t0;
+        for (name, value) in self.all {
+            if name == "position" {
+                let help = "the corners of a full-screen quad have places of their own";
+                return Err(self.binder.place.wrong(value.span(), "`position` beside `full_screen`", help));
+            }
+            self.set(&mut vertex, name, value)?;
+        }
+        Ok(vertex)
+    }
+
+    fn set(&self, vertex: &mut Vertex, name: &str, value: &Spanned<Vec<Number>>) -> Result<(), CaseError> {
+        let bits = self.bits(value)?;
+        match (name, name.bytes().next()) {
+            ("position", _) => vertex.position = bits,
+            ("fog", _) => vertex.fog = bits[0],
+            (_, Some(b'v')) if register(name, 2).is_some() => {
+                vertex.colors[register(name, 2).unwrap_or_default()] = bits;
+            }
+            (_, Some(b't')) if register(name, 8).is_some() => {
+                vertex.texcoords[register(name, 8).unwrap_or_default()] = bits;
+            }
+            _ => {
+                let message = format!("expected position, v0, v1, t0 to t7 or fog, found `{name}`");
+                let help = "without [vertex] vertices are what the pixel program gets";
+                return Err(self.binder.place.wrong(value.span(), message, help));
+            }
+        }
+        Ok(())
+    }
+
+    /// A vertex for the vertex program.
+    fn attributes(&self, written: &Spanned<Attributes>) -> Result<[[u32; 4]; 16], CaseError> {
+        let mut registers = [[0, 0, 0, ONE]; 16];
+        for (name, value) in self.all.iter().chain(written.get_ref()) {
+            let number = self.attribute(name, value.span())?;
+            registers[number] = self.bits(value)?;
+        }
+        Ok(registers)
+    }
+
+    fn program_corner(
+        &self,
+        (position, t0): Corner,
+        geometry: &Spanned<schema::Geometry>,
+    ) -> Result<[[u32; 4]; 16], CaseError> {
+        let mut registers = [[0, 0, 0, ONE]; 16];
+        for (name, value) in self.all {
+            let number = self.attribute(name, value.span())?;
+            registers[number] = self.bits(value)?;
+        }
+        registers[self.attribute("position", geometry.span())?] = position;
+        // A program that does not ask for coordinates gets none.
+        if let Some(number) = self.declared("t0") {
+            registers[number] = t0;
+        }
+        Ok(registers)
+    }
+
+    /// The input register that an attribute's name stands for.
+    fn attribute(&self, name: &str, span: std::ops::Range<usize>) -> Result<usize, CaseError> {
+        let direct = if name.starts_with('v') { register(name, 16) } else { None };
+        direct.or_else(|| self.declared(name)).ok_or_else(|| {
+            let message = format!("the vertex program declares no input for `{name}`");
+            let help = "use v0 to v15, or position, normal, color0, color1, t0 to t15 as the program's dcl lines say";
+            self.binder.place.wrong(span, message, help)
+        })
+    }
+
+    /// The register that the program declares for a usage.
+    fn declared(&self, name: &str) -> Option<usize> {
+        let usage = match name {
+            "position" => Usage::Position(0),
+            "normal" => Usage::Normal(0),
+            "color0" => Usage::Color(0),
+            "color1" => Usage::Color(1),
+            _ if name.starts_with('t') => Usage::TexCoord(u8::try_from(register(name, 16)?).ok()?),
+            _ => return None,
+        };
+        let declaration = self.program?.declarations.iter().find(|declaration| declaration.usage == usage)?;
+        Some(usize::from(declaration.destination.register.index)).filter(|number| *number < 16)
+    }
+
+    fn bits(&self, value: &Spanned<Vec<Number>>) -> Result<[u32; 4], CaseError> {
+        vector(value.get_ref()).ok_or_else(|| {
+            let message = format!("expected 1 to 4 numbers, found {}", value.get_ref().len());
+            self.binder.place.wrong(value.span(), message, "what is left out is 0, 0, 0, 1")
+        })
+    }
+}

@@ -1,0 +1,184 @@
+//! `crossbar run`: any shader on any textures, constants and geometry.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use refsim::machine::ExecutorKind;
+use serde_json::{Value, json};
+
+use super::{Out, Problem, Verdict};
+use crate::{
+    case::{self, Found, Outcome, ProbeResult, Setup},
+    io::atomic::FileSet,
+    report::{Cell, Table},
+};
+
+const EXAMPLES: &str = "\
+Example:
+  crossbar run fixtures/cases/modulate.toml --out out/modulate
+      draws the case, writes its targets there and answers its probes
+
+docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \\
+EXR. The counts say how much work there was, in instruction slots and bytes; the timing model, which says how long a \\
+card takes, is to come.
+
+Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case cannot be run.";
+
+/// Draw a case: any shader on any textures, constants and geometry; pictures, probes, counts
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The case, a TOML file
+    case: PathBuf,
+
+    /// Where the pictures go [default: out/ and the case's name]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Who computes; the bits are the same
+    #[arg(long, value_enum, default_value = "scalar")]
+    executor: Executor,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Executor {
+    /// The reference: one value at a time
+    Scalar,
+}
+
+impl Executor {
+    const fn kind(self) -> ExecutorKind {
+        match self {
+            Self::Scalar => ExecutorKind::Scalar,
+        }
+    }
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let setup = Setup::read(&args.case)?;
+    let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
+    // Before the work: a folder that cannot be written is found out early.
+    let mut files = FileSet::new(&folder).map_err(Problem::from)?;
+    let outcome = case::run(&setup, args.executor.kind())?;
+    for picture in &outcome.pictures {
+        files.write(Path::new(&picture.name), |file| file.write_all(&picture.bytes)).map_err(Problem::from)?;
+    }
+    let written = files.commit().map_err(Problem::from)?;
+    out.outlive_reader();
+    if out.json() {
+        out.document(&document(&setup, args, &outcome, &written))?;
+    } else {
+        print(&setup, &outcome, &written, out)?;
+    }
+    Ok(Verdict::held(outcome.passed()))
+}
+
+fn default_folder(case: &Path) -> PathBuf {
+    Path::new("out").join(case.file_stem().unwrap_or_else(|| "case".as_ref()))
+}
+
+fn print(setup: &Setup, outcome: &Outcome, written: &[PathBuf], out: &mut Out) -> miette::Result<()> {
+    if let Some(title) = &setup.title {
+        out.line(title)?;
+    }
+    out.line(format_args!("device {}, pixel registers {}", setup.profile.name, setup.profile.rules.format))?;
+    for path in written {
+        out.line(format_args!("wrote {}", path.display()))?;
+    }
+    out.line("")?;
+    out.line(counts(outcome).text())?;
+    if outcome.probes.is_empty() {
+        return Ok(());
+    }
+    out.line("")?;
+    out.line(probes(&outcome.probes).text())?;
+    let passed = outcome.probes.iter().filter(|result| result.passed).count();
+    out.line(format_args!("{passed} passed, {} failed", outcome.probes.len() - passed))?;
+    Ok(())
+}
+
+fn counts(outcome: &Outcome) -> Table {
+    let mut table = Table::new("Counts", &["count", "number"]);
+    for (name, number) in count_list(outcome) {
+        table.push([Cell::from(name), number.into()]);
+    }
+    table
+}
+
+fn count_list(outcome: &Outcome) -> Vec<(&'static str, u64)> {
+    let (events, slots) = (&outcome.events, &outcome.slots);
+    vec![
+        ("vertices", events.vertices),
+        ("vertex instructions", events.vertex_instructions),
+        ("triangles assembled", events.primitives.assembled),
+        ("triangles rasterised", events.primitives.rasterised),
+        ("fragments generated", events.fragments.generated),
+        ("fragments shaded", events.fragments.shaded),
+        ("fragments killed", events.fragments.killed),
+        ("alpha test failed", events.fragments.alpha_failed),
+        ("depth test failed", events.fragments.depth_failed),
+        ("fragments passed", events.fragments.passed),
+        ("texture reads", events.fragments.total_fetches()),
+        ("texture slots a fragment", slots.texture),
+        ("arithmetic slots a fragment", slots.arithmetic),
+        ("shader slots", slots.total),
+        ("bytes read", events.bytes.read()),
+        ("bytes written", events.bytes.written()),
+    ]
+}
+
+fn probes(results: &[ProbeResult]) -> Table {
+    let mut table = Table::new("Probes", &["probe", "pixel", "target", "expected", "found", "verdict"]);
+    for (number, result) in (1_usize..).zip(results) {
+        let probe = &result.probe;
+        table.push([
+            number.into(),
+            format!("{}, {}", probe.pixel[0], probe.pixel[1]).into(),
+            probe.target.into(),
+            probe.expected.to_string().into(),
+            result.found.to_string().into(),
+            if result.passed { "passed" } else { "failed" }.into(),
+        ]);
+    }
+    table
+}
+
+fn document(setup: &Setup, args: &Args, outcome: &Outcome, written: &[PathBuf]) -> Value {
+    let counts: serde_json::Map<String, Value> =
+        count_list(outcome).into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
+    let switches: serde_json::Map<String, Value> =
+        setup.profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
+    json!({
+        "case": args.case.display().to_string(),
+        "title": setup.title,
+        "version": env!("CARGO_PKG_VERSION"),
+        "device": setup.profile.name,
+        "format": setup.profile.rules.format.to_string(),
+        "switches": switches,
+        "files": written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
+        "counts": counts,
+        "probes": outcome.probes.iter().map(probe_json).collect::<Vec<_>>(),
+        "passed": outcome.passed(),
+    })
+}
+
+fn probe_json(result: &ProbeResult) -> Value {
+    let found = match &result.found {
+        Found::Color(channels) => json!(channels.map(number_json)),
+        Found::Raw(channels) => json!(channels),
+        Found::Depth(depth) => number_json(*depth),
+    };
+    json!({
+        "pixel": result.probe.pixel,
+        "target": result.probe.target,
+        "expected": result.probe.expected.to_string(),
+        "tolerance": result.probe.tolerance,
+        "found": found,
+        "passed": result.passed,
+    })
+}
+
+/// JSON has no infinity and no NaN.
+fn number_json(number: f64) -> Value {
+    if number.is_finite() { number.into() } else { number.to_string().into() }
+}

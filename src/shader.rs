@@ -1,0 +1,171 @@
+//! Shader texts from files and cases: read, assembled, judged; errors with name and place.
+
+use std::{io, path::Path};
+
+use miette::{Diagnostic, NamedSource};
+use refsim::{
+    asm::{self, SyntaxError},
+    check::{self, Checked, Violation},
+    device::Profile,
+    isa::{Program, SlotCost, Version},
+};
+
+/// The longest shader file that is read, in bytes: the assembler takes no more.
+const LONGEST: u64 = asm::MAX_TEXT as u64;
+
+/// A shader's text and what to call it in messages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShaderText {
+    name: String,
+    text: String,
+}
+
+/// Why a shader cannot be used.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum ShaderError {
+    /// The file cannot be read.
+    #[error("shader `{name}` cannot be read")]
+    #[diagnostic(code(crossbar::shader::unreadable), help("check the path"))]
+    Unreadable {
+        /// The file.
+        name: String,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is no text.
+    #[error("expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`")]
+    #[diagnostic(code(crossbar::shader::text), help("name a file with shader assembly, not a compiled shader"))]
+    NotText {
+        /// The file.
+        name: String,
+        /// The first byte that is no text.
+        byte: u8,
+        /// Its place in the file.
+        offset: usize,
+    },
+    /// The file is far longer than any shader.
+    #[error("expected a shader of at most {LONGEST} bytes, found {found} in `{name}`")]
+    #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
+    TooLong {
+        /// The file.
+        name: String,
+        /// Its length in bytes.
+        found: u64,
+    },
+    /// The text is not shader assembly.
+    #[error("`{name}` has {}", count(errors.len(), "syntax error"))]
+    #[diagnostic(code("asm::syntax"))]
+    Syntax {
+        /// What the shader is called.
+        name: String,
+        /// Its text.
+        #[source_code]
+        source_code: NamedSource<String>,
+        /// Every error, in the order of the text; at least one.
+        #[related]
+        errors: Vec<SyntaxError>,
+    },
+    /// The program breaks rules of its version or limits of the device.
+    #[error("`{name}` is no legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
+    #[diagnostic(code("check"))]
+    Illegal {
+        /// What the shader is called.
+        name: String,
+        /// The version that it claims.
+        version: Version,
+        /// The device.
+        device: String,
+        /// Its text.
+        #[source_code]
+        source_code: NamedSource<String>,
+        /// Every violation, in the order of the text; at least one.
+        #[related]
+        violations: Vec<Violation>,
+    },
+}
+
+fn count(number: usize, noun: &str) -> String {
+    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
+}
+
+impl ShaderText {
+    /// A shader that was written somewhere else than in a file of its own.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Reads a shader file.
+    ///
+    /// # Errors
+    /// If it cannot be read, is no text or is longer than the assembler takes.
+    pub fn read(path: &Path) -> Result<Self, ShaderError> {
+        let name = path.display().to_string();
+        let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
+        // Looked at before reading: the name may be that of a very large file.
+        let found = std::fs::metadata(path).map_err(unreadable)?.len();
+        if found > LONGEST {
+            return Err(ShaderError::TooLong { name, found });
+        }
+        let bytes = std::fs::read(path).map_err(unreadable)?;
+        Self::from_bytes(name, bytes)
+    }
+
+    /// A shader from the bytes of a file.
+    ///
+    /// # Errors
+    /// If they are no text.
+    pub fn from_bytes(name: String, bytes: Vec<u8>) -> Result<Self, ShaderError> {
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { name, text }),
+            Err(error) => {
+                let offset = error.utf8_error().valid_up_to();
+                let byte = error.as_bytes().get(offset).copied().unwrap_or_default();
+                Err(ShaderError::NotText { name, byte, offset })
+            }
+        }
+    }
+
+    /// What the shader is called in messages.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Assembles the text.
+    ///
+    /// # Errors
+    /// Every syntax error at once.
+    pub fn assemble(&self) -> Result<Program, ShaderError> {
+        asm::assemble(&self.text).map_err(|found| ShaderError::Syntax {
+            name: self.name.clone(),
+            source_code: self.source_code(),
+            errors: found.errors,
+        })
+    }
+
+    /// Judges the text's program against its version and a device.
+    ///
+    /// # Errors
+    /// Every violation at once.
+    pub fn check(&self, program: Program, profile: &Profile) -> Result<Checked<Program>, ShaderError> {
+        check::check(program, profile).map_err(|report| ShaderError::Illegal {
+            name: self.name.clone(),
+            version: report.version,
+            device: report.device,
+            source_code: self.source_code(),
+            violations: report.violations,
+        })
+    }
+
+    fn source_code(&self) -> NamedSource<String> {
+        NamedSource::new(&self.name, self.text.clone())
+    }
+}
+
+/// The instruction slots of a program; an instruction that is issued together with another takes none of its own.
+pub fn slots(program: &Program) -> SlotCost {
+    let alone = program.instructions.iter().filter(|instruction| !instruction.coissue);
+    alone.fold(SlotCost::default(), |sum, instruction| {
+        let cost = instruction.opcode.info().slot_cost(program.version);
+        SlotCost { texture: sum.texture + cost.texture, arithmetic: sum.arithmetic + cost.arithmetic }
+    })
+}

@@ -1,0 +1,202 @@
+//! `crossbar run`: the example cases, and what is said about bad ones.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use crate::{crossbar, crossbar_in};
+
+/// The example cases by name.
+const CASES: &[&str] = &["modulate", "transform", "two_triangles"];
+
+fn example(name: &str) -> String {
+    format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn every_example_is_tested() {
+    let folder = format!("{}/fixtures/cases", env!("CARGO_MANIFEST_DIR"));
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .expect("the folder of the examples")
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok()?.strip_suffix(".toml").map(str::to_owned))
+        .collect();
+    names.sort();
+    assert_eq!(names, CASES);
+}
+
+#[test]
+fn examples_pass_and_write_their_pictures() {
+    for name in CASES {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let ran = crossbar_in(folder.path(), &["run", &example(name)], "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{name}");
+        insta::assert_snapshot!(*name, ran.stdout.replace('\\', "/"));
+        assert!(folder.path().join("out").join(name).is_dir(), "{name} has its folder");
+    }
+}
+
+#[test]
+fn any_number_of_threads_writes_the_same_bytes() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let bytes = |threads: &str| {
+        let ran =
+            crossbar_in(folder.path(), &["run", &example("two_triangles"), "--threads", threads, "--out", threads], "");
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        let read = |file: &str| fs::read(folder.path().join(threads).join(file)).expect("the file was written");
+        (read("target0.png"), read("depth.exr"))
+    };
+    let one = bytes("1");
+    assert!(one == bytes("2") && one == bytes("3"), "1, 2 and 3 threads agree");
+}
+
+#[test]
+fn the_picture_has_the_pixels_of_the_target() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    crossbar_in(folder.path(), &["run", &example("modulate"), "--out", "m"], "");
+    let picture = image::open(folder.path().join("m/target0.png")).expect("a PNG").into_rgba8();
+    assert_eq!(picture.get_pixel(0, 0).0, [128, 0, 0, 255]);
+    assert_eq!(picture.get_pixel(1, 0).0, [0, 255, 0, 255]);
+    assert_eq!(picture.get_pixel(1, 1).0, [128, 255, 64, 128]);
+}
+
+#[test]
+fn a_report_for_machines() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--json"], "");
+    let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(report["device"], "r200");
+    assert_eq!(report["switches"]["constants"], "register");
+    assert_eq!(report["counts"]["fragments_shaded"], 4);
+    assert_eq!(report["counts"]["shader_slots"], 8);
+    assert_eq!(report["probes"][1]["found"], serde_json::json!([0, 255, 0, 255]));
+    assert_eq!(report["passed"], true);
+}
+
+/// A small good case, of which tests replace a line.
+const SMALL: &str = r#"device = "r200"
+[pixel]
+source = "ps_1_4\nmov r0, c0"
+[constants]
+c0 = [1, 0.5, 0.25, 1]
+[[texture]]
+slot = 0
+format = "rgba8"
+size = [1, 1]
+texels = [[1]]
+[geometry]
+full_screen = true
+[target]
+size = [2, 2]
+format = "bgra8"
+[[probe]]
+pixel = [0, 0]
+expected = [1]
+"#;
+
+#[test]
+fn a_failing_probe_is_exit_code_1() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("case.toml"), SMALL.replace("expected = [1]", "expected = [0.5]")).expect("a file");
+    let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stdout.ends_with("0 passed, 1 failed\n"), "{}", ran.stdout);
+}
+
+/// Runs `text` in a fresh folder and expects an error that leaves nothing behind.
+fn refused(text: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("case.toml"), text).expect("a file");
+    fs::write(folder.path().join("text.png"), "this is no picture").expect("a file");
+    let ran = crossbar_in(folder.path(), &["run", "case.toml", "--out", "new/out"], "");
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{text}\n{}", ran.stderr);
+    assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
+    assert!(!folder.path().join("new").exists(), "nothing is left behind");
+    ran.stderr
+}
+
+#[test]
+fn bad_cases() {
+    for (name, from, to) in [
+        ("unknown_field", "full_screen = true", "fullscreen = true"),
+        ("not_toml", "full_screen = true", "full_screen = = true"),
+        ("unknown_device", "\"r200\"", "\"r2000\""),
+        ("no_device", "device = \"r200\"", ""),
+        ("bad_format_string", "\"r200\"", "\"r200\"\nformat = \"fp17\""),
+        ("unknown_switch", "[pixel]", "[switches]\nsparkle = \"on\"\n[pixel]"),
+        ("switch_value", "[pixel]", "[switches]\nrounding = \"up\"\n[pixel]"),
+        ("missing_shader", "source = \"ps_1_4\\nmov r0, c0\"", "file = \"nowhere.psa\""),
+        ("malformed_shader", "mov r0, c0", "mov r0 c0 garbage"),
+        ("illegal_shader", "mov r0, c0", "mov r0, c9"),
+        ("vertex_shader_as_pixel", "ps_1_4", "vs_1_1"),
+        ("constant_of_three", "c0 = [1, 0.5, 0.25, 1]", "c0 = [1, 0.5, 0.25]"),
+        ("no_such_constant", "c0 =", "d0 ="),
+        ("no_number", "c0 = [1,", "c0 = [\"one\","),
+        ("texel_count", "size = [1, 1]", "size = [2, 2]"),
+        ("huge_texture", "size = [1, 1]", "size = [4294967295, 4294967295]"),
+        ("unknown_texel_format", "format = \"rgba8\"", "format = \"rgba9\""),
+        ("texel_format_of_another_card", "format = \"rgba8\"", "format = \"rgba32f\""),
+        ("missing_image", "size = [1, 1]\ntexels = [[1]]", "file = \"nowhere.png\""),
+        ("image_of_the_wrong_kind", "size = [1, 1]\ntexels = [[1]]", "file = \"text.png\""),
+        ("target_format", "format = \"bgra8\"", "format = \"rgba32f\""),
+        ("empty_target", "size = [2, 2]", "size = [0, 2]"),
+        ("probe_outside", "pixel = [0, 0]", "pixel = [2, 0]"),
+        ("probe_of_nothing", "expected = [1]", ""),
+    ] {
+        assert!(SMALL.contains(from), "{name} changes something");
+        insta::assert_snapshot!(format!("bad_{name}"), refused(&SMALL.replace(from, to)));
+    }
+}
+
+#[test]
+fn files_that_are_no_case() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("binary.toml"), b"device = \"\xff\"").expect("a file");
+    for name in ["binary.toml", "nowhere.toml", "."] {
+        let ran = crossbar_in(folder.path(), &["run", name], "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{name}: nothing is written");
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    // A file stands where the folder should: nobody, root included, can make one.
+    fs::write(folder.path().join("taken"), "a file").expect("a file");
+    for out in ["taken", "taken/below"] {
+        let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--out", out], "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
+        assert!(ran.stderr.contains("cannot"), "{}", ran.stderr);
+    }
+    assert_eq!(
+        fs::read_to_string(folder.path().join("taken")).ok().as_deref(),
+        Some("a file"),
+        "the file is untouched"
+    );
+}
+
+#[test]
+fn the_documentation_describes_every_field() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cases.md")).expect("the page");
+    let schema = include_str!("../../src/case/schema.rs");
+    let fields = schema.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(": "));
+    for (field, _) in fields.filter(|(field, _)| !field.contains(' ')) {
+        // The parts of a case have headings of their own.
+        if ["pixel", "vertex", "texture", "geometry", "target", "alpha", "blend", "probe"].contains(&field) {
+            assert!(page.contains(&format!("[{field}]")), "docs/cases.md says nothing of [{field}]");
+            continue;
+        }
+        assert!(page.contains(&format!("`{field}`")), "docs/cases.md says nothing of `{field}`");
+    }
+}
+
+#[test]
+fn the_example_of_the_documentation_runs() {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cases.md")).expect("the page");
+    let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("case.toml"), example).expect("a file");
+    let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{}", ran.stdout);
+    assert_eq!(crossbar(&["run", "--help"], "").code, Some(0));
+}

@@ -1,0 +1,64 @@
+//! `crossbar check`: legal, illegal, no program at all.
+
+use std::fs;
+
+use crate::{Ran, crossbar, crossbar_in};
+
+/// Checks `text` as `shader.psa` in a folder of its own.
+fn check(text: &[u8], arguments: &[&str]) -> Ran {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("shader.psa"), text).expect("a file");
+    let mut all = vec!["check", "shader.psa"];
+    all.extend(arguments);
+    crossbar_in(folder.path(), &all, "")
+}
+
+#[test]
+fn a_legal_program() {
+    let ran = check(b"ps_1_4\ntexld r0, t0\nmul r0, r0, c0\n", &["--device", "r200"]);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    insta::assert_snapshot!(ran.stdout);
+}
+
+#[test]
+fn all_violations_with_their_places() {
+    let ran = check(b"ps_1_4\nmul r0, r0, c9\nadd r7, c0, c1\n", &["--device", "r200"]);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""));
+    insta::assert_snapshot!(ran.stdout);
+}
+
+#[test]
+fn violations_for_machines() {
+    let ran = check(b"ps_1_4\nmov r0, c9\n", &["--device", "r200", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(ran.code, Some(1));
+    assert_eq!(report["legal"], false);
+    let violation = &report["violations"][0];
+    assert_eq!(violation["rule"], "V07");
+    assert_eq!(violation["key"], "limits.constants");
+    assert_eq!(violation["limit"], 8);
+    assert!(violation["start"].as_u64() < violation["end"].as_u64(), "{violation}");
+    let ran = check(b"ps_1_4\nmov r0, c1\n", &["--device", "r200", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
+}
+
+#[test]
+fn what_is_no_program() {
+    let ran = check(b"ps_1_4\nmov r0 c0 garbage\nfrobnicate r1\n", &["--device", "r200"]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
+    insta::assert_snapshot!(ran.stderr);
+    for (text, arguments) in [
+        (&b"\xff\xfe\x00"[..], &["--device", "r200"][..]),
+        (b"", &["--device", "r200"]),
+        (b"ps_1_4\nmov r0, c0\n", &["--device", "nv2"]),
+        (b"ps_1_4\nmov r0, c0\n", &["--device", "r200", "--switch", "rounding"]),
+        (b"ps_1_4\nmov r0, c0\n", &["--device", "r200", "--switch", "rounding=up"]),
+        (b"ps_1_4\nmov r0, c0\n", &[]),
+    ] {
+        let ran = check(text, arguments);
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+    }
+    assert_eq!(crossbar(&["check", "nowhere.psa", "--device", "r200"], "").code, Some(2));
+    assert_eq!(crossbar(&["check", "/", "--device", "r200"], "").code, Some(2));
+}
