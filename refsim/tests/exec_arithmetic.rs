@@ -193,7 +193,7 @@ fn sincos_is_the_half_angle_series() {
     let second = [-0.020_833_334, -0.125, 1.0, 0.5];
     let profile = ideal("e8m23");
     for x in [-3.1f32, -1.0, -0.25, 0.0, 0.5, 1.5, 3.0] {
-        let text = "ps_2_0\nmov r0, c2\nsincos r1.xy, r0.x, c0, c1\nmov oC0, r1";
+        let text = "ps_2_0\nmov r0, c2\nsincos r1.xy, r0.x, c0, c1\nmov r0.xy, r1\nmov oC0, r0";
         // c0 and c1 hold the coefficients: two constants in one instruction.
         let ran = run(text, &profile, &[first, second, [x, 0.0, 0.0, 0.0]]);
         let [cos, sin, ..] = ran.value(1).map(f32::from_bits);

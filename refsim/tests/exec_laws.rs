@@ -119,7 +119,7 @@ proptest! {
         let text = legal::program(version, &choices);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
         let Ok(program) = running::ready(program, profile) else {
-            // A limit of this device; the share of these is tested below.
+            // A limit of this device; an ideal one takes them all, as tested below.
             return Ok(());
         };
         let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false] };
@@ -128,7 +128,7 @@ proptest! {
 }
 
 #[test]
-fn nearly_all_of_the_legal_programs_are_legal() {
+fn the_generator_makes_legal_programs() {
     let mut seed = 3u64;
     for version in Version::ALL {
         let ideal = Profile::named("ideal-e8m23").unwrap();
@@ -146,6 +146,6 @@ fn nearly_all_of_the_legal_programs_are_legal() {
                 rejected.push(format!("{text}\n{why}"));
             }
         }
-        assert!(rejected.len() < 60, "{version}: {} of 200 rejected, for example\n{}", rejected.len(), rejected[0]);
+        assert!(rejected.is_empty(), "{version}: {} of 200 rejected, for example\n{}", rejected.len(), rejected[0]);
     }
 }

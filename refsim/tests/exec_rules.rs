@@ -61,8 +61,8 @@ fn source_modifiers_round_each_step_and_negate_last() {
     let ran = run("ps_1_4\nmov r0, c0\nmov r1, 1-r0.g\nmov r0, r1", &r200(), &c);
     assert_eq!(ran.value(1), s([0.25; 4]));
     // -(-8) does not exist: it saturates.
-    let text = "ps_1_4\nmov_x8 r0, -c0\nmov r1, -r0\nmov r0, r1";
-    let ran = run(text, &r200(), &[[1.0; 4]]);
+    let text = "ps_1_4\nmov_x8 r0, c0\nmov r1, -r0\nmov r0, r1";
+    let ran = run(text, &r200(), &[[-1.0; 4]]);
     assert_eq!((ran.value(0), ran.value(1)), ([0x8000; 4], [0x7fff; 4]));
 }
 
@@ -207,7 +207,7 @@ fn texcrd_saturates_or_wraps() {
 
 #[test]
 fn projection_divides_in_single_precision_with_one_for_a_zero_divisor() {
-    let text = "ps_1_4\ntexcrd r0.rg, t0_dw.xyw\nmov r0, r0";
+    let text = "ps_1_4\ntexcrd r1.rg, t0_dw.xyw\nmov r0, c0\nmov r0.rg, r1";
     let at = |t: [f32; 4]| {
         let ran = run_with_coordinates(text, &r200(), &[t]);
         let v = ran.value(0);

@@ -1,7 +1,7 @@
 //! Which program a device runs.
 
 use refsim::asm::assemble;
-use refsim::check::{Checked, check};
+use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
@@ -89,5 +89,5 @@ impl Kernel {
 fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, EngineError> {
     let refused = |problem: String| EngineError::Refused { kernel: kernel.name, device: profile.name.clone(), problem };
     let program = assemble(kernel.text).map_err(|e| refused(e.to_string()))?;
-    check(program, profile).map(Checked::into_inner).map_err(|e| refused(e.to_string()))
+    check(program, profile).map_err(|e| refused(e.to_string()))
 }

@@ -21,12 +21,16 @@ pub use observer::{NoObserver, Observer, Step, Trace};
 pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
 pub use usage::{colors_written, inputs_read};
 
+use crate::check::Checked;
 use crate::device::Rules;
 use crate::isa::Program;
 use crate::texture::SampleRules;
 
-/// A program that the checker has passed.
-pub type CheckedProgram = Program;
+/// A program that the checker has passed. Executors take no other.
+///
+/// It may run on another device than the one it was checked for: limits are the checker's business, and executors hold
+/// whatever any version can name.
+pub type CheckedProgram = Checked<Program>;
 
 /// The program within.
 pub(crate) fn program(checked: &CheckedProgram) -> &Program {

@@ -35,7 +35,7 @@ impl<'a> VertexStage<'a> {
                 {
                     return Self::Batch(batch, streams);
                 }
-                Self::Program(VertexProgram::new(crate::exec::program(program), rules, constants), streams)
+                Self::Program(VertexProgram::new(program, rules, constants), streams)
             }
         }
     }

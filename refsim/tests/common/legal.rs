@@ -1,4 +1,4 @@
-//! Programs that the checker accepts, or nearly always does, built from a list of choices.
+//! Programs that the checker accepts for an ideal device, built from a list of choices.
 //!
 //! A list of numbers picks every turn of the way, so that proptest can shrink it: fewer or smaller numbers give a
 //! simpler program. Registers are written before they are read, and operands stay within what each version allows.

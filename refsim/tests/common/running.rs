@@ -16,8 +16,8 @@ pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
 }
 
 /// Checks a program.
-pub(crate) fn ready(program: Program, _: &Profile) -> Result<CheckedProgram, String> {
-    Ok(program)
+pub(crate) fn ready(program: Program, profile: &Profile) -> Result<CheckedProgram, String> {
+    refsim::check::check(program, profile).map_err(|e| format!("{e:?}"))
 }
 
 /// An ideal device of a format.

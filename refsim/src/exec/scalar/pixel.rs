@@ -4,8 +4,7 @@ use super::interpreter::{Interpreter, LANES};
 use super::prepared::Prepared;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
-use crate::exec::{NoObserver, Observer, PixelBindings, delivered_color};
-use crate::isa::Program;
+use crate::exec::{CheckedProgram, NoObserver, Observer, PixelBindings, delivered_color};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, TEXCOORD_COMPONENT};
 
@@ -37,7 +36,7 @@ pub struct FragmentResult {
 
 impl<'a> PixelProgram<'a> {
     /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`.
-    pub fn new(program: &'a Program, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
+    pub fn new(program: &'a CheckedProgram, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
     }
 

@@ -19,8 +19,8 @@ impl<'a> ScalarTiles<'a> {
     /// Prepares a draw.
     pub fn new(draw: &TileDraw<'a>) -> Self {
         Self {
-            program: PixelProgram::new(super::super::program(draw.program), draw.rules, &draw.bindings),
-            written: colors_written(super::super::program(draw.program)),
+            program: PixelProgram::new(draw.program, draw.rules, &draw.bindings),
+            written: colors_written(draw.program),
             output: draw.output,
             rules: draw.output_rules(),
         }

@@ -3,8 +3,7 @@
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
 use crate::device::Rules;
-use crate::exec::{Constants, NoObserver, Observer};
-use crate::isa::Program;
+use crate::exec::{CheckedProgram, Constants, NoObserver, Observer};
 use crate::num::{Format, ops};
 use crate::raster::Vertex;
 
@@ -25,7 +24,7 @@ pub struct VertexResult {
 
 impl<'a> VertexProgram<'a> {
     /// Prepares a program, which must be a vertex program, to run under `rules`.
-    pub fn new(program: &'a Program, rules: &'a Rules, constants: &Constants) -> Self {
+    pub fn new(program: &'a CheckedProgram, rules: &'a Rules, constants: &Constants) -> Self {
         Self { prepared: Prepared::vertex(program, rules, constants) }
     }
 
