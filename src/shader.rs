@@ -1,6 +1,6 @@
 //! Shader texts from files and cases: read, assembled, judged; errors with name and place.
 
-use std::{io, path::Path};
+use std::{io, path::Path, sync::Arc};
 
 use miette::{Diagnostic, NamedSource};
 use refsim::{
@@ -9,6 +9,8 @@ use refsim::{
     device::Profile,
     isa::{Program, SlotCost, Version},
 };
+
+use crate::io::read_limited;
 
 /// The longest shader file that is read, in bytes: the assembler takes no more.
 const LONGEST: u64 = asm::MAX_TEXT as u64;
@@ -44,13 +46,11 @@ pub enum ShaderError {
         offset: usize,
     },
     /// The file is far longer than any shader.
-    #[error("expected a shader of at most {LONGEST} bytes, found {found} in `{name}`")]
+    #[error("expected a shader of at most {LONGEST} bytes, found more in `{name}`")]
     #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
     TooLong {
         /// The file.
         name: String,
-        /// Its length in bytes.
-        found: u64,
     },
     /// The text is not shader assembly.
     #[error("`{name}` has {}", count(errors.len(), "syntax error"))]
@@ -60,7 +60,7 @@ pub enum ShaderError {
         name: String,
         /// Its text.
         #[source_code]
-        source_code: NamedSource<String>,
+        source_code: Arc<NamedSource<String>>,
         /// Every error, in the order of the text; at least one.
         #[related]
         errors: Vec<SyntaxError>,
@@ -77,7 +77,7 @@ pub enum ShaderError {
         device: String,
         /// Its text.
         #[source_code]
-        source_code: NamedSource<String>,
+        source_code: Arc<NamedSource<String>>,
         /// Every violation, in the order of the text; at least one.
         #[related]
         violations: Vec<Violation>,
@@ -101,12 +101,10 @@ impl ShaderText {
     pub fn read(path: &Path) -> Result<Self, ShaderError> {
         let name = path.display().to_string();
         let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
-        // Looked at before reading: the name may be that of a very large file.
-        let found = std::fs::metadata(path).map_err(unreadable)?.len();
-        if found > LONGEST {
-            return Err(ShaderError::TooLong { name, found });
-        }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
+        // No more than the limit is read: the name may be that of a device without an end.
+        let Some(bytes) = read_limited(path, LONGEST).map_err(unreadable)? else {
+            return Err(ShaderError::TooLong { name });
+        };
         Self::from_bytes(name, bytes)
     }
 
@@ -156,8 +154,8 @@ impl ShaderText {
         })
     }
 
-    fn source_code(&self) -> NamedSource<String> {
-        NamedSource::new(&self.name, self.text.clone())
+    fn source_code(&self) -> Arc<NamedSource<String>> {
+        Arc::new(NamedSource::new(&self.name, self.text.clone()))
     }
 }
 

@@ -9,7 +9,7 @@ use refsim::machine::MachineError;
 use crate::{report::ReportError, shader::ShaderError};
 
 /// The text of a case with its name, cheap to hand to every error.
-pub(super) type Source = NamedSource<Arc<str>>;
+pub(super) type Source = Arc<NamedSource<Arc<str>>>;
 
 /// Why a case cannot be run.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -54,18 +54,16 @@ pub enum CaseError {
         offset: usize,
     },
     /// The case is longer than any case needs to be.
-    #[error("expected a case file of at most {most} bytes, found {found}")]
+    #[error("expected a case file of at most {most} bytes, found a longer one")]
     #[diagnostic(code(crossbar::case::length), help("keep texels in image files"))]
     TooLong {
         /// The limit in bytes.
-        most: usize,
-        /// The length in bytes.
-        found: usize,
+        most: u64,
     },
     /// The device cannot do what the case asks.
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
-    Draw(MachineError),
+    Draw(Box<MachineError>),
     /// A picture of the result cannot be made.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -78,7 +76,7 @@ pub enum CaseError {
 
 impl From<MachineError> for CaseError {
     fn from(error: MachineError) -> Self {
-        Self::Draw(error)
+        Self::Draw(Box::new(error))
     }
 }
 
@@ -90,7 +88,7 @@ pub(super) struct Place {
 
 impl Place {
     pub(super) fn new(name: &str, text: &str) -> Self {
-        Self { source: NamedSource::new(name, Arc::from(text)).with_language("toml") }
+        Self { source: Arc::new(NamedSource::new(name, Arc::from(text)).with_language("toml")) }
     }
 
     /// The error of the TOML reader: its message is ours to pass on, its span too.

@@ -26,10 +26,13 @@ use super::{
     value::Number,
     vertices,
 };
-use crate::shader::{ShaderError, ShaderText};
+use crate::{
+    io::read_limited,
+    shader::{ShaderError, ShaderText},
+};
 
 /// The longest case file that is read, in bytes.
-const LONGEST: usize = 1 << 26;
+const LONGEST: u64 = 1 << 26;
 
 /// A case that is ready to be drawn.
 #[derive(Clone, Debug)]
@@ -122,7 +125,10 @@ impl Setup {
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
-        let bytes = std::fs::read(path).map_err(unreadable)?;
+        // No more than the limit is read: the name may be that of a device without an end.
+        let Some(bytes) = read_limited(path, LONGEST).map_err(unreadable)? else {
+            return Err(CaseError::TooLong { most: LONGEST });
+        };
         let folder = path.parent().unwrap_or_else(|| Path::new(""));
         Self::from_bytes(&path.display().to_string(), &bytes, folder)
     }
@@ -132,8 +138,8 @@ impl Setup {
     /// # Errors
     /// As [`Setup::read`].
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
-        if bytes.len() > LONGEST {
-            return Err(CaseError::TooLong { most: LONGEST, found: bytes.len() });
+        if bytes.len() as u64 > LONGEST {
+            return Err(CaseError::TooLong { most: LONGEST });
         }
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let offset = error.valid_up_to();
@@ -380,7 +386,7 @@ fn place_at<T: Clone + Default>(list: &mut Vec<T>, index: usize) -> &mut T {
 fn integers(numbers: &[Number]) -> Option<[i32; 4]> {
     let whole = |number: &Number| match *number {
         // Within the range of `i32` a whole double converts exactly.
-        Number::Value(value) if value >= -2_147_483_648.0 && value <= 2_147_483_647.0 && value % 1.0 == 0.0 => {
+        Number::Value(value) if (-2_147_483_648.0..=2_147_483_647.0).contains(&value) && value % 1.0 == 0.0 => {
             Some(value as i32)
         }
         _ => None,

@@ -20,8 +20,12 @@ use super::{
     value::{Number, vector},
 };
 
+use crate::io::read_limited;
+
 /// Longest side of an image file, in pixels.
 const LONGEST_SIDE: u32 = 16384;
+/// Longest image file, in bytes.
+const MOST_BYTES: u64 = 1 << 28;
 /// Memory that decoding an image file may take, in bytes.
 const MOST_DECODED: u64 = 1 << 30;
 
@@ -144,7 +148,9 @@ fn from_file(
         let help = "list `texels` for cubes, volumes and mip maps";
         return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
     }
-    let bytes = std::fs::read(&path).map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?;
+    let bytes = read_limited(&path, MOST_BYTES)
+        .map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?
+        .ok_or_else(|| wrong(format!("expected a picture file of at most {MOST_BYTES} bytes"), "use a smaller one"))?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(LONGEST_SIDE);

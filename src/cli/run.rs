@@ -44,12 +44,15 @@ pub(super) struct Args {
 enum Executor {
     /// The reference: one value at a time
     Scalar,
+    /// The fast one: many fragments at a time
+    Batch,
 }
 
 impl Executor {
     const fn kind(self) -> ExecutorKind {
         match self {
             Self::Scalar => ExecutorKind::Scalar,
+            Self::Batch => ExecutorKind::Batch,
         }
     }
 }

@@ -172,7 +172,8 @@ fn digests_of_s3_4() {
 
 /// `e3m2` by doubles, which hold every sum, difference and product of two of its numbers exactly.
 mod e3m2 {
-    pub(super) const NAN: u32 = 0b0_111_10;
+    pub(super) const INFINITY: u32 = 7 << 2;
+    pub(super) const NAN: u32 = INFINITY | 2;
 
     pub(super) fn value(bits: u32) -> f64 {
         let (sign, exponent, mantissa) = (bits >> 5, bits >> 2 & 7, f64::from(bits & 3));
@@ -190,9 +191,9 @@ mod e3m2 {
         if value.is_nan() {
             return NAN;
         }
-        let place = |bits: u32| if bits == 0b0_111_00 { 16.0 } else { self::value(bits) };
+        let place = |bits: u32| if bits == INFINITY { 16.0 } else { self::value(bits) };
         let magnitude = value.abs().min(16.0);
-        let best = (0..=0b0_111_00)
+        let best = (0..=INFINITY)
             .min_by(|&a, &b| {
                 let (near_a, near_b) = ((place(a) - magnitude).abs(), (place(b) - magnitude).abs());
                 near_a.total_cmp(&near_b).then((a & 1).cmp(&(b & 1)))
@@ -229,4 +230,32 @@ fn a_digest_for_machines() {
     assert_eq!(report["op"], "eq");
     assert_eq!(report["format"], "e3m2:ftz");
     assert!(report["digest"].as_str().is_some_and(|text| text.len() == 18), "{report}");
+}
+
+/// A reader that goes away early ends the program quietly; a verdict is still reached.
+#[test]
+#[cfg(unix)]
+fn a_closed_pipe_is_no_error() {
+    use std::process::{Command, Stdio};
+
+    let run = |arguments: &[&str], line: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_crossbar"))
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program that this test was built with");
+        drop(child.stdout.take());
+        let mut stdin = child.stdin.take().expect("a pipe was asked for");
+        let input = line.repeat(100_000);
+        // The program may be gone before it has read everything.
+        std::io::Write::write_all(&mut stdin, input.as_bytes()).ok();
+        drop(stdin);
+        let output = child.wait_with_output().expect("the program runs to its end");
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.status.code()
+    };
+    assert_eq!(run(&["alu", "sqrt", "--format", "fp16"], "4400\n"), Some(0));
+    assert_eq!(run(&["alu", "sqrt", "--format", "fp16", "--verify"], "4400 4001\n"), Some(1));
 }

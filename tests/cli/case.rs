@@ -50,6 +50,29 @@ fn any_number_of_threads_writes_the_same_bytes() {
 }
 
 #[test]
+fn both_executors_write_the_same_bytes() {
+    for name in CASES {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let files = |executor: &str| {
+            let arguments = ["run", &example(name), "--executor", executor, "--out", executor];
+            let ran = crossbar_in(folder.path(), &arguments, "");
+            assert_eq!(ran.code, Some(0), "{name} by {executor}: {}", ran.stderr);
+            let mut files: Vec<(std::ffi::OsString, Vec<u8>)> = fs::read_dir(folder.path().join(executor))
+                .expect("the folder was written")
+                .map(|entry| entry.expect("an entry"))
+                .map(|entry| (entry.file_name(), fs::read(entry.path()).expect("a file")))
+                .collect();
+            files.sort();
+            // The counts are the same too; only the names of the files differ.
+            let counts: Vec<String> =
+                ran.stdout.lines().filter(|line| line.starts_with('|')).map(str::to_owned).collect();
+            (files, counts)
+        };
+        assert!(files("scalar") == files("batch"), "{name}: scalar and batch agree");
+    }
+}
+
+#[test]
 fn the_picture_has_the_pixels_of_the_target() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     crossbar_in(folder.path(), &["run", &example("modulate"), "--out", "m"], "");
@@ -151,7 +174,8 @@ fn bad_cases() {
 fn files_that_are_no_case() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("binary.toml"), b"device = \"\xff\"").expect("a file");
-    for name in ["binary.toml", "nowhere.toml", "."] {
+    let endless = if cfg!(unix) { "/dev/zero" } else { "nowhere.toml" };
+    for name in ["binary.toml", "nowhere.toml", ".", endless] {
         let ran = crossbar_in(folder.path(), &["run", name], "");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
         assert!(!folder.path().join("out").exists(), "{name}: nothing is written");

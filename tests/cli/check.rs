@@ -61,4 +61,6 @@ fn what_is_no_program() {
     }
     assert_eq!(crossbar(&["check", "nowhere.psa", "--device", "r200"], "").code, Some(2));
     assert_eq!(crossbar(&["check", "/", "--device", "r200"], "").code, Some(2));
+    #[cfg(unix)]
+    assert_eq!(crossbar(&["check", "/dev/zero", "--device", "r200"], "").code, Some(2));
 }
