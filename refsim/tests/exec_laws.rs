@@ -10,7 +10,7 @@ use refsim::asm::assemble;
 use refsim::device::Profile;
 use refsim::exec::scalar::{PixelProgram, VertexProgram};
 use refsim::exec::{BumpStage, CheckedProgram, Constants, NoObserver, PixelBindings, SamplerBinding};
-use refsim::isa::{Stage, Version};
+use refsim::isa::{Opcode, Stage, Version};
 use refsim::num::Format;
 use refsim::raster::FragmentInput;
 use refsim::texture::{Image, SamplerState, TextureKind, TexelFormat};
@@ -80,6 +80,13 @@ fn run_pixel(program: &CheckedProgram, profile: &Profile, data: &[[u32; 4]], hos
     let mut fewer = [0; 16];
     prop_assert_eq!(all, prepared.run_observed(&inputs, 0b0100, &mut fewer, &mut NoObserver));
     prop_assert!(fewer.iter().zip(fetches).all(|(&few, many)| few <= many));
+    // Lanes go their own ways: each is what it would be among copies of itself, unless differences are asked for.
+    if !program.instructions.iter().any(|i| matches!(i.opcode, Opcode::Dsx | Opcode::Dsy)) {
+        for (lane, input) in inputs.iter().enumerate() {
+            let alone = prepared.run(&[*input; 4], 0b1111, &mut [0; 16]);
+            prop_assert_eq!(alone[0], all[lane], "lane {}", lane);
+        }
+    }
     Ok(())
 }
 

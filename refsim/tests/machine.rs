@@ -281,6 +281,10 @@ fn every_mistake_has_its_error() {
         let message = bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
         assert!(message.contains(expected), "expected `{expected}` in `{message}`");
     }
+    let streams = VertexStreams { vertex_count: 0, instance_count: usize::MAX, streams: Vec::new() };
+    let source = VertexSource::Program { program: &vertex_program, constants: &host, streams };
+    let message = bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
+    assert!(message.contains("instances, a draw can have 16777216"), "{message}");
     assert_eq!(machine.read_back(target).unwrap().bytes(), [0; 256], "nothing was drawn");
 }
 

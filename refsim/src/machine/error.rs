@@ -131,6 +131,16 @@ pub enum MachineError {
         /// The device.
         device: String,
     },
+    /// More vertices or instances than a draw can have.
+    #[error("draw has {found} {what}, a draw can have {limit}; split it")]
+    TooMany {
+        /// `vertices` or `instances`.
+        what: &'static str,
+        /// How many it has.
+        found: usize,
+        /// How many it can have.
+        limit: usize,
+    },
     /// A vertex stream ends early.
     #[error("stream of v{register} has {found} entries, the draw needs {needed} ({what})")]
     ShortStream {

@@ -9,6 +9,9 @@ use crate::output::{MOST_TARGETS, TargetTile};
 use crate::raster::{RasterState, Viewport, assemble};
 use crate::texture::{Filter, MipFilter, Region};
 
+/// Vertices an instance, and instances, that a draw can have.
+const MOST_VERTICES: usize = 1 << 24;
+
 /// What a checked call comes to.
 pub(super) struct Plan {
     /// State of the rasteriser.
@@ -40,6 +43,11 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
             (streams.vertex_count, streams.instance_count)
         }
     };
+    for (what, found) in [("vertices", vertex_count), ("instances", instance_count)] {
+        if found > MOST_VERTICES {
+            return Err(MachineError::TooMany { what, found, limit: MOST_VERTICES });
+        }
+    }
     Ok(Plan { raster, vertex_count, instance_count, triangles: triangles(call, vertex_count)? })
 }
 

@@ -21,8 +21,8 @@ pub(super) struct Batch {
 /// The vertex stage of a call.
 pub(super) enum VertexStage<'a> {
     Transformed(&'a [Vertex]),
-    Program(VertexProgram<'a>, &'a VertexStreams<'a>),
-    Batch(BatchVertices, &'a VertexStreams<'a>),
+    Program(Box<VertexProgram<'a>>, &'a VertexStreams<'a>),
+    Batch(Box<BatchVertices>, &'a VertexStreams<'a>),
 }
 
 impl<'a> VertexStage<'a> {
@@ -33,9 +33,9 @@ impl<'a> VertexStage<'a> {
                 if kind == ExecutorKind::Batch
                     && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants)
                 {
-                    return Self::Batch(batch, streams);
+                    return Self::Batch(Box::new(batch), streams);
                 }
-                Self::Program(VertexProgram::new(program, rules, constants), streams)
+                Self::Program(Box::new(VertexProgram::new(program, rules, constants)), streams)
             }
         }
     }

@@ -54,7 +54,7 @@ impl<'r> Alu<'r> {
     }
 
     /// `bits` of format `from` in this format, rounded once.
-    pub(crate) fn from_format(&mut self, from: Format, bits: u32) -> u32 {
+    pub(crate) fn enter(&mut self, from: Format, bits: u32) -> u32 {
         if from == self.format {
             return bits;
         }
@@ -62,7 +62,7 @@ impl<'r> Alu<'r> {
         self.keep(outcome)
     }
 
-    /// [`Self::from_format`] that makes a NaN canonical and flushes subnormals even where the formats are the same: for
+    /// [`Self::enter`] that makes a NaN canonical and flushes subnormals even where the formats are the same: for
     /// values that no operation has made yet.
     pub(crate) fn convert(&mut self, from: Format, bits: u32) -> u32 {
         let outcome = ops::convert(&from, self.format, bits);
@@ -70,7 +70,7 @@ impl<'r> Alu<'r> {
     }
 
     /// `bits` of this format in format `to`, rounded once.
-    pub(crate) fn into_format(&mut self, to: Format, bits: u32) -> u32 {
+    pub(crate) fn leave(&mut self, to: Format, bits: u32) -> u32 {
         if to == self.format {
             return bits;
         }

@@ -109,7 +109,7 @@ pub(super) fn operand(alu: &mut Alu<'_>, registers: Format, source: &Source, val
     let mut out = [0; 4];
     for i in wanted.components() {
         let raw = value[usize::from(source.swizzle.0[i] & 3)];
-        let converted = alu.from_format(registers, raw);
+        let converted = alu.enter(registers, raw);
         out[i] = modified(alu, source.modifier, converted);
     }
     out
@@ -155,7 +155,7 @@ pub(super) fn finished(alu: &mut Alu<'_>, registers: Format, destination: &Desti
         if destination.saturate {
             x = alu.saturate(x);
         }
-        out[i] = alu.into_format(registers, x);
+        out[i] = alu.leave(registers, x);
     }
     out
 }

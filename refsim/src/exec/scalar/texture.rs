@@ -52,8 +52,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             _ => usize::from(destination.register.index),
         };
         let mut coordinates = [[0; 4]; LANES];
-        for lane in 0..LANES {
-            coordinates[lane] = self.coordinates_of(lane, instruction, destination);
+        for (lane, slot) in coordinates.iter_mut().enumerate() {
+            *slot = self.coordinates_of(lane, instruction, destination);
         }
         self.pads = 0;
         let detail = match instruction.opcode {
