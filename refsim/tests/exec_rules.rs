@@ -369,6 +369,11 @@ fn the_trace_has_flags() {
     let ran = run("ps_1_4\nmov_x8 r0, c0\nmul r0, r0, r0", &r200(), &[[1.0, 0.25, 0.1, 0.0]]);
     let step = ran.steps.iter().find(|s| s.instruction == 1).unwrap();
     assert!(step.flags.contains(Flags::OVERFLOW), "8 * 8 leaves s3.12: {:?}", step.flags);
+    // An inexact coordinate is the read's affair, not that of the instruction after it.
+    let text = "ps_1_4\ntexcrd r0.rgb, t0\nmov r0.a, c0.a\nmov r1, r0\nmov r0, r1";
+    let ran = run_with_coordinates(text, &r200(), &[[0.1; 4]]);
+    let flags: Vec<Flags> = ran.steps.iter().map(|s| s.flags).collect();
+    assert_eq!(flags, [Flags::INEXACT, Flags::empty(), Flags::empty(), Flags::empty()]);
 }
 
 #[test]

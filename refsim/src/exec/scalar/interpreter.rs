@@ -296,10 +296,20 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
 
     /// Tells the observer that a lane has executed an instruction.
     pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Vector)>) {
-        let flags = std::mem::take(&mut self.flags[lane]) | self.address.take_flags();
+        self.settle(lane);
+        let flags = std::mem::take(&mut self.flags[lane]);
         if O::ACTIVE {
             let (mask, value) = written.unwrap_or((Mask(0), [0; 4]));
             self.observer.executed(&Step { instruction: at, lane, mask, value, flags });
+        }
+    }
+
+    /// Puts the flags raised since the last time down to a lane; a lane that is masked off has none.
+    pub(super) fn settle(&mut self, lane: usize) {
+        let partial = self.partial.as_mut().map(Alu::take_flags).unwrap_or_default();
+        let raised = self.full.take_flags() | self.address.take_flags() | partial;
+        if self.active >> lane & 1 == 1 {
+            self.flags[lane] |= raised;
         }
     }
 
@@ -311,6 +321,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         };
         let x = self.source(lane, a, Mask(1), false)[0];
         let y = self.source(lane, b, Mask(1), false)[0];
+        // A branch writes nothing and so reports no flags.
+        self.full.take_flags();
         compare(&self.full, instruction.comparison.unwrap_or(Comparison::Eq), x, y)
     }
 }

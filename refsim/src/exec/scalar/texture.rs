@@ -54,6 +54,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         let mut coordinates = [[0; 4]; LANES];
         for (lane, slot) in coordinates.iter_mut().enumerate() {
             *slot = self.coordinates_of(lane, instruction, destination);
+            self.settle(lane);
         }
         self.pads = 0;
         let detail = match instruction.opcode {
@@ -332,6 +333,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         for lane in 0..LANES {
             let own = self.coordinate_set(lane, destination.register.index);
             self.padded[lane][slot] = self.row(lane, own, source);
+            self.settle(lane);
         }
         self.pads += 1;
         for lane in self.active_lanes() {
