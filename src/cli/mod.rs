@@ -65,6 +65,9 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
+  crossbar devices                                  the emulated cards
+  crossbar check shader.psa --device r200           is it a legal program for the Radeon 8500?
+  crossbar run fixtures/cases/modulate.toml         draw a case: pictures, probes, counts
   echo 3C00 4000 | crossbar alu add --format fp16   one plus two, in half precision
   crossbar alu --help                               what a subcommand does, with an example";
 

@@ -112,6 +112,8 @@ fn mismatches_for_machines() {
     assert_eq!(report["mismatches"][1]["line"], 3);
     assert_eq!(report["mismatches"][1]["found"], "4000");
     assert_eq!(ran.code, Some(1));
+    let ran = alu("add --format fp16 --verify --json", "3C00 3C00 4001 00\nbad\n");
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "no half a document");
 }
 
 #[test]

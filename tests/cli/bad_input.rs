@@ -74,3 +74,18 @@ fn errors_for_machines() {
     assert_eq!(error["severity"], "error");
     assert_eq!(ran.code, Some(2));
 }
+
+/// A disk that is full is an error, not a panic.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk() {
+    let full = std::fs::File::create("/dev/full").expect("the device that is always full");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_crossbar"))
+        .arg("devices")
+        .stdout(full)
+        .output()
+        .expect("the program runs to its end");
+    assert_eq!(output.status.code(), Some(2));
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("standard output cannot be written"), "{stderr}");
+}

@@ -45,6 +45,15 @@ fn the_good_cases_pass() {
     }
 }
 
+#[test]
+fn deep_nesting_does_not_overflow_the_stack() {
+    for (open, close) in [("[", "]"), ("{a=", "}")] {
+        let text = format!("device = {}{}", open.repeat(200_000), close.repeat(200_000));
+        assert!(read(text.as_bytes()).is_none(), "no case is that deep");
+        assert!(read(format!("{}\n", "a.".repeat(100_000) + "b = 1").as_bytes()).is_none(), "nor its keys");
+    }
+}
+
 /// Words and numbers that mean something somewhere in a case, and some that do nowhere.
 const PIECES: &[&str] = &[
     "0",

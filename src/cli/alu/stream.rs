@@ -148,19 +148,22 @@ pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) 
         Ok(())
     };
     let (mut passed, mut failed) = (0_u64, 0_u64);
-    if json {
-        out.write_all(b"{\"mismatches\":[").map_err(OutputError::from)?;
-    }
+    // A document for machines is written whole or not at all: an error may be waiting in the last line.
+    let mut mismatches = Vec::new();
     each_line(input, work, |part| {
-        // Mismatches of later parts follow a comma, that each begins with.
-        let text = if json && failed == 0 { part.text.get(1..).unwrap_or_default() } else { &part.text };
-        out.write_all(text).map_err(OutputError::from)?;
+        if json {
+            mismatches.extend_from_slice(&part.text);
+        } else {
+            out.write_all(&part.text).map_err(OutputError::from)?;
+        }
         passed += part.passed;
         failed += part.failed;
         Ok(())
     })?;
     if json {
-        out.line(format_args!("],\"passed\":{passed},\"failed\":{failed}}}"))?;
+        // Every mismatch begins with a comma.
+        let list = String::from_utf8_lossy(mismatches.get(1..).unwrap_or_default());
+        out.line(format_args!("{{\"mismatches\":[{list}],\"passed\":{passed},\"failed\":{failed}}}"))?;
     } else {
         out.line(format_args!("{passed} passed, {failed} failed"))?;
     }
