@@ -65,6 +65,10 @@ impl<'a> BatchTexture<'a> {
 
     fn read_lanes(&self, step: &FetchStep, formats: &Formats, run: &Row, slots: &mut Slots) {
         let single = formats.lane(Arith::Single);
+        // Lanes that are not run still take part in arithmetic: a number of the format, not what the slot held before.
+        for to in step.to.iter().flatten() {
+            slots.fill(*to, 0);
+        }
         let vector = |slots: &Slots, from: &[u16; 4], lane: usize| from.map(|s| single.encode(slots.row(s)[lane]));
         for lane in (0..LANES).filter(|&l| run[l] != 0) {
             let at = |l: usize| vector(slots, &step.coordinates, l);

@@ -1,0 +1,55 @@
+//! A small random stream, so that a failing case is one number.
+
+/// A xorshift stream.
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        let mut state = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        state = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        state = (state ^ state >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        Self(state | 1)
+    }
+
+    pub(crate) fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 >> 8
+    }
+
+    /// Below `n`.
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+
+    /// True once in `n` times.
+    pub(crate) fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    pub(crate) fn pick<'a, T: ?Sized>(&mut self, list: &[&'a T]) -> &'a T {
+        list[self.below(list.len())]
+    }
+
+    pub(crate) fn choose<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.below(list.len())]
+    }
+
+    /// A number of ordinary size, now and then special.
+    pub(crate) fn number(&mut self) -> u32 {
+        let r = self.next();
+        match r % 24 {
+            0 => self.choose(&[0, 0x8000_0000, 0x3f80_0000, 0xbf80_0000, 0x3f00_0000, 0x4100_0000]),
+            1 => self.choose(&[0x7f80_0000, 0xff80_0000, 0x7fc0_0000, 0x0000_0001, 0x0070_0000, 0x7f7f_ffff]),
+            2 => self.next() as u32,
+            3..=9 => ((r >> 8 & 0xffff) as f32 / 65536.0).to_bits(),
+            10..=15 => ((r >> 8 & 0xffff) as f32 / 4096.0 - 8.0).to_bits(),
+            _ => ((r >> 8 & 0xff_ffff) as f32 / 4_194_304.0 - 2.0).to_bits(),
+        }
+    }
+
+    pub(crate) fn vector(&mut self) -> [u32; 4] {
+        [self.number(), self.number(), self.number(), self.number()]
+    }
+}
