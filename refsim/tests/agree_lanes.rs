@@ -4,12 +4,38 @@
 //! ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
 
 use refsim::exec::batch::{LaneOperation as Op, convert, evaluate};
-use refsim::num::{DotOrder, Denormals, Format, Overflow, Rounding, Specials, ops};
+use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials, ops};
 
 const OPERATIONS: &[Op] = &[
-    Op::Add, Op::Sub, Op::Mul, Op::Mad, Op::FusedMad, Op::ExactDot3, Op::ExactDot4, Op::Div, Op::Sqrt, Op::Rcp, Op::Rsq,
-    Op::Exp2, Op::Log2, Op::Min, Op::Max, Op::Floor, Op::Frc, Op::Neg, Op::Abs, Op::Scale(-3), Op::Scale(-1), Op::Scale(1), Op::Scale(3),
-    Op::Saturate, Op::Lt, Op::Le, Op::Eq, Op::Cmp, Op::Cnd,
+    Op::Add,
+    Op::Sub,
+    Op::Mul,
+    Op::Mad,
+    Op::FusedMad,
+    Op::ExactDot3,
+    Op::ExactDot4,
+    Op::Div,
+    Op::Sqrt,
+    Op::Rcp,
+    Op::Rsq,
+    Op::Exp2,
+    Op::Log2,
+    Op::Min,
+    Op::Max,
+    Op::Floor,
+    Op::Frc,
+    Op::Neg,
+    Op::Abs,
+    Op::Scale(-3),
+    Op::Scale(-1),
+    Op::Scale(1),
+    Op::Scale(3),
+    Op::Saturate,
+    Op::Lt,
+    Op::Le,
+    Op::Eq,
+    Op::Cmp,
+    Op::Cnd,
 ];
 
 fn reference(f: Format, op: Op, a: u32, b: u32, c: u32) -> u32 {
@@ -46,7 +72,17 @@ fn reference(f: Format, op: Op, a: u32, b: u32, c: u32) -> u32 {
 fn is_unary(op: Op) -> bool {
     matches!(
         op,
-        Op::Sqrt | Op::Rcp | Op::Rsq | Op::Exp2 | Op::Log2 | Op::Floor | Op::Frc | Op::Neg | Op::Abs | Op::Scale(_) | Op::Saturate
+        Op::Sqrt
+            | Op::Rcp
+            | Op::Rsq
+            | Op::Exp2
+            | Op::Log2
+            | Op::Floor
+            | Op::Frc
+            | Op::Neg
+            | Op::Abs
+            | Op::Scale(_)
+            | Op::Saturate
     )
 }
 
@@ -107,7 +143,8 @@ impl Random {
         let r = self.next();
         let any = (self.next() >> 20) as u32 & f.mask();
         let near = (r >> 8 & 7) as u32;
-        let edges = [0, f.one(), f.max_finite(), f.min_finite(), f.sign_bit(), f.one() / 2, f.infinity(false).unwrap_or(1)];
+        let edges =
+            [0, f.one(), f.max_finite(), f.min_finite(), f.sign_bit(), f.one() / 2, f.infinity(false).unwrap_or(1)];
         match r & 15 {
             0 => f.mask() & edges[(r >> 32) as usize % edges.len()].wrapping_add(near),
             1 => f.mask() & edges[(r >> 32) as usize % edges.len()].wrapping_sub(near),
@@ -135,7 +172,10 @@ fn layout(text: &str) -> Format {
 #[test]
 fn short_formats_agree_on_all_pairs() {
     let layouts: &[&str] = if full() {
-        &["s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "e2m1", "e2m3", "e3m2", "e4m3", "e5m2", "e3m4", "e2m5", "e6m1"]
+        &[
+            "s0.1", "s1.1", "s2.0", "s0.4", "s3.4", "s7.0", "s2.5", "e2m1", "e2m3", "e3m2", "e4m3", "e5m2", "e3m4",
+            "e2m5", "e6m1",
+        ]
     } else {
         &["s0.1", "s2.0", "s2.3", "e2m1", "e2m3", "e3m2", "e4m1"]
     };
@@ -161,8 +201,9 @@ fn short_formats_agree_on_all_pairs() {
 #[test]
 fn all_formats_agree_on_random_operands() {
     let layouts = [
-        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "e5m10", "e7m16", "e8m23", "e8m7", "e3m4",
-        "e8m10", "e6m10", "e7m10", "e6m9", "e5m11", "e8m16", "e2m23", "e8m1", "e7m23",
+        "s3.12", "s1.10", "s0.8", "s0.15", "s15.0", "s7.8", "s8.8", "s0.31", "s31.0", "s15.16", "s7.16", "e5m10",
+        "e7m16", "e8m23", "e8m7", "e3m4", "e8m10", "e6m10", "e7m10", "e6m9", "e5m11", "e8m16", "e2m23", "e8m1",
+        "e7m23",
     ];
     let n = if full() { 65536 } else { 512 };
     for (seed, text) in layouts.iter().enumerate() {
@@ -208,8 +249,31 @@ fn fp16_agrees_on_pairs() {
 #[test]
 fn conversions_agree() {
     let texts = [
-        "s3.12", "s3.12:rna", "s3.12:rtz:wrap", "s3.12:rdn", "s3.12:rne:wrap", "s3.12:rna:wrap", "s3.12:rdn:wrap", "s1.10", "s0.8:wrap", "s0.31", "s31.0:wrap", "s15.16:rtz", "fp16",
-        "fp16:rtz", "fp16:ftz", "fp16:nvovf", "fp24", "fp24:rdn", "fp24:sat", "fp32", "fp32:ftz", "fp32:rdn", "bf16", "e3m4", "e8m10:rna",
+        "s3.12",
+        "s3.12:rna",
+        "s3.12:rtz:wrap",
+        "s3.12:rdn",
+        "s3.12:rne:wrap",
+        "s3.12:rna:wrap",
+        "s3.12:rdn:wrap",
+        "s1.10",
+        "s0.8:wrap",
+        "s0.31",
+        "s31.0:wrap",
+        "s15.16:rtz",
+        "fp16",
+        "fp16:rtz",
+        "fp16:ftz",
+        "fp16:nvovf",
+        "fp24",
+        "fp24:rdn",
+        "fp24:sat",
+        "fp32",
+        "fp32:ftz",
+        "fp32:rdn",
+        "bf16",
+        "e3m4",
+        "e8m10:rna",
     ];
     let n = if full() { 100_000 } else { 1000 };
     for from in texts.map(layout) {

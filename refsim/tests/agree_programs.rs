@@ -122,9 +122,8 @@ fn thread_counts_agree() {
         let format = FORMATS[seed as usize % FORMATS.len()];
         let scene = Scene::new(scene::profile(format, &mut r), version, &mut r);
         let (lines, program) = legal(version, &scene, &mut r);
-        let [one, two, three] = [1, 2, 3].map(|threads| {
-            scene.draw(ExecutorKind::Batch, threads, &program, None).unwrap_or_else(|e| panic!("{e}"))
-        });
+        let [one, two, three] = [1, 2, 3]
+            .map(|threads| scene.draw(ExecutorKind::Batch, threads, &program, None).unwrap_or_else(|e| panic!("{e}")));
         assert!(one == two && two == three, "seed {seed}, {format}: threads matter\n{}", lines.join("\n"));
     }
 }

@@ -117,7 +117,16 @@ fn operands(op: &str, count: usize, suffix: &str) -> String {
 #[test]
 fn ps_1_4_operations_are_their_documented_steps() {
     let table = [
-        ("mov", 1), ("add", 2), ("sub", 2), ("mul", 2), ("mad", 3), ("lrp", 3), ("dp3", 2), ("dp4", 2), ("cnd", 3), ("cmp", 3),
+        ("mov", 1),
+        ("add", 2),
+        ("sub", 2),
+        ("mul", 2),
+        ("mad", 3),
+        ("lrp", 3),
+        ("dp3", 2),
+        ("dp4", 2),
+        ("cnd", 3),
+        ("cmp", 3),
     ];
     let mut seed = 1;
     for profile in profiles() {
@@ -139,9 +148,20 @@ fn ps_1_4_operations_are_their_documented_steps() {
 #[test]
 fn ps_2_0_operations_are_their_documented_steps() {
     let table = [
-        ("abs", 1, ""), ("min", 2, ""), ("max", 2, ""), ("frc", 1, ""), ("rcp", 1, ".x"), ("rsq", 1, ".x"),
-        ("exp", 1, ".x"), ("log", 1, ".x"), ("pow", 2, ".x"), ("nrm", 1, ""),
-        ("mad", 3, ""), ("lrp", 3, ""), ("dp4", 2, ""), ("cmp", 3, ""),
+        ("abs", 1, ""),
+        ("min", 2, ""),
+        ("max", 2, ""),
+        ("frc", 1, ""),
+        ("rcp", 1, ".x"),
+        ("rsq", 1, ".x"),
+        ("exp", 1, ".x"),
+        ("log", 1, ".x"),
+        ("pow", 2, ".x"),
+        ("nrm", 1, ""),
+        ("mad", 3, ""),
+        ("lrp", 3, ""),
+        ("dp4", 2, ""),
+        ("cmp", 3, ""),
     ];
     let mut seed = 2;
     for profile in profiles() {
@@ -258,7 +278,17 @@ fn relative_addresses_reach_their_constant_and_zero_beyond() {
         f32::from_bits(result.vertex.texcoords[0][0])
     };
     // mov to a0 in vs_1_1 rounds down.
-    for (x, expected) in [(0.0, 2.0), (3.9, 5.0), (-1.5, 0.0), (-2.0, 0.0), (-3.0, 0.0), (7.0, 9.0), (8.0, 0.0), (1e30, 0.0), (f32::NAN, 2.0)] {
+    for (x, expected) in [
+        (0.0, 2.0),
+        (3.9, 5.0),
+        (-1.5, 0.0),
+        (-2.0, 0.0),
+        (-3.0, 0.0),
+        (7.0, 9.0),
+        (8.0, 0.0),
+        (1e30, 0.0),
+        (f32::NAN, 2.0),
+    ] {
         assert_eq!(at(x), expected, "{x}");
     }
     let nearest = "vs_2_0\ndcl_position v0\nmova a0.y, v0.x\nmov oT0, c[a0.y + 2]\nmov oPos, v0";

@@ -60,7 +60,10 @@ fn predicates_mask_by_lane_and_component() {
     let swizzled = format!("setp_lt p0, r1, c1\n(p0.y) mov r0.x, c2\n(p0.x) add r0.x, r0, c1{END}");
     assert_eq!(lanes(&swizzled), [3.0, 2.0, 2.0, 2.0], "t0.y is 0 in every lane");
     assert_eq!(lanes(&format!("setp_eq p0, r1, c2\nif p0.x\nmov r0, c1\nendif{END}")), [0.0, 0.0, 1.0, 0.0]);
-    assert_eq!(lanes(&format!("rep i0\nadd r0, r0, c1\nsetp_ge p0, r0, r1\nbreakp p0.x\nendrep{END}")), [1.0, 1.0, 2.0, 3.0]);
+    assert_eq!(
+        lanes(&format!("rep i0\nadd r0, r0, c1\nsetp_ge p0, r0, r1\nbreakp p0.x\nendrep{END}")),
+        [1.0, 1.0, 2.0, 3.0]
+    );
 }
 
 #[test]
@@ -79,10 +82,12 @@ fn subroutines_return_by_lane() {
 fn vertex_loops_count_in_al() {
     let mut host = constants(&[[1.0; 4], [10.0; 4], [100.0; 4], [1000.0; 4], [0.0; 4]]);
     host.int = vec![[2, 1, 2, 0]];
-    let text = "vs_2_0\ndcl_position v0\nmov r0, c4\nloop aL, i0\nadd r0, r0, c[aL]\nendloop\nmov oT0, r0\nmov oPos, v0";
+    let text =
+        "vs_2_0\ndcl_position v0\nmov r0, c4\nloop aL, i0\nadd r0, r0, c[aL]\nendloop\nmov oT0, r0\nmov oPos, v0";
     let result = run_vertex(text, &ideal("e8m23"), &host, &[[0.0, 0.0, 0.0, 1.0]]);
     assert_eq!(result.vertex.texcoords[0], bits([1010.0; 4]), "c1 and c3");
-    let flow = "vs_2_0\ndcl_position v0\nmov oPos, v0\nmov r0, c0\nif b0\nmov r0, c1\nelse\nmov r0, c2\nendif\nmov oT0, r0";
+    let flow =
+        "vs_2_0\ndcl_position v0\nmov oPos, v0\nmov r0, c0\nif b0\nmov r0, c1\nelse\nmov r0, c2\nendif\nmov oT0, r0";
     for (flag, expected) in [(true, 10.0), (false, 100.0)] {
         let host = Constants { boolean: vec![flag], ..host.clone() };
         let result = run_vertex(flow, &ideal("e8m23"), &host, &[[0.0, 0.0, 0.0, 1.0]]);

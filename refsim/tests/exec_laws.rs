@@ -13,7 +13,7 @@ use refsim::exec::{BumpStage, CheckedProgram, Constants, NoObserver, PixelBindin
 use refsim::isa::{Opcode, Stage, Version};
 use refsim::num::Format;
 use refsim::raster::FragmentInput;
-use refsim::texture::{Image, SamplerState, TextureKind, TexelFormat};
+use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
 
 /// The cards and some ideal devices of odd formats.
 fn profiles() -> Vec<Profile> {
@@ -62,7 +62,12 @@ fn well_formed(format: Format, value: [u32; 4]) -> bool {
     value.iter().all(|&x| x & !format.mask() == 0 && (!format.is_nan(x) || Some(x) == format.canonical_nan()))
 }
 
-fn run_pixel(program: &CheckedProgram, profile: &Profile, data: &[[u32; 4]], host: &Constants) -> Result<(), TestCaseError> {
+fn run_pixel(
+    program: &CheckedProgram,
+    profile: &Profile,
+    data: &[[u32; 4]],
+    host: &Constants,
+) -> Result<(), TestCaseError> {
     let image = image(data[0][0]);
     let mut bindings = PixelBindings::new(host);
     bindings.samplers[0] = Some(SamplerBinding { image: &image, state: SamplerState::default() });
@@ -90,7 +95,12 @@ fn run_pixel(program: &CheckedProgram, profile: &Profile, data: &[[u32; 4]], hos
     Ok(())
 }
 
-fn run_vertex(program: &CheckedProgram, profile: &Profile, data: &[[u32; 4]], host: &Constants) -> Result<(), TestCaseError> {
+fn run_vertex(
+    program: &CheckedProgram,
+    profile: &Profile,
+    data: &[[u32; 4]],
+    host: &Constants,
+) -> Result<(), TestCaseError> {
     let prepared = VertexProgram::new(program, &profile.rules, host);
     let mut attributes = [[0; 4]; 16];
     for (slot, v) in attributes.iter_mut().zip(data) {

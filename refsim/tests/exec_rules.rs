@@ -161,7 +161,8 @@ fn texdepth_divides_red_by_green() {
 #[test]
 fn texkill_looks_at_the_components_its_version_names() {
     let tiny = -f32::MIN_POSITIVE;
-    let killed = |text: &str, profile: &Profile, t: [f32; 4]| run_with_coordinates(text, profile, &[t]).results[0].killed;
+    let killed =
+        |text: &str, profile: &Profile, t: [f32; 4]| run_with_coordinates(text, profile, &[t]).results[0].killed;
     for text in ["ps_1_1\ntexkill t0\nmov r0, c0", "ps_1_4\ntexkill t0\nmov r0, c0"] {
         let profile = ideal("s3.12");
         assert!(!killed(text, &profile, [0.0, 1.0, 0.5, -1.0]), "w does not count");
@@ -281,7 +282,11 @@ fn reflections_depth_and_bumps_before_1_4() {
     assert_eq!(ran.results[0].depth, single(0.5f32.to_bits()));
     let ran = with_texture(depth, &fp32, &[t, [1.0, 0.0, 0.0, 0.0], z], none);
     assert_eq!(ran.results[0].depth, single(1.0f32.to_bits()), "a zero divisor gives 1.0");
-    let bump = BumpStage { matrix: bits([1.0, 0.0, 0.5, 0.0]), luminance_scale: bits([0.5; 4])[0], luminance_offset: bits([0.25; 4])[0] };
+    let bump = BumpStage {
+        matrix: bits([1.0, 0.0, 0.5, 0.0]),
+        luminance_scale: bits([0.5; 4])[0],
+        luminance_offset: bits([0.25; 4])[0],
+    };
     // u' = (0 + 1 * .25) + .5 * .5 = .5: texel 2.
     let start = [t, [0.0, 0.0, 0.0, 1.0]];
     let ran = with_texture("ps_1_1\ntex t0\ntexbem t1, t0\nmov r0, t1", &fp32, &start, bump);
@@ -289,7 +294,12 @@ fn reflections_depth_and_bumps_before_1_4() {
     // Brightness .75 * .5 + .25 = .625
     let ran = with_texture("ps_1_1\ntex t0\ntexbeml t1, t0\nmov r0, t1", &fp32, &start, bump);
     assert_eq!(f(ran.value(1)), [0.3125, 0.15625, 0.0, 0.46875]);
-    let ran = with_texture("ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nbem r1.rg, r1, r0\nphase\ntexld r2, r1\nmov r0, r2", &fp32, &start, bump);
+    let ran = with_texture(
+        "ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nbem r1.rg, r1, r0\nphase\ntexld r2, r1\nmov r0, r2",
+        &fp32,
+        &start,
+        bump,
+    );
     assert_eq!(f(ran.value(2))[..2], [0.5, 0.0], "bem");
     assert_eq!(f(ran.value(4)), [0.5, 0.25, 0.0, 0.75], "and the read that depends on it");
 }
@@ -298,7 +308,15 @@ fn reflections_depth_and_bumps_before_1_4() {
 fn addresses_are_not_rounded_to_the_register_format() {
     let image = {
         let values: Vec<[u32; 4]> = (0..8192).map(|i| bits([(i % 64) as f32, 0.0, 0.0, 0.0])).collect();
-        Image::from_values(TexelFormat::R32f, TextureKind::D2, [8192, 1, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+        Image::from_values(
+            TexelFormat::R32f,
+            TextureKind::D2,
+            [8192, 1, 1],
+            Format::FP32,
+            &values,
+            TargetRounding::Nearest,
+        )
+        .unwrap()
     };
     let constants = Constants::default();
     let mut bindings = PixelBindings::new(&constants);
@@ -330,7 +348,8 @@ fn derivatives_and_level_of_detail() {
         std::array::from_fn(|lane| input(&[[step * (lane & 1) as f32, step * (lane >> 1) as f32, 0.0, 1.0]]))
     };
     let fp32 = ideal("e8m23");
-    let level = |text: &str, step: f32| f32::from_bits(run_quad(text, &fp32, &bindings, &quad(step)).results[3].colors[0][0]);
+    let level =
+        |text: &str, step: f32| f32::from_bits(run_quad(text, &fp32, &bindings, &quad(step)).results[3].colors[0][0]);
     let plain = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0";
     assert_eq!((level(plain, 0.25), level(plain, 0.5), level(plain, 1.0)), (0.0, 1.0, 2.0));
     let gradients = "ps_2_a\ndcl t0\ndcl_2d s0\nmov r1, c0\nmov r2, c1\ntexldd r0, t0, s0, r1, r2\nmov oC0, r0";

@@ -25,7 +25,12 @@ fn screen(n: u32) -> Vec<Vertex> {
         colors: [bits([0.25, 0.5, 0.75, 1.0]); 2],
         ..Vertex::default()
     };
-    vec![corner(-1.0, 1.0, 0.0, 0.0), corner(1.0, 1.0, 1.0, 0.0), corner(1.0, -1.0, 1.0, 1.0), corner(-1.0, -1.0, 0.0, 1.0)]
+    vec![
+        corner(-1.0, 1.0, 0.0, 0.0),
+        corner(1.0, 1.0, 1.0, 0.0),
+        corner(1.0, -1.0, 1.0, 1.0),
+        corner(-1.0, -1.0, 0.0, 1.0),
+    ]
 }
 
 fn gradient(n: u32) -> Image {
@@ -43,10 +48,8 @@ const COLOUR: &str = "ps_1_4\nmov r0, v0";
 
 #[test]
 fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
-    let texts = [
-        ("r200", "ps_1_4\ntexld r0, t0"),
-        ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0"),
-    ];
+    let texts =
+        [("r200", "ps_1_4\ntexld r0, t0"), ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0")];
     for (device, text) in texts {
         let n = 40;
         let profile = Profile::named(device).unwrap();
@@ -96,7 +99,12 @@ fn random_quads(count: usize) -> Vec<Vertex> {
 }
 
 /// Draws quads with depth test and blending, all in one call or each in its own.
-fn draw_quads(machine: &mut Machine, program: &CheckedProgram, vertices: &[Vertex], at_once: bool) -> (Vec<u8>, Vec<u32>, DrawEvents) {
+fn draw_quads(
+    machine: &mut Machine,
+    program: &CheckedProgram,
+    vertices: &[Vertex],
+    at_once: bool,
+) -> (Vec<u8>, Vec<u32>, DrawEvents) {
     let host = Constants::default();
     let texture = machine.create_texture(gradient(16)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 50, 37).unwrap();
@@ -137,7 +145,8 @@ fn fifty_quads_at_once_are_fifty_draws() {
     let profile = Profile::named("r200").unwrap();
     let program = checked(TEXTURED, &profile);
     let vertices = random_quads(50);
-    let run = |at_once| draw_quads(&mut Machine::new(profile.clone(), ExecutorKind::Scalar), &program, &vertices, at_once);
+    let run =
+        |at_once| draw_quads(&mut Machine::new(profile.clone(), ExecutorKind::Scalar), &program, &vertices, at_once);
     let (together, apart) = (run(true), run(false));
     assert_eq!(together.0, apart.0, "colour");
     assert_eq!(together.1, apart.1, "depth");
@@ -152,7 +161,8 @@ fn the_crossbar_draws_instances_in_order() {
     let mut machine = Machine::new(profile, ExecutorKind::Scalar);
     let target = machine.create_target(TexelFormat::Rgba32f, 20, 20).unwrap();
     let depth = machine.create_depth(DepthFormat::Float32, 20, 20).unwrap();
-    let corners = [[-1.05, 1.05, 0.0, 1.0], [0.95, 1.05, 0.0, 1.0], [0.95, -0.95, 0.0, 1.0], [-1.05, -0.95, 0.0, 1.0]].map(bits);
+    let corners =
+        [[-1.05, 1.05, 0.0, 1.0], [0.95, 1.05, 0.0, 1.0], [0.95, -0.95, 0.0, 1.0], [-1.05, -0.95, 0.0, 1.0]].map(bits);
     // The depth goes down and up again; the nearest is instance 9000 of 12,000, and of equal ones the last drawn wins.
     let count = 12_000;
     let colors: Vec<[u32; 4]> = (0..count)
@@ -226,10 +236,12 @@ fn rendering_to_a_texture_and_reading_it() {
     let host = Constants::default();
     let source = || VertexSource::Transformed(&vertices);
     machine.draw(&DrawCall::new(source(), Primitive::QuadList, &fill, &host, a)).unwrap();
-    let second = DrawCall::new(source(), Primitive::QuadList, &copy, &host, b).with_texture(0, a, SamplerState::NEAREST_CLAMP);
+    let second =
+        DrawCall::new(source(), Primitive::QuadList, &copy, &host, b).with_texture(0, a, SamplerState::NEAREST_CLAMP);
     machine.draw(&second).unwrap();
     assert_eq!(machine.read_back(b).unwrap().raw(0, 0, 5, 5) as u32, 0.5f32.to_bits());
-    let lost = DrawCall::new(source(), Primitive::QuadList, &copy, &host, a).with_texture(0, a, SamplerState::NEAREST_CLAMP);
+    let lost =
+        DrawCall::new(source(), Primitive::QuadList, &copy, &host, a).with_texture(0, a, SamplerState::NEAREST_CLAMP);
     assert_eq!(machine.draw(&lost), Err(MachineError::FeedbackLoop { sampler: 0, target: 0 }));
 }
 
@@ -261,13 +273,23 @@ fn every_mistake_has_its_error() {
     check(&|c| c.primitive = Primitive::LineList, "LineList");
     check(&|c| c.viewport = Some(Viewport::new(0, 8)), "viewport");
     check(&|c| c.indices = Some(&[0, 1, 9]), "index 2 is 9");
-    check(&|c| c.samplers[3] = Some(refsim::machine::BoundTexture { texture: foreign, state: SamplerState::default() }), "does not hold");
+    check(
+        &|c| c.samplers[3] = Some(refsim::machine::BoundTexture { texture: foreign, state: SamplerState::default() }),
+        "does not hold",
+    );
 
     let bad = |e: MachineError| e.to_string();
     assert!(bad(machine.create_target(TexelFormat::Rgba32f, 8, 8).unwrap_err()).contains("(formats.target)"));
-    assert!(bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba16, 8, 8).unwrap()).unwrap_err()).contains("(formats.texture)"));
-    assert!(bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba8, 4096, 1).unwrap()).unwrap_err()).contains("max_texture_size"));
-    let swapped = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &vertex_program, &host, target);
+    assert!(
+        bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba16, 8, 8).unwrap()).unwrap_err())
+            .contains("(formats.texture)")
+    );
+    assert!(
+        bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba8, 4096, 1).unwrap()).unwrap_err())
+            .contains("max_texture_size")
+    );
+    let swapped =
+        DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &vertex_program, &host, target);
     assert!(bad(machine.draw(&swapped).unwrap_err()).contains("expected a Pixel program, found `vs_1_1`"));
     let data = [[0; 4]; 3];
     for (streams, expected) in [
@@ -275,10 +297,12 @@ fn every_mistake_has_its_error() {
         (vec![(16, StepRate::Instance)], "found v16"),
         (vec![(1, StepRate::Instance), (1, StepRate::Instance)], "two streams feed v1"),
     ] {
-        let streams = streams.into_iter().map(|(register, step)| AttributeStream { register, step, data: &data }).collect();
+        let streams =
+            streams.into_iter().map(|(register, step)| AttributeStream { register, step, data: &data }).collect();
         let streams = VertexStreams { vertex_count: 4, instance_count: 2, streams };
         let source = VertexSource::Program { program: &vertex_program, constants: &host, streams };
-        let message = bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
+        let message =
+            bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
         assert!(message.contains(expected), "expected `{expected}` in `{message}`");
     }
     let streams = VertexStreams { vertex_count: 0, instance_count: usize::MAX, streams: Vec::new() };

@@ -26,7 +26,8 @@ impl SamplerBinding<'_> {
     /// Whether every read takes the nearest texel of level 0, so that [`crate::texture::fetch_nearest`] serves.
     pub fn is_plain(&self) -> bool {
         let nearest = self.state.min == Filter::Nearest && self.state.mag == Filter::Nearest;
-        let single = self.image.levels().len() == 1 || (self.state.mip == MipFilter::None && self.state.max_mip_level == 0);
+        let single =
+            self.image.levels().len() == 1 || (self.state.mip == MipFilter::None && self.state.max_mip_level == 0);
         nearest && single
     }
 }
@@ -56,10 +57,6 @@ pub struct PixelBindings<'a> {
 impl<'a> PixelBindings<'a> {
     /// Constants alone: no textures, no bump state.
     pub fn new(constants: &'a Constants) -> Self {
-        Self {
-            constants,
-            samplers: [None; SAMPLERS],
-            bump: [BumpStage::default(); BUMP_STAGES],
-        }
+        Self { constants, samplers: [None; SAMPLERS], bump: [BumpStage::default(); BUMP_STAGES] }
     }
 }

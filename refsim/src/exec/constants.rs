@@ -50,19 +50,12 @@ impl ResolvedConstants {
 
     /// The constants of a vertex program, converted into the vertex format.
     pub fn vertex(program: &Program, rules: &Rules, host: &Constants) -> Self {
-        Self::resolve(program, host, |bits| {
-            num::ops::convert(&Format::FP32, rules.vertex_format, bits).bits
-        })
+        Self::resolve(program, host, |bits| num::ops::convert(&Format::FP32, rules.vertex_format, bits).bits)
     }
 
     fn resolve(program: &Program, host: &Constants, convert: impl Fn(u32) -> u32) -> Self {
         let mut out = Self {
-            float: host
-                .float
-                .iter()
-                .take(FLOAT_CONSTANTS)
-                .map(|c| c.map(&convert))
-                .collect(),
+            float: host.float.iter().take(FLOAT_CONSTANTS).map(|c| c.map(&convert)).collect(),
             int: [[0; 4]; FLOW_CONSTANTS],
             boolean: [false; FLOW_CONSTANTS],
         };
@@ -103,11 +96,7 @@ impl ResolvedConstants {
 /// A single precision pattern clamped to [-1, 1]; NaN stays.
 fn clamped_to_one(bits: u32) -> u32 {
     let magnitude = bits & 0x7fff_ffff;
-    if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 {
-        (bits & 0x8000_0000) | FP32_ONE
-    } else {
-        bits
-    }
+    if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 { (bits & 0x8000_0000) | FP32_ONE } else { bits }
 }
 
 /// A single precision pattern stored as sign and 8-bit magnitude `k / 255`, k to the nearest with halves away from

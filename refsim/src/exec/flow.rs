@@ -44,25 +44,15 @@ impl FlowMap {
                     let label = instruction.sources.first().map(|s| s.register.index);
                     targets[at] = code
                         .iter()
-                        .position(|i| {
-                            i.opcode == Opcode::Label
-                                && i.sources.first().map(|s| s.register.index) == label
-                        })
+                        .position(|i| i.opcode == Opcode::Label && i.sources.first().map(|s| s.register.index) == label)
                         .unwrap_or(end);
                 }
                 _ => {}
             }
         }
         let coissued = code.iter().map(|i| i.coissue).collect();
-        let main_end = code
-            .iter()
-            .position(|i| i.opcode == Opcode::Label)
-            .unwrap_or(end);
-        Self {
-            targets,
-            coissued,
-            main_end,
-        }
+        let main_end = code.iter().position(|i| i.opcode == Opcode::Label).unwrap_or(end);
+        Self { targets, coissued, main_end }
     }
 
     /// Where instruction `at` leads: from `if` to its `else` or `endif`, from `else` to its `endif`, from `rep` and

@@ -44,9 +44,5 @@ pub trait TileExecutor: Send + Sync {
 
 /// What a device says about targets, out of its rules.
 pub fn output_rules(rules: &Rules) -> OutputRules {
-    OutputRules {
-        format: rules.format,
-        target_rounding: rules.target_rounding,
-        depth_rounding: rules.depth_rounding,
-    }
+    OutputRules { format: rules.format, target_rounding: rules.target_rounding, depth_rounding: rules.depth_rounding }
 }

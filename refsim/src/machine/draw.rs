@@ -152,11 +152,6 @@ impl<'a> DrawCall<'a> {
 
     /// The state of the output stage.
     pub(super) fn output_state(&self) -> OutputState {
-        OutputState {
-            alpha: self.alpha_test,
-            depth: self.depth,
-            blend: self.blend,
-            masks: self.masks,
-        }
+        OutputState { alpha: self.alpha_test, depth: self.depth, blend: self.blend, masks: self.masks }
     }
 }

@@ -86,7 +86,9 @@ pub enum MachineError {
     #[error("the draw tests or writes depth but has no depth buffer; bind one or turn both off")]
     NoDepthBuffer,
     /// A texture is read and written by one draw.
-    #[error("sampler {sampler} reads the texture that is target {target} of the same draw; draw into another texture and swap")]
+    #[error(
+        "sampler {sampler} reads the texture that is target {target} of the same draw; draw into another texture and swap"
+    )]
     FeedbackLoop {
         /// The sampler.
         sampler: usize,
@@ -102,7 +104,9 @@ pub enum MachineError {
         found: Version,
     },
     /// A linear filter on a float texture.
-    #[error("sampler {sampler} filters a {format} texture, which `{device}` cannot (limits.float_filtering); use nearest filters")]
+    #[error(
+        "sampler {sampler} filters a {format} texture, which `{device}` cannot (limits.float_filtering); use nearest filters"
+    )]
     FloatFilter {
         /// The sampler.
         sampler: usize,
@@ -122,7 +126,9 @@ pub enum MachineError {
         device: String,
     },
     /// Blending into a float target.
-    #[error("target {target} is {format} and blended, which `{device}` cannot (limits.float_blending); turn blending off")]
+    #[error(
+        "target {target} is {format} and blended, which `{device}` cannot (limits.float_blending); turn blending off"
+    )]
     FloatBlend {
         /// The target.
         target: usize,

@@ -49,12 +49,7 @@ pub struct Machine {
 impl Machine {
     /// A machine with empty memory, on the global worker threads.
     pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self {
-            profile,
-            executor,
-            pool: None,
-            memory: Memory::default(),
-        }
+        Self { profile, executor, pool: None, memory: Memory::default() }
     }
 
     /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.

@@ -62,22 +62,24 @@ impl<'a> VertexStage<'a> {
     }
 
     /// [`Self::run`] for a batch program, some 256 vertices to a worker.
-    fn run_batch(program: &BatchVertices, streams: &VertexStreams<'_>, first: usize, count: usize, plan: &Plan) -> Batch {
+    fn run_batch(
+        program: &BatchVertices,
+        streams: &VertexStreams<'_>,
+        first: usize,
+        count: usize,
+        plan: &Plan,
+    ) -> Batch {
         let total = count * plan.vertex_count;
         let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let range = chunk * SETUP_CHUNK..((chunk + 1) * SETUP_CHUNK).min(total);
-                let inputs: Vec<_> = range
-                    .map(|i| attributes(streams, first + i / plan.vertex_count, i % plan.vertex_count))
-                    .collect();
+                let inputs: Vec<_> =
+                    range.map(|i| attributes(streams, first + i / plan.vertex_count, i % plan.vertex_count)).collect();
                 program.run(&inputs)
             })
             .collect();
-        Batch {
-            slots: parts.iter().map(|p| p.1).sum(),
-            vertices: parts.into_iter().flat_map(|p| p.0).collect(),
-        }
+        Batch { slots: parts.iter().map(|p| p.1).sum(), vertices: parts.into_iter().flat_map(|p| p.0).collect() }
     }
 
     /// Bytes that one vertex reads, and bytes that one instance reads once.
@@ -114,10 +116,8 @@ pub(super) fn set_up(
     plan: &Plan,
     profile: &Profile,
 ) -> (Vec<TriangleSetup>, PrimitiveCounts) {
-    let rules = RasterRules {
-        subpixel_bits: profile.rules.subpixel_bits,
-        iterator_format: profile.rules.iterator_format,
-    };
+    let rules =
+        RasterRules { subpixel_bits: profile.rules.subpixel_bits, iterator_format: profile.rules.iterator_format };
     let each = plan.triangles.len();
     let total = each * instances;
     let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))

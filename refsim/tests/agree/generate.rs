@@ -44,7 +44,9 @@ fn ps_1(version: Version, r: &mut Random, lines: &mut Vec<String>) {
             5 if r.one_in(2) => lines.push(format!("texkill t{n}")),
             6 if n > 0 => lines.push(format!("{} t{n}, t{before}", r.pick(&["texbem", "texbeml"]))),
             7 if n > 0 => lines.push(format!("{} t{n}, t{before}", r.pick(&["texreg2ar", "texreg2gb"]))),
-            8 if n > 0 && later => lines.push(format!("{} t{n}, t{before}", r.pick(&["texreg2rgb", "texdp3", "texdp3tex"]))),
+            8 if n > 0 && later => {
+                lines.push(format!("{} t{n}, t{before}", r.pick(&["texreg2rgb", "texdp3", "texdp3tex"])))
+            }
             9 | 10 if n == 1 || n == 2 => {
                 let last = if version == Version::Ps1_3 && r.one_in(2) { "texm3x2depth" } else { "texm3x2tex" };
                 lines.push(format!("texm3x2pad t{n}, t{before}{scaled}"));
@@ -172,7 +174,11 @@ fn ps_1_4(r: &mut Random, lines: &mut Vec<String>) {
         lines.push("texdepth r5".to_owned());
     }
     if r.one_in(4) {
-        lines.push(if two && r.one_in(2) { format!("texkill r{}", r.below(5)) } else { format!("texkill t{}", r.below(6)) });
+        lines.push(if two && r.one_in(2) {
+            format!("texkill r{}", r.below(5))
+        } else {
+            format!("texkill t{}", r.below(6))
+        });
     }
     lines.push(format!("mov r0, {}", r.pick(&["v0", "r0", "r1", "c0", "1-v1"])));
     for _ in 0..r.below(7) {
@@ -341,7 +347,13 @@ fn ps_2_block(version: Version, r: &mut Random, lines: &mut Vec<String>, depth: 
                     _ => format!("callnz l0, {}p0.{}", r.pick(&["", "!"]), component(r)),
                 });
             }
-            3 => lines.push(format!("setp_{} p0{}, r{}, r{}", comparison(r), r.pick(&["", ".x", ".yz"]), r.below(TEMPS), r.below(TEMPS))),
+            3 => lines.push(format!(
+                "setp_{} p0{}, r{}, r{}",
+                comparison(r),
+                r.pick(&["", ".x", ".yz"]),
+                r.below(TEMPS),
+                r.below(TEMPS)
+            )),
             _ => ps_2_instruction(version, r, lines, depth > 0),
         }
     }

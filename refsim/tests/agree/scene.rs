@@ -2,20 +2,54 @@
 
 use crate::random::Random;
 use refsim::check;
-use refsim::device::{ConstantStorage, ColorIterator, LrpMode, MadMode, Profile, TexcrdOverflow, TexdepthDenominator, TexkillComponents};
+use refsim::device::{
+    ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+};
 use refsim::event::DrawEvents;
 use refsim::exec::{BumpStage, CheckedProgram, Constants};
 use refsim::isa::{Program, Version};
-use refsim::machine::{AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams};
+use refsim::machine::{
+    AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams,
+};
 use refsim::num::{DotOrder, Format};
-use refsim::output::{AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
+use refsim::output::{
+    AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
+};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, SignedTexelMinimum, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{
+    AddressMode, Filter, Image, MipFilter, SamplerState, SignedTexelMinimum, TargetRounding, TexelFormat, TextureKind,
+};
 
 /// Formats that the proofs go through.
 pub(crate) const FORMATS: &[&str] = &[
-    "s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:wrap", "s3.12:rdn:wrap", "s1.10", "s0.8", "s7.8", "s7.16", "s15.16:rtz", "fp16", "fp16:rtz", "fp16:ftz:nvovf:nv",
-    "fp16:sat", "fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp32", "fp32:ftz", "fp32:rtz", "fp32:nv:nvovf", "bf16", "e3m4", "e8m10", "e8m10:rna", "e5m2",
+    "s3.12",
+    "s3.12:rna",
+    "s3.12:rtz",
+    "s3.12:rdn",
+    "s3.12:wrap",
+    "s3.12:rdn:wrap",
+    "s1.10",
+    "s0.8",
+    "s7.8",
+    "s7.16",
+    "s15.16:rtz",
+    "fp16",
+    "fp16:rtz",
+    "fp16:ftz:nvovf:nv",
+    "fp16:sat",
+    "fp24",
+    "fp24:ftz",
+    "fp24:rtz",
+    "fp24:rdn:sat",
+    "fp32",
+    "fp32:ftz",
+    "fp32:rtz",
+    "fp32:nv:nvovf",
+    "bf16",
+    "e3m4",
+    "e8m10",
+    "e8m10:rna",
+    "e5m2",
 ];
 
 /// Everything about a draw that isn't the program.
@@ -60,7 +94,8 @@ pub(crate) fn profile(format: &str, r: &mut Random) -> Profile {
     if r.one_in(6) {
         rules.iterator_format = parse(r.pick(&["fp24", "s7.16", "fp16"]));
     }
-    rules.color_iterator = r.choose(&[ColorIterator::Full, ColorIterator::Unorm(8), ColorIterator::Unorm(12), ColorIterator::Unorm(1)]);
+    rules.color_iterator =
+        r.choose(&[ColorIterator::Full, ColorIterator::Unorm(8), ColorIterator::Unorm(12), ColorIterator::Unorm(1)]);
     rules.constant_storage = r.choose(ConstantStorage::ALL);
     rules.mad = r.choose(MadMode::ALL);
     rules.dot = r.choose(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
@@ -99,7 +134,8 @@ fn image(kind: TextureKind, r: &mut Random) -> Image {
 }
 
 fn sampler(r: &mut Random) -> SamplerState {
-    let mode = |r: &mut Random| r.choose(&[AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border]);
+    let mode =
+        |r: &mut Random| r.choose(&[AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border]);
     let filter = |r: &mut Random| r.choose(&[Filter::Nearest, Filter::Nearest, Filter::Nearest, Filter::Linear]);
     SamplerState {
         min: filter(r),
@@ -185,15 +221,27 @@ impl Scene {
                 (3, TextureKind::Cube),
                 (4, TextureKind::Volume),
             ],
-            _ => &[(0, TextureKind::D2), (1, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::D2), (4, TextureKind::Rectangle), (5, TextureKind::D1)],
+            _ => &[
+                (0, TextureKind::D2),
+                (1, TextureKind::D2),
+                (2, TextureKind::Cube),
+                (3, TextureKind::D2),
+                (4, TextureKind::Rectangle),
+                (5, TextureKind::D1),
+            ],
         };
         let mut textures = Vec::new();
         for &(slot, kind) in kinds {
             if !r.one_in(6) {
-                textures.push((slot, image(kind, r), if r.one_in(3) { SamplerState::NEAREST_CLAMP } else { sampler(r) }));
+                textures.push((
+                    slot,
+                    image(kind, r),
+                    if r.one_in(3) { SamplerState::NEAREST_CLAMP } else { sampler(r) },
+                ));
             }
         }
-        let targets = [TexelFormat::Rgba32f, r.choose(TexelFormat::ALL), r.choose(TexelFormat::ALL), TexelFormat::Rgba16f];
+        let targets =
+            [TexelFormat::Rgba32f, r.choose(TexelFormat::ALL), r.choose(TexelFormat::ALL), TexelFormat::Rgba16f];
         let count = if version.is_ps_1_x() { 1 } else { 1 + r.below(4) };
         Self {
             profile,
@@ -202,14 +250,21 @@ impl Scene {
             pixel_constants: constants(r),
             vertex_constants: constants(r),
             textures,
-            bump: std::array::from_fn(|_| BumpStage { matrix: r.vector(), luminance_scale: r.number(), luminance_offset: r.number() }),
+            bump: std::array::from_fn(|_| BumpStage {
+                matrix: r.vector(),
+                luminance_scale: r.number(),
+                luminance_offset: r.number(),
+            }),
             attributes: Vec::new(),
             instances: 1,
             vertices,
             primitive,
             targets: targets[..count].to_vec(),
             depth: (!r.one_in(3)).then(|| r.choose(DepthFormat::ALL)),
-            depth_state: DepthState { test: (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL)), write: r.one_in(2) },
+            depth_state: DepthState {
+                test: (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL)),
+                write: r.one_in(2),
+            },
             alpha: r.one_in(3).then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
             blend: r.one_in(4).then(|| blend(r)),
             masks: std::array::from_fn(|_| if r.one_in(4) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }),
@@ -277,7 +332,8 @@ impl Scene {
             None => None,
         };
         call.depth = if call.depth_buffer.is_some() { self.depth_state } else { DepthState::default() };
-        (call.bump, call.alpha_test, call.blend, call.masks, call.center) = (self.bump, self.alpha, self.blend, self.masks, self.center);
+        (call.bump, call.alpha_test, call.blend, call.masks, call.center) =
+            (self.bump, self.alpha, self.blend, self.masks, self.center);
         let events = machine.draw(&call)?;
         let mut outcome = Outcome { targets: Vec::new(), depth: Vec::new(), events };
         for target in targets {
@@ -298,7 +354,11 @@ impl Scene {
                 let range = at * size..(at + 1) * size;
                 return format!(
                     "target {i} ({}) at ({x}, {y}) of {}x{}: scalar {:02x?}, batch {:02x?}",
-                    self.targets[i], self.width, self.height, &a[range.clone()], &b[range]
+                    self.targets[i],
+                    self.width,
+                    self.height,
+                    &a[range.clone()],
+                    &b[range]
                 );
             }
         }

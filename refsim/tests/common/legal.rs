@@ -125,8 +125,17 @@ fn operand_1_4(c: &mut Choices<'_>, last: bool) -> String {
         0 => format!("c0{selector}"),
         1 if last => format!("v{}{selector}", c.below(2)),
         _ => {
-            let (before, after) =
-                c.pick(&[("", ""), ("", ""), ("-", ""), ("1-", ""), ("", "_bias"), ("-", "_bx2"), ("", "_bx2"), ("", "_x2"), ("-", "_x2")]);
+            let (before, after) = c.pick(&[
+                ("", ""),
+                ("", ""),
+                ("-", ""),
+                ("1-", ""),
+                ("", "_bias"),
+                ("-", "_bx2"),
+                ("", "_bx2"),
+                ("", "_x2"),
+                ("-", "_x2"),
+            ]);
             let r = c.below(3);
             format!("{before}r{r}{after}{selector}")
         }
@@ -219,10 +228,23 @@ fn arithmetic_2(text: &mut String, c: &mut Choices<'_>, version: Version) {
         6 => writeln!(text, "dp2add{hint}{sat} r{d}{mask}, {}, {}, r{}.x", source(c), source(c), c.below(4)),
         7 => writeln!(text, "pow{hint}{sat} r{d}{mask}, {}, {}", scalar(c), scalar(c)),
         8 => writeln!(text, "sincos{hint} r{d}.xy, r{}.x, c6, c7", (d + 1) % 4),
-        9 if version == Version::Ps2A => writeln!(text, "{}{hint}{sat} r{d}{mask}, r{}", c.pick(&["dsx", "dsy"]), c.below(4)),
+        9 if version == Version::Ps2A => {
+            writeln!(text, "{}{hint}{sat} r{d}{mask}, r{}", c.pick(&["dsx", "dsy"]), c.below(4))
+        }
         10 => writeln!(text, "texld{} r{d}, {}, s0", hint, c.pick(&["t0", "t1", "r0"])),
         _ => {
-            let table = [("mov", 1), ("abs", 1), ("add", 2), ("sub", 2), ("mul", 2), ("min", 2), ("max", 2), ("mad", 3), ("cmp", 3), ("lrp", 3)];
+            let table = [
+                ("mov", 1),
+                ("abs", 1),
+                ("add", 2),
+                ("sub", 2),
+                ("mul", 2),
+                ("min", 2),
+                ("max", 2),
+                ("mad", 3),
+                ("cmp", 3),
+                ("lrp", 3),
+            ];
             let (op, count) = c.pick(&table);
             let list: Vec<String> = (0..count).map(|_| source(c)).collect();
             let d = if op == "lrp" { 3 } else { d };
@@ -294,20 +316,37 @@ fn vs(version: Version, c: &mut Choices<'_>) -> String {
     for _ in 0..c.below(10) {
         let d = c.below(3);
         let mask = c.pick(&MASKS);
-        let sources: Vec<String> = (0..3)
-            .map(|_| format!("{}r{}{}", c.pick(&["", "", "-"]), c.below(3), c.pick(&SWIZZLES)))
-            .collect();
+        let sources: Vec<String> =
+            (0..3).map(|_| format!("{}r{}{}", c.pick(&["", "", "-"]), c.below(3), c.pick(&SWIZZLES))).collect();
         match c.below(8) {
-            0 => writeln!(text, "{} r{d}{mask}, r{}.{}", c.pick(&["rcp", "rsq", "exp", "log"]), c.below(3), c.pick(&["x", "w"])),
+            0 => writeln!(
+                text,
+                "{} r{d}{mask}, r{}.{}",
+                c.pick(&["rcp", "rsq", "exp", "log"]),
+                c.below(3),
+                c.pick(&["x", "w"])
+            ),
             1 => writeln!(text, "add r{d}{mask}, r0, c[a0.x + {}]", c.below(4)),
-            2 => writeln!(text, "{} r{d}, r{}, r{}", c.pick(&["dst", "sge", "slt", "dp3", "dp4"]), c.below(3), c.below(3)),
+            2 => writeln!(
+                text,
+                "{} r{d}, r{}, r{}",
+                c.pick(&["dst", "sge", "slt", "dp3", "dp4"]),
+                c.below(3),
+                c.below(3)
+            ),
             3 => writeln!(text, "lit r{d}, r{}", (d + 1) % 3),
             4 => writeln!(text, "m4x4 r{d}, r{}, c0", (d + 1) % 3),
             5 if two => writeln!(text, "loop aL, i0\nadd r{d}, r{d}, c[aL]\nendloop"),
             6 if two => writeln!(text, "if b0\nmul r{d}, r0, r1\nelse\nmov r{d}, c1\nendif"),
             5 => writeln!(text, "{} r{d}, r{}.w", c.pick(&["expp", "logp"]), c.below(3)),
             6 => writeln!(text, "mad r{d}{mask}, {}, {}, {}", sources[0], sources[1], sources[2]),
-            _ => writeln!(text, "{} r{d}{mask}, {}, {}", c.pick(&["add", "sub", "mul", "min", "max"]), sources[0], sources[1]),
+            _ => writeln!(
+                text,
+                "{} r{d}{mask}, {}, {}",
+                c.pick(&["add", "sub", "mul", "min", "max"]),
+                sources[0],
+                sources[1]
+            ),
         }
         .unwrap();
     }

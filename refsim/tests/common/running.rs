@@ -56,7 +56,12 @@ impl Ran {
 }
 
 /// Runs a pixel program on a quad of inputs.
-pub(crate) fn run_quad(text: &str, profile: &Profile, bindings: &PixelBindings<'_>, inputs: &[FragmentInput; 4]) -> Ran {
+pub(crate) fn run_quad(
+    text: &str,
+    profile: &Profile,
+    bindings: &PixelBindings<'_>,
+    inputs: &[FragmentInput; 4],
+) -> Ran {
     let program = checked(text, profile);
     run_program(&program, &profile.rules, bindings, inputs)
 }

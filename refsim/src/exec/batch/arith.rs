@@ -144,7 +144,8 @@ impl<'a> Maker<'a> {
             DotOrder::Tree => {
                 let mut level: Vec<Node> = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
                 while level.len() > 1 {
-                    level = level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
+                    level =
+                        level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
                 }
                 level[0]
             }

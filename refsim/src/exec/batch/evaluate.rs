@@ -97,8 +97,20 @@ fn apply<L: Lane>(lane: &L, operation: LaneOperation, a: &[L::T], b: &[L::T], c:
             Op::Abs => lane.abs(a),
             Op::Scale(shift) => lane.scale(a, i32::from(shift)),
             Op::Saturate => lane.saturate(a),
-            Op::Cmp => if lane.le(zero, a) { b } else { c },
-            Op::Cnd => if lane.above_half(a) { b } else { c },
+            Op::Cmp => {
+                if lane.le(zero, a) {
+                    b
+                } else {
+                    c
+                }
+            }
+            Op::Cnd => {
+                if lane.above_half(a) {
+                    b
+                } else {
+                    c
+                }
+            }
             Op::Lt => return u32::from(lane.lt(a, b)),
             Op::Le => return u32::from(lane.le(a, b)),
             Op::Eq => return u32::from(lane.eq(a, b)),

@@ -11,9 +11,11 @@ use super::odd;
 use super::schedule::{FetchDetail, FetchStep};
 use super::slots::{Row, Slots};
 use crate::exec::SamplerBinding;
-use crate::num::ops;
 use crate::num::Format;
-use crate::texture::{AddressMode, ChannelValue, Lod, SampleRules, Texel, TextureKind, fetch_nearest, lod_from_derivatives, sample};
+use crate::num::ops;
+use crate::texture::{
+    AddressMode, ChannelValue, Lod, SampleRules, Texel, TextureKind, fetch_nearest, lod_from_derivatives, sample,
+};
 
 /// Texels of the largest image that gets a table: 4 MiB of it.
 const LARGEST_TABLE: usize = 1 << 18;
@@ -85,7 +87,8 @@ impl<'a> BatchTexture<'a> {
                         FetchDetail::Gradients(x, y) => (vector(slots, x, lane), vector(slots, y, lane)),
                         _ => (across(1), across(16)),
                     };
-                    let level = lod_from_derivatives(self.binding.image, coordinates, ddx, ddy, self.rules.lod_fraction_bits);
+                    let level =
+                        lod_from_derivatives(self.binding.image, coordinates, ddx, ddy, self.rules.lod_fraction_bits);
                     Lod::Level(match step.detail {
                         FetchDetail::Biased(bias) => {
                             ops::add(Format::FP32, level, single.encode(slots.row(bias)[lane])).bits
@@ -183,7 +186,13 @@ fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i
                 let above = if position > 0.0 { position } else { 0.0 };
                 if above < n - 1.0 { above } else { n - 1.0 }
             }
-            AddressMode::Border => if (position >= 0.0) & (position < n) { position } else { -1.0 },
+            AddressMode::Border => {
+                if (position >= 0.0) & (position < n) {
+                    position
+                } else {
+                    -1.0
+                }
+            }
         };
         out[i] = index as i32;
     }
@@ -196,7 +205,9 @@ fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
     }
     texel.0.map(|channel| match channel {
         // Both below 2^24: one division, rounded to odd.
-        ChannelValue::Ratio { numerator, denominator } if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 => {
+        ChannelValue::Ratio { numerator, denominator }
+            if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 =>
+        {
             let x = odd::div_odd(numerator as f64, f64::from(denominator));
             with_any_lane!(lane, |lane| { rounded(lane, x) })
         }

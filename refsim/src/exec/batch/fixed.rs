@@ -111,11 +111,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
 
     #[inline(always)]
     fn fit64(&self, v: i64) -> i32 {
-        if self.wraps() {
-            self.residue(v as i32)
-        } else {
-            v.max(i64::from(self.low)).min(i64::from(self.high)) as i32
-        }
+        if self.wraps() { self.residue(v as i32) } else { v.max(i64::from(self.low)).min(i64::from(self.high)) as i32 }
     }
 
     fn fit128(&self, v: i128) -> i32 {

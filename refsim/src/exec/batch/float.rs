@@ -131,11 +131,29 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         let unit = scale * self.unit;
         let kept = match self.rounding() {
             0 => near,
-            1 => if mag - near == 0.5 * unit { near + unit } else { near },
-            2 => if near > mag { near - unit } else { near },
+            1 => {
+                if mag - near == 0.5 * unit {
+                    near + unit
+                } else {
+                    near
+                }
+            }
+            2 => {
+                if near > mag {
+                    near - unit
+                } else {
+                    near
+                }
+            }
             _ => {
                 let (up, down) = (negative & (near < mag), !negative & (near > mag));
-                if up { near + unit } else if down { near - unit } else { near }
+                if up {
+                    near + unit
+                } else if down {
+                    near - unit
+                } else {
+                    near
+                }
             }
         };
         let kept = if kept < self.flush { 0.0 } else { kept };
@@ -327,7 +345,13 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let regular = (mag > 0.0) & (mag < f64::INFINITY);
         let root = self.narrow(odd::rsq_odd(if regular { mag } else { 1.0 }));
         let zero = self.pole(self.nv & a.is_sign_negative());
-        let special = if mag == 0.0 { zero } else if mag > 0.0 { 0.0 } else { f32::NAN };
+        let special = if mag == 0.0 {
+            zero
+        } else if mag > 0.0 {
+            0.0
+        } else {
+            f32::NAN
+        };
         let value = if regular { root } else { special };
         if self.nv & (a < 0.0) { f32::NAN } else { value }
     }

@@ -39,7 +39,8 @@ impl Maker<'_> {
             Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
             Opcode::Expp => {
                 let floor = self.unary(k, Code::Floor, a[3]);
-                let [x, y, z] = [(Code::Exp2, floor), (Code::Frc, a[3]), (Code::Exp2, a[3])].map(|(code, n)| self.unary(k, code, n));
+                let [x, y, z] = [(Code::Exp2, floor), (Code::Frc, a[3]), (Code::Exp2, a[3])]
+                    .map(|(code, n)| self.unary(k, code, n));
                 [x, y, z, self.one(k)]
             }
             Opcode::Logp => self.logp(k, a[3]),

@@ -86,7 +86,13 @@ pub(crate) fn rsq_odd(a: f64) -> f64 {
     let l = square - h;
     let (p, q) = (1.0 - h * a, l * a);
     // The exact remainder 1 - y^2 a; a comparison only, so that no rounding can spoil its sign.
-    let e = if p > q { 1.0 } else if p < q { -1.0 } else { 0.0 };
+    let e = if p > q {
+        1.0
+    } else if p < q {
+        -1.0
+    } else {
+        0.0
+    };
     odd(y, e)
 }
 

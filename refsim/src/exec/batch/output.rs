@@ -7,7 +7,10 @@ use super::lanes::{AnyLane, with_any_lane};
 use super::slots::{Row, Slot, Slots, TRUE};
 use crate::event::FragmentCounts;
 use crate::num::{Format, Kind, ops};
-use crate::output::{AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
+use crate::output::{
+    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentFate, FragmentOutput, OutputRules, OutputState,
+    TargetTile, merge,
+};
 use crate::texture::TargetRounding;
 
 /// Where the results of a program lie.
@@ -77,7 +80,16 @@ impl Output {
 
     /// Depths as the depth buffer stores them, for the lanes still alive.
     #[expect(clippy::too_many_arguments, reason = "rows in, rows out")]
-    fn quantised(&self, results: &Results, formats: &Formats, slots: &Slots, depth: &Row, alive: &Row, tile: &TargetTile, out: &mut Row) {
+    fn quantised(
+        &self,
+        results: &Results,
+        formats: &Formats,
+        slots: &Slots,
+        depth: &Row,
+        alive: &Row,
+        tile: &TargetTile,
+        out: &mut Row,
+    ) {
         let Some(buffer) = &tile.depth else { return };
         let rounding = self.rules.depth_rounding;
         let single = formats.lane(Arith::Single);
@@ -101,7 +113,14 @@ impl Output {
         }
     }
 
-    fn depth_test(&self, function: CompareFunction, new: &Row, alive: &mut Row, origin: (u32, u32), tile: &mut TargetTile) -> u64 {
+    fn depth_test(
+        &self,
+        function: CompareFunction,
+        new: &Row,
+        alive: &mut Row,
+        origin: (u32, u32),
+        tile: &mut TargetTile,
+    ) -> u64 {
         let region = tile.region;
         let Some(buffer) = &mut tile.depth else { return 0 };
         let mut failed = 0;
@@ -161,7 +180,15 @@ fn compare<L: Lane>(lane: &L, row: &Row, reference: u32, function: CompareFuncti
 ///
 /// In doubles: a value of at most 24 significant bits times 2^24 - 1 is exact, and so is adding the half where that
 /// decides anything. Wider values and the other depth formats go through the output room.
-fn quantise(lane: &AnyLane, format: Format, depth: DepthFormat, rounding: TargetRounding, row: &Row, alive: &Row, out: &mut Row) {
+fn quantise(
+    lane: &AnyLane,
+    format: Format,
+    depth: DepthFormat,
+    rounding: TargetRounding,
+    row: &Row,
+    alive: &Row,
+    out: &mut Row,
+) {
     let narrow = match format.kind {
         Kind::Fixed { .. } => format.width() <= 24,
         Kind::Float { .. } => true,

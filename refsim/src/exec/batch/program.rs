@@ -40,12 +40,21 @@ pub(crate) struct StraightPlan {
 
 /// Whether a program needs lane masks and registers that are kept.
 pub(crate) fn has_flow(program: &Program) -> bool {
-    program.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow || i.predicate.is_some() || i.opcode == Opcode::Setp)
+    program
+        .instructions
+        .iter()
+        .any(|i| i.opcode.info().class == OpcodeClass::Flow || i.predicate.is_some() || i.opcode == Opcode::Setp)
 }
 
 impl StraightProgram {
     /// Decodes a program.
-    pub(crate) fn new(program: &Program, rules: &Rules, formats: &Formats, constants: &ResolvedConstants, bindings: &PixelBindings<'_>) -> Self {
+    pub(crate) fn new(
+        program: &Program,
+        rules: &Rules,
+        formats: &Formats,
+        constants: &ResolvedConstants,
+        bindings: &PixelBindings<'_>,
+    ) -> Self {
         let mut t = Translator::new(program, rules, formats.clone(), constants, Some(bindings));
         let mut killed: Option<Node> = None;
         let mut depth: Option<(Arith, Node)> = None;
@@ -79,7 +88,8 @@ impl StraightProgram {
     /// Schedules the program for triangles whose components in `constant` are constant.
     pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
         let uniform = self.graph.uniform(|component| constant.has(component.into()));
-        let roots: Vec<Node> = self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect();
+        let roots: Vec<Node> =
+            self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect();
         let live = self.graph.live(roots.iter().copied());
         // Given to the varying block: uniform values that something varying, or the output, reads.
         let is_constant = |n: Node| matches!(self.graph.kind(n), Kind::Constant(_));

@@ -49,7 +49,10 @@ fn cover_lanes(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out
 pub(crate) fn quads(covered: &Row, out: &mut Row) {
     for i in 0..LANES {
         let (row, column) = (i & !16, i & !1);
-        out[i] = covered[row & column] | covered[(row & column) | 1] | covered[(row & column) | 16] | covered[(row & column) | 17];
+        out[i] = covered[row & column]
+            | covered[(row & column) | 1]
+            | covered[(row & column) | 16]
+            | covered[(row & column) | 17];
     }
 }
 
@@ -106,7 +109,9 @@ impl TileWeights {
             along(plane, &self.perspective, out);
         } else {
             for (i, slot) in out.iter_mut().enumerate() {
-                let at = |rows: &[[f32; LANES]; 2]| [single.encode(rows[0][i].to_bits()), single.encode(rows[1][i].to_bits())];
+                let at = |rows: &[[f32; LANES]; 2]| {
+                    [single.encode(rows[0][i].to_bits()), single.encode(rows[1][i].to_bits())]
+                };
                 let weights = Weights { linear: at(&self.linear), perspective: at(&self.perspective) };
                 *slot = single.decode(setup.component_at(component, &weights));
             }

@@ -186,7 +186,8 @@ impl Scheduler<'_> {
         let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
         graph.kind(node).needs(|n| {
             let kept = matches!(graph.kind(n), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
-            if !kept && last_use.get(&n) == Some(&node.0)
+            if !kept
+                && last_use.get(&n) == Some(&node.0)
                 && let Some(&slot) = place.get(&n)
                 && !done.contains(&slot)
             {

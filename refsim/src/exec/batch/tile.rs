@@ -48,10 +48,14 @@ impl<'a> BatchTiles<'a> {
         let code = if has_flow(program) {
             PixelCode::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings))
         } else {
-            PixelCode::Straight(StraightProgram::new(program, draw.rules, &formats, &constants, &draw.bindings), Mutex::default())
+            PixelCode::Straight(
+                StraightProgram::new(program, draw.rules, &formats, &constants, &draw.bindings),
+                Mutex::default(),
+            )
         };
         let main = formats.lane(Arith::Main);
-        let textures = draw.bindings.samplers.iter().map(|s| s.map(|binding| BatchTexture::new(binding, rules, main))).collect();
+        let textures =
+            draw.bindings.samplers.iter().map(|s| s.map(|binding| BatchTexture::new(binding, rules, main))).collect();
         Some(Self {
             textures,
             constants: raw_constants(&constants.float, &formats),
@@ -113,7 +117,13 @@ impl<'a> BatchTiles<'a> {
         run_steps(&block.steps, &self.around(), &[0; LANES], slots);
     }
 
-    fn run_flow(&self, plan: &FlowPlan, triangles: &[&TriangleSetup], tile: &mut TargetTile, counts: &mut FragmentCounts) {
+    fn run_flow(
+        &self,
+        plan: &FlowPlan,
+        triangles: &[&TriangleSetup],
+        tile: &mut TargetTile,
+        counts: &mut FragmentCounts,
+    ) {
         let mut walk = Walk::new(tile, plan.slots());
         plan.fill(&mut walk.slots);
         let around = self.around();

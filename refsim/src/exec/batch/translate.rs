@@ -8,7 +8,9 @@ use super::ops::Code;
 use super::slots::{Slot, TRUE};
 use crate::device::{ColorIterator, Rules};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
-use crate::isa::{Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage};
+use crate::isa::{
+    Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
+};
 use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.

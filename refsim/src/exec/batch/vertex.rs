@@ -62,9 +62,8 @@ impl BatchVertices {
 
     fn vertex(&self, slots: &Slots, lane: usize) -> Vertex {
         let held = |slot: Option<Slot>| slot.map_or(0, |s| slots.row(s)[lane]);
-        let vector = |file, index: usize| {
-            std::array::from_fn(|c| held(self.plan.register(file, index as u16, c as u8)))
-        };
+        let vector =
+            |file, index: usize| std::array::from_fn(|c| held(self.plan.register(file, index as u16, c as u8)));
         let main = self.formats.lane(Arith::Main);
         let out = |raw: u32| self.single(raw);
         Vertex {

@@ -17,20 +17,12 @@ pub(crate) struct Alu<'r> {
 impl<'r> Alu<'r> {
     /// Pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
-        Self {
-            rules,
-            legacy_zero: rules.zero_times_anything,
-            format,
-            flags: Flags::empty(),
-        }
+        Self { rules, legacy_zero: rules.zero_times_anything, format, flags: Flags::empty() }
     }
 
     /// Vertex and address arithmetic in `format`: as pixel arithmetic, without the legacy rule for zero.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
-        Self {
-            legacy_zero: false,
-            ..Self::new(rules, format)
-        }
+        Self { legacy_zero: false, ..Self::new(rules, format) }
     }
 
     /// The flags raised so far; none are left.
@@ -93,11 +85,7 @@ impl<'r> Alu<'r> {
     fn factors(&self, a: u32, b: u32) -> (u32, u32) {
         let f = &self.format;
         let zero = f.is_zero(a) || f.is_zero(b);
-        if self.legacy_zero && zero && !(f.is_finite(a) && f.is_finite(b)) {
-            (0, 0)
-        } else {
-            (a, b)
-        }
+        if self.legacy_zero && zero && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
     }
 
     pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {

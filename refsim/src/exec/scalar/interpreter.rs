@@ -7,9 +7,9 @@
 use super::alu::Alu;
 use super::flow::Frame;
 use super::operation::{self, Context, Vector};
+use super::prepared::Prepared;
 use super::registers::{Registers, finished, operand};
 use crate::event::SAMPLERS;
-use super::prepared::Prepared;
 use crate::exec::{Observer, Step};
 use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
@@ -135,10 +135,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     /// where the program goes on.
     fn arithmetic(&mut self, at: usize, instruction: &Instruction) -> usize {
         let program = self.prepared.program;
-        let partner = program
-            .instructions
-            .get(at + 1)
-            .filter(|_| self.prepared.flow.pairs_with_next(at));
+        let partner = program.instructions.get(at + 1).filter(|_| self.prepared.flow.pairs_with_next(at));
         let next = if partner.is_some() { at + 2 } else { at + 1 };
         if self.active == 0 {
             return next;

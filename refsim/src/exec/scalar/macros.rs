@@ -63,11 +63,7 @@ pub(super) fn crs(alu: &mut Alu<'_>, a: &Vector, b: &Vector) -> Vector {
 /// Source: Direct3D, "nrm - ps" (the factor is `FLT_MAX` for a zero vector).
 pub(super) fn nrm(alu: &mut Alu<'_>, a: &Vector) -> Vector {
     let d = alu.dot(&a[..3], &a[..3]);
-    let factor = if alu.format.is_zero(d) {
-        alu.format.max_finite()
-    } else {
-        alu.rsq(d)
-    };
+    let factor = if alu.format.is_zero(d) { alu.format.max_finite() } else { alu.rsq(d) };
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
 }
 

@@ -39,7 +39,13 @@ fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
     };
     match unpack(&format, rounded.bits) {
         Unpacked::Nan { .. } => 0,
-        Unpacked::Inf { sign } => if sign { i32::MIN } else { i32::MAX },
+        Unpacked::Inf { sign } => {
+            if sign {
+                i32::MIN
+            } else {
+                i32::MAX
+            }
+        }
         Unpacked::Finite { sign, sig, exp } => {
             // An integer: bits below the point are zero.
             let magnitude = match exp {

@@ -47,7 +47,12 @@ impl<'a> PixelProgram<'a> {
 
     /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
     /// others run as helpers. The results of helpers mean nothing. Texture reads of covered lanes are added to `fetches`.
-    pub fn run(&self, inputs: &[FragmentInput; LANES], covered: u8, fetches: &mut [u64; SAMPLERS]) -> [FragmentResult; LANES] {
+    pub fn run(
+        &self,
+        inputs: &[FragmentInput; LANES],
+        covered: u8,
+        fetches: &mut [u64; SAMPLERS],
+    ) -> [FragmentResult; LANES] {
         self.run_observed(inputs, covered, fetches, &mut NoObserver)
     }
 

@@ -1,7 +1,9 @@
 //! What is worked out once a draw: constants, jumps, bindings, which inputs are read.
 
 use crate::device::Rules;
-use crate::exec::{BumpStage, Constants, FlowMap, PixelBindings, ResolvedConstants, SamplerBinding, inputs_read, sample_rules};
+use crate::exec::{
+    BumpStage, Constants, FlowMap, PixelBindings, ResolvedConstants, SamplerBinding, inputs_read, sample_rules,
+};
 use crate::isa::{Program, Stage};
 use crate::num::{Format, ops};
 use crate::raster::ComponentMask;
@@ -58,11 +60,7 @@ impl<'a> Prepared<'a> {
 
     /// Bump state of a stage; all zero where there is none.
     pub(crate) fn bump(&self, stage: u16) -> BumpStage {
-        self.bindings
-            .as_ref()
-            .and_then(|b| b.bump.get(usize::from(stage)))
-            .copied()
-            .unwrap_or_default()
+        self.bindings.as_ref().and_then(|b| b.bump.get(usize::from(stage))).copied().unwrap_or_default()
     }
 
     /// Bump matrix of a stage in the register format.

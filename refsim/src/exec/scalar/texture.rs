@@ -243,10 +243,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         let lod = if binding.needs_detail() {
             let (ddx, ddy) = match detail {
                 Detail::Gradients(gradients) => (gradients[0][lane], gradients[1][lane]),
-                _ => (
-                    self.across(coordinates, lane & 2, lane | 1),
-                    self.across(coordinates, lane & 1, lane | 2),
-                ),
+                _ => (self.across(coordinates, lane & 2, lane | 1), self.across(coordinates, lane & 1, lane | 2)),
             };
             let bits = prepared.rules.lod_fraction_bits;
             let level = lod_from_derivatives(binding.image, coordinates[lane], ddx, ddy, bits);
@@ -390,9 +387,9 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             };
             let mut below = false;
             for (i, &x) in value.iter().enumerate().take(count) {
-                let allowed = instruction.predicate.is_none_or(|p| {
-                    self.lanes[lane].predicate[usize::from(p.swizzle.0[i] & 3)] != p.not
-                });
+                let allowed = instruction
+                    .predicate
+                    .is_none_or(|p| self.lanes[lane].predicate[usize::from(p.swizzle.0[i] & 3)] != p.not);
                 let unit = if interpolated { &self.address } else { &self.full };
                 below |= allowed && unit.less(x, 0);
             }

@@ -56,7 +56,8 @@ impl<'a> ScalarTiles<'a> {
             Some(DepthValue { format: Format::FP32, bits }) => (None, bits),
             _ => (None, depth),
         };
-        let fragment = FragmentOutput { colors: result.colors, written: self.written, depth: own, killed: result.killed };
+        let fragment =
+            FragmentOutput { colors: result.colors, written: self.written, depth: own, killed: result.killed };
         merge(tile, place, &fragment, depth, &self.output, &self.rules)
     }
 }
