@@ -34,17 +34,18 @@ const CROSSBAR: Law = (
         ("io", &["geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
         ("report", &[]),
-        ("case", &["io", "geom", "scene"]),
+        ("shader", &["io"]),
+        ("case", &["io", "geom", "scene", "report", "shader"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
         ("study", &["ray_engine", "report", "card", "geom", "scene", "linalg", "io"]),
-        ("cli", &["study", "ray_engine", "case", "report", "card", "geom", "scene", "linalg", "io"]),
+        ("cli", &["study", "ray_engine", "case", "shader", "report", "card", "geom", "scene", "linalg", "io"]),
         ("lib", &[]),
         ("main", &["cli"]),
     ],
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] = &["card", "case", "shader", "ray_engine", "study", "cli"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

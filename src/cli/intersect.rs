@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-use super::{Out, Verdict, view};
+use super::{Out, Problem, Verdict, view};
 use crate::geom::Ray;
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, nearest_all};
@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         Executor::Scalar => on_card(profile, ExecutorKind::Scalar, &mesh, &rays, sides)?,
         Executor::Batch => on_card(profile, ExecutorKind::Batch, &mesh, &rays, sides)?,
     };
-    write_file(&args.out, |out| write_hits(&hits, out))?;
+    write_file(&args.out, |out| write_hits(&hits, out)).map_err(Problem::from)?;
     let found = hits.iter().filter(|h| h.triangle.is_some()).count();
     if out.json() {
         out.document(&serde_json::json!({ "rays": rays.len(), "hits": found, "out": args.out }))?;

@@ -6,7 +6,8 @@ use miette::IntoDiagnostic as _;
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
-use super::{Out, Progress, Verdict, view};
+use super::size::Size;
+use super::{Out, Problem, Progress, Verdict, view};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::io::atomic::FileSet;
@@ -34,8 +35,8 @@ edges.csv, study.json, and a row NAME: NAME.png (shaded), NAME-map.png (what is 
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
     /// Pixels of the pictures
-    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = view::parse_size)]
-    size: (u32, u32),
+    #[arg(long, value_name = "WxH", default_value = "512x512")]
+    size: Size,
 
     /// Quads along each side of each of the 32 Bezier patches
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
@@ -65,6 +66,10 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "front")]
     sides: view::SidesArg,
 
+    /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them
+    #[arg(long)]
+    all_pairs: bool,
+
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
     executor: view::DeviceExecutor,
@@ -73,12 +78,12 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let configurations = configurations(args)?;
     let mesh = teapot(args.tessellation).into_diagnostic()?;
-    let (width, height) = args.size;
+    let Size { width, height } = args.size;
     let camera = Camera::teapot(width, height).into_diagnostic()?;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let provenance = provenance(args, &configurations);
     // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::new(&args.out)?;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let bar = Progress::new("tracing", configurations.len() as u64 + 1);
     let parameters = Parameters {
         mesh,
@@ -88,6 +93,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         rays_per_edge: args.rays_per_edge,
         seed: args.seed,
         executor: ExecutorKind::from(args.executor),
+        all_pairs: args.all_pairs,
     };
     let outcome = run_study(&parameters, &|_| bar.advance(1))?;
     drop(bar);
@@ -148,8 +154,7 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
 }
 
 fn provenance(args: &Args, configurations: &[Configuration]) -> Provenance {
-    let (width, height) = args.size;
-    let mut command = format!("crossbar leaky-teapot --size {width}x{height} --tessellation {}", args.tessellation);
+    let mut command = format!("crossbar leaky-teapot --size {} --tessellation {}", args.size, args.tessellation);
     for device in &args.device {
         command.push_str(&format!(" --device {device}"));
     }
@@ -157,6 +162,9 @@ fn provenance(args: &Args, configurations: &[Configuration]) -> Provenance {
         command.push_str(&format!(" --format {format}"));
     }
     command.push_str(&format!(" --rays-per-edge {} --seed {} --sides {}", args.rays_per_edge, args.seed, args.sides));
+    if args.all_pairs {
+        command.push_str(" --all-pairs");
+    }
     let mut provenance = Provenance::new(command);
     provenance.seed = Some(args.seed);
     for configuration in configurations {

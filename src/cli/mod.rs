@@ -8,11 +8,15 @@ mod alu;
 mod check;
 mod devices;
 mod error;
+mod intersect;
+mod leaky_teapot;
 mod out;
 mod progress;
+mod render;
 mod run;
 mod size;
 mod switch;
+mod view;
 
 use std::{io::Write as _, process::ExitCode};
 
@@ -65,6 +69,7 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
+  crossbar leaky-teapot                             the main job: the teapot in each number format, as one page
   crossbar devices                                  the emulated cards
   crossbar check shader.psa --device r200           is it a legal program for the Radeon 8500?
   crossbar run fixtures/cases/modulate.toml         draw a case: pictures, probes, counts
@@ -76,6 +81,9 @@ enum Command {
     Alu(alu::Args),
     Check(check::Args),
     Devices(devices::Args),
+    Intersect(intersect::Args),
+    LeakyTeapot(leaky_teapot::Args),
+    Render(render::Args),
     Run(run::Args),
 }
 
@@ -118,6 +126,9 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
         Command::Alu(args) => alu::run(&args, out),
         Command::Check(args) => check::run(&args, out),
         Command::Devices(args) => devices::run(&args, out),
+        Command::Intersect(args) => intersect::run(&args, out),
+        Command::LeakyTeapot(args) => leaky_teapot::run(&args, out),
+        Command::Render(args) => render::run(&args, out),
         Command::Run(args) => run::run(&args, out),
     }
 }

@@ -7,14 +7,15 @@ use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
+use super::size::Size;
 use super::{Out, Problem, Verdict, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, nearest_all};
 use crate::io::atomic::FileSet;
 use crate::io::obj::load_obj;
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::{Channel, exr};
 use crate::report::picture::rgb8;
+use crate::report::{Channel, exr};
 use crate::scene::Camera;
 use crate::study::shade::Shader;
 
@@ -34,8 +35,8 @@ pub(super) struct Args {
     scene: PathBuf,
 
     /// Pixels of the picture
-    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = view::parse_size)]
-    size: (u32, u32),
+    #[arg(long, value_name = "WxH", default_value = "512x512")]
+    size: Size,
 
     /// Where the rays start [default: far enough to see all of the mesh]
     #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
@@ -84,8 +85,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let profile = Profile::named(&args.device)?;
     let mesh = load_obj(&args.scene)?;
     let camera = camera(args, &mesh)?;
-    let folder = FileSet::new(&args.out)?;
-    let (width, height) = args.size;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    let Size { width, height } = args.size;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
     let hits: Vec<Option<(u32, f32)>> = match args.executor {
@@ -119,7 +120,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.
 fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
-    let (width, height) = args.size;
+    let Size { width, height } = args.size;
     let Some([low, high]) = mesh.bounds() else {
         return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
     };
@@ -128,7 +129,9 @@ fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
     let eye = args.eye.unwrap_or_else(|| {
         let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
         let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
-        let distance = 1.1 * radius * (1.0 + 1.0 / f64::from(args.tan_half_height));
+        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius / distance.
+        let tangent = f64::from(args.tan_half_height);
+        let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
         let way = [0.3, -0.8, 0.52];
         [0, 1, 2].map(|i| (f64::from(target[i]) + distance * way[i]) as f32)
     });

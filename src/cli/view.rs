@@ -55,14 +55,6 @@ impl From<DeviceExecutor> for ExecutorKind {
     }
 }
 
-/// `512x384` as width and height.
-pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let wrong = || format!("expected WIDTHxHEIGHT, 512x512 for example, each from 1 to 2048; found `{text}`");
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let side = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=2048).contains(n)).ok_or_else(wrong);
-    Ok((side(width)?, side(height)?))
-}
-
 /// `1,2.5,-3` as a point.
 pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
     let wrong = || format!("expected three numbers X,Y,Z; found `{text}`");
@@ -75,14 +67,15 @@ pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
 
 /// For `map_err` on parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
-    Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`").into()
+    Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
+        .into()
 }
 
 /// Writes all files of a result, or none.
 pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
     for (name, bytes) in files {
-        set.write(Path::new(name), |out| out.write_all(bytes))?;
+        set.write(Path::new(name), |out| out.write_all(bytes)).map_err(Problem::from)?;
     }
-    set.commit()?;
+    set.commit().map_err(Problem::from)?;
     Ok(())
 }

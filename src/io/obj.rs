@@ -19,7 +19,7 @@ use crate::geom::{Mesh, MeshError};
 pub const MAX_BYTES: u64 = 256 << 20;
 
 /// Why a file is no mesh. Lines count from 1.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, miette::Diagnostic)]
 pub enum ObjError {
     /// The file cannot be opened or read.
     #[error("cannot read the model {}: {source}", path.display())]

@@ -22,7 +22,7 @@ pub const MAX_BYTES: u64 = 1 << 30;
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Why a file is no table of rays. Lines count from 1, the header's.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, miette::Diagnostic)]
 pub enum RaysError {
     /// The file cannot be opened or read.
     #[error("cannot read the rays {}: {source}", path.display())]

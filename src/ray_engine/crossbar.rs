@@ -1,5 +1,6 @@
 //! The crossbar on an emulated card: every ray of a batch meets every triangle of a mesh.
 
+use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::Constants;
@@ -10,8 +11,9 @@ use refsim::machine::{
 use refsim::num::Format;
 use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::{SamplerState, TexelFormat};
+use refsim::texture::{Region, SamplerState, TexelFormat};
 
+use super::bundle::{Bundle, regions};
 use super::units::{Units, ray_textures};
 use super::{Form, Kernel, RayBatch};
 use crate::geom::exact::Sides;
@@ -19,8 +21,10 @@ use crate::geom::{Mesh, Ray};
 
 /// Triangle ids are 24-bit colours.
 const MOST_TRIANGLES: usize = 1 << 24;
-/// Rays in a row of the batches that a list is cut into: the paper's bucket (section 5.3).
-const LIST_WIDTH: u32 = 256;
+/// Sides of the buckets of a batch of eye rays, in pixels.
+const BUCKET: u32 = 32;
+/// Sides of the buckets of a list: the squares that it is laid out in.
+const LIST_BUCKET: u32 = 16;
 /// Rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
 
@@ -83,19 +87,38 @@ pub struct Answer {
 pub struct Crossbar {
     profile: Profile,
     executor: ExecutorKind,
+    all_pairs: bool,
 }
 
 impl Crossbar {
     /// A card of this profile.
     pub const fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor }
+        Self { profile, executor, all_pairs: false }
     }
 
-    /// Every ray against every triangle, in one draw: section 3.3 of the paper.
+    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
+    /// every ray meets every triangle. Buckets are the default.
+    #[must_use]
+    pub const fn all_pairs(mut self, all_pairs: bool) -> Self {
+        self.all_pairs = all_pairs;
+        self
+    }
+
+    /// The rays against the triangles: section 3.3 of the paper.
     ///
     /// # Errors
     /// [`EngineError`] if the card has no program for it, or refuses the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET)
+    }
+
+    fn intersect_in_buckets(
+        &self,
+        mesh: &Mesh,
+        rays: &RayBatch,
+        sides: Sides,
+        side: u32,
+    ) -> Result<Answer, EngineError> {
         let kernel = Kernel::choose(&self.profile, rays.common_origin().is_some(), sides)?;
         if mesh.len() > MOST_TRIANGLES {
             return Err(EngineError::TooManyTriangles { found: mesh.len() });
@@ -106,7 +129,10 @@ impl Crossbar {
         }
         let units = Units::choose(kernel.form, mesh, rays);
         let mut card = Card::set_up(&self.profile, self.executor, &kernel, rays, &units)?;
-        let events = card.draw(&kernel, mesh, &units)?;
+        let mut events = DrawEvents::default();
+        for (region, triangles) in self.buckets(mesh, rays, side) {
+            events += card.draw(&kernel, mesh, &units, region, &triangles)?;
+        }
         Ok(Answer { hits: card.read_back(rays, &units)?, events, kernel: kernel.name })
     }
 
@@ -117,10 +143,25 @@ impl Crossbar {
     pub fn intersect_list(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<Vec<Option<Hit>>, EngineError> {
         let mut hits = Vec::with_capacity(rays.len());
         for chunk in rays.chunks(LIST_BATCH) {
-            let answer = self.intersect(mesh, &RayBatch::from_list(chunk, LIST_WIDTH), sides)?;
-            hits.extend_from_slice(&answer.hits[..chunk.len()]);
+            let batch = RayBatch::from_list(chunk);
+            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET)?;
+            hits.extend((0..chunk.len()).map(|i| answer.hits[batch.pixel_of(i)]));
         }
         Ok(hits)
+    }
+
+    /// Regions of the batch, with the triangles that their rays are to meet in rising order.
+    fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
+        let everything = || (0..mesh.len() as u32).collect();
+        if self.all_pairs || rays.common_origin().is_none() {
+            let whole = Region { x: 0, y: 0, width: rays.width(), height: rays.height() };
+            return vec![(whole, everything())];
+        }
+        let bucket = |region: Region| {
+            let near = Bundle::of(rays, region).map_or_else(everything, |bundle| bundle.near(mesh));
+            (region, near)
+        };
+        regions(rays, side).into_par_iter().map(bucket).collect()
     }
 }
 
@@ -152,20 +193,26 @@ impl Card {
     }
 
     /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
-    fn draw(&mut self, kernel: &Kernel, mesh: &Mesh, units: &Units) -> Result<DrawEvents, EngineError> {
-        let streams = Streams::new(mesh);
+    /// Only pixels of `region` are drawn.
+    fn draw(
+        &mut self,
+        kernel: &Kernel,
+        mesh: &Mesh,
+        units: &Units,
+        region: Region,
+        triangles: &[u32],
+    ) -> Result<DrawEvents, EngineError> {
+        let streams = Streams::new(mesh, triangles);
         let vertex_constants = Constants { float: units.vertex_constants(), ..Constants::default() };
         let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
-        let source = VertexSource::Program {
-            program: &kernel.vertex,
-            constants: &vertex_constants,
-            streams: streams.bind(mesh.len()),
-        };
+        let source =
+            VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
         let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
         call.center = PixelCenter::OpenGl;
+        call.scissor = Some(region);
         // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
         call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
@@ -202,20 +249,20 @@ struct Streams {
 }
 
 impl Streams {
-    fn new(mesh: &Mesh) -> Self {
+    fn new(mesh: &Mesh, ids: &[u32]) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = Default::default();
-        for (id, corner) in mesh.iter_corners().enumerate() {
-            for (stream, [x, y, z]) in triangles.iter_mut().zip(corner) {
+        for (id, corners) in ids.iter().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
+            for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
                 stream.push([x, y, z, 1.0].map(f32::to_bits));
             }
-            triangles[3].push(color_of_id(id as u32));
+            triangles[3].push(color_of_id(id));
         }
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
     }
 
-    fn bind(&self, triangles: usize) -> VertexStreams<'_> {
+    fn bind(&self) -> VertexStreams<'_> {
         let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
         let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
             register: i + 1,
@@ -224,7 +271,7 @@ impl Streams {
         });
         VertexStreams {
             vertex_count: 4,
-            instance_count: triangles,
+            instance_count: self.triangles[3].len(),
             streams: std::iter::once(corners).chain(each).collect(),
         }
     }

@@ -3,6 +3,7 @@
 //! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
 //! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
 
+mod bundle;
 mod crossbar;
 mod kernel;
 pub mod kernels;

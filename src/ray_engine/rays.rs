@@ -5,6 +5,11 @@
 
 use crate::geom::Ray;
 
+/// Side of the squares that lists are laid out in: a tile of the card, and the paper's bucket of 256 rays (section 5.3).
+const SQUARE: usize = 16;
+/// Squares in a row of a list's batch.
+const SQUARES_A_ROW: usize = 16;
+
 /// Rays as a rectangle of pixels, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayBatch {
@@ -38,14 +43,31 @@ impl RayBatch {
         }
     }
 
-    /// A list of rays, laid out in rows of `width` (at least 1) and padded by repeating the last one. The answers to the
-    /// padding are to be dropped. An empty list gives a batch of no rows.
-    pub fn from_list(rays: &[Ray], width: u32) -> Self {
-        let width = width.max(1);
-        let height = u32::try_from(rays.len().div_ceil(width as usize)).unwrap_or(u32::MAX);
-        let count = width as usize * height as usize;
-        let padded = rays.iter().chain(rays.last().into_iter().cycle()).take(count).copied();
-        Self { width, height, rays: padded.collect() }
+    /// A list of rays, 256 after 256 in squares of 16 x 16 pixels, 16 squares a row: neighbours in the list are neighbours
+    /// on the screen. The last square is padded by repeating the last ray; [`Self::pixel_of`] finds the answers again. An
+    /// empty list gives a batch of no rows.
+    pub fn from_list(rays: &[Ray]) -> Self {
+        let squares = rays.len().div_ceil(SQUARE * SQUARE);
+        let columns = squares.clamp(1, SQUARES_A_ROW);
+        let (width, height) = (columns * SQUARE, squares.div_ceil(columns) * SQUARE);
+        let mut pixels: Vec<Ray> = rays.last().into_iter().cycle().take(width * height).copied().collect();
+        for (i, ray) in rays.iter().enumerate() {
+            pixels[Self::pixel_in(width, i)] = *ray;
+        }
+        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        Self { width: side(width), height: side(height), rays: pixels }
+    }
+
+    /// The pixel, counted row by row, that holds ray `ray` of the list that [`Self::from_list`] was given.
+    pub const fn pixel_of(&self, ray: usize) -> usize {
+        Self::pixel_in(self.width as usize, ray)
+    }
+
+    const fn pixel_in(width: usize, ray: usize) -> usize {
+        let (square, within) = (ray / (SQUARE * SQUARE), ray % (SQUARE * SQUARE));
+        let columns = width / SQUARE;
+        let (x, y) = (square % columns * SQUARE + within % SQUARE, square / columns * SQUARE + within / SQUARE);
+        y * width + x
     }
 
     /// Rays in a row.
@@ -122,13 +144,19 @@ mod tests {
     }
 
     #[test]
-    fn lists_are_padded_with_their_last_ray() {
-        let ray = |x| Ray::new([x, 0.0, 0.0], [0.0, 0.0, 1.0]).expect("a ray");
-        let batch = RayBatch::from_list(&[ray(1.0), ray(2.0), ray(3.0)], 2);
-        assert_eq!((batch.width(), batch.height()), (2, 2), "two rows of two");
-        assert_eq!(batch.rays()[3], ray(3.0), "the last one is repeated");
-        assert_eq!(batch.common_origin(), None, "three origins");
-        assert_eq!(RayBatch::from_list(&[ray(1.0); 3], 2).common_origin(), Some([1.0, 0.0, 0.0]), "one origin");
-        assert_eq!(RayBatch::from_list(&[], 2).height(), 0, "no rays, no rows");
+    fn lists_are_laid_out_in_squares_and_padded_with_their_last_ray() {
+        let ray = |x: usize| Ray::new([x as f32, 0.0, 0.0], [0.0, 0.0, 1.0]).expect("a ray");
+        for count in [1, 255, 256, 257, 4096, 5000] {
+            let list: Vec<Ray> = (0..count).map(ray).collect();
+            let batch = RayBatch::from_list(&list);
+            assert_eq!(batch.rays().len(), batch.width() as usize * batch.height() as usize, "a full rectangle");
+            for (i, r) in list.iter().enumerate() {
+                assert_eq!(batch.rays()[batch.pixel_of(i)], *r, "ray {i} of {count}");
+            }
+            let last = batch.rays().iter().filter(|r| *r == &ray(count - 1)).count();
+            assert_eq!(last, batch.rays().len() - count + 1, "the last one is repeated");
+        }
+        assert_eq!(RayBatch::from_list(&[ray(1); 3]).common_origin(), Some([1.0, 0.0, 0.0]), "one origin");
+        assert_eq!(RayBatch::from_list(&[]).height(), 0, "no rays, no rows");
     }
 }

@@ -103,7 +103,7 @@ impl Camera {
     /// # Errors
     /// [`CameraError::Size`] for a picture without pixels or beyond 2^30.
     pub fn teapot(width: u32, height: u32) -> Result<Self, CameraError> {
-        Self::new([2.125, -5.625, 3.875], [0.5, 0.0, 1.3], [0.0, 0.0, 1.0], 0.53, width, height)
+        Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
     }
 
     /// Where all rays start.

@@ -1,6 +1,6 @@
 //! How many holes does the teapot get? Figure 4 of the Ray Engine paper, in any number format, against exact arithmetic.
 //!
-//! Every pixel's eye ray meets every triangle on the emulated card; what comes back is judged against first hits that are
+//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; what comes back is judged against first hits that are
 //! decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles share,
 //! where the paper's equations are evaluated once for each neighbour and need not agree.
 
@@ -10,10 +10,11 @@ use serde::Serialize;
 
 use super::configuration::Configuration;
 use super::shade::Shader;
+use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::classify::{Candidate, Verdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
-use crate::geom::{Mesh, Ray, aimed};
-use crate::ray_engine::{Answer, Crossbar, EngineError, RayBatch};
+use crate::geom::{Mesh, Ray};
+use crate::ray_engine::{Crossbar, EngineError, Hit, RayBatch};
 
 /// What is asked.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub struct Parameters {
     pub seed: u64,
     /// Who computes.
     pub executor: ExecutorKind,
+    /// Whether every ray meets every triangle, or only those near its bucket.
+    pub all_pairs: bool,
 }
 
 /// Counts of verdicts over a set of rays.
@@ -120,34 +123,26 @@ pub struct Outcome {
 
 /// Rays with the truth about them.
 struct Judged {
-    rays: RayBatch,
-    /// How many of `rays` count; the rest is padding.
-    count: usize,
+    rays: Vec<Ray>,
     truth: Vec<Option<NearestHit>>,
 }
 
 impl Judged {
-    fn new(tracer: &Tracer<'_>, rays: RayBatch, count: usize, sides: Sides) -> Self {
-        let truth = tracer.nearest_all(&rays.rays()[..count], sides);
-        Self { rays, count, truth }
-    }
-
-    fn aimed(tracer: &Tracer<'_>, aimed: &[aimed::Aimed], sides: Sides) -> Self {
-        let list: Vec<Ray> = aimed.iter().map(|a| a.ray).collect();
-        // Rows of 256: the paper's bucket (section 5.3).
-        Self::new(tracer, RayBatch::from_list(&list, 256), list.len(), sides)
+    fn new(tracer: &Tracer<'_>, rays: Vec<Ray>, sides: Sides) -> Self {
+        let truth = tracer.nearest_all(&rays, sides);
+        Self { rays, truth }
     }
 
     /// The verdicts on an answer, a ray each, and their tally.
-    fn judge(&self, mesh: &Mesh, answer: &Answer) -> (Vec<Verdict>, Tally) {
-        let judge = |(hit, truth): (&Option<crate::ray_engine::Hit>, &Option<NearestHit>)| {
-            let candidate =
-                hit.map_or(Candidate { triangle: None, t: 0.0 }, |h| Candidate { triangle: Some(h.triangle), t: h.t });
+    fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<Verdict>, Tally) {
+        let judge = |(hit, truth): (&Option<Hit>, &Option<NearestHit>)| {
+            let none = Candidate { triangle: None, t: 0.0 };
+            let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
             classify(mesh, truth.as_ref(), candidate)
         };
-        let judgements: Vec<_> = answer.hits[..self.count].par_iter().zip(&self.truth).map(judge).collect();
+        let judgements: Vec<_> = hits.par_iter().zip(&self.truth).map(judge).collect();
         let mut tally = Tally::default();
-        for ((judgement, truth), hit) in judgements.iter().zip(&self.truth).zip(&answer.hits) {
+        for ((judgement, truth), hit) in judgements.iter().zip(&self.truth).zip(hits) {
             let error = judgement.t_error.map(|e| e.absolute);
             tally.add(judgement.verdict, truth.is_some(), hit.is_some(), error);
         }
@@ -163,29 +158,27 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
     let Parameters { mesh, sides, .. } = parameters;
     progress("exact arithmetic");
     let tracer = Tracer::new(mesh);
-    let count = parameters.view.rays().len();
-    let view = Judged::new(&tracer, parameters.view.clone(), count, *sides);
+    let view = Judged::new(&tracer, parameters.view.rays().to_vec(), *sides);
     let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
-    let edges = eye.map(|eye| {
-        let aimed = aimed::aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed);
-        Judged::aimed(&tracer, &aimed, *sides)
-    });
-    let vertices = eye.map(|eye| Judged::aimed(&tracer, &aimed::aimed_at_vertices(mesh, eye), *sides));
+    let aim = |aimed: Vec<Aimed>| Judged::new(&tracer, aimed.into_iter().map(|a| a.ray).collect(), *sides);
+    let edges = eye.map(|eye| aim(aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed)));
+    let vertices = eye.map(|eye| aim(aimed_at_vertices(mesh, eye)));
 
     let shader = Shader::new(mesh);
     let exact: Vec<Option<u32>> = view.truth.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
-    let exact_picture = shader.picture(&view.rays, &exact);
+    let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
     for configuration in &parameters.configurations {
         progress(&configuration.label);
-        let crossbar = Crossbar::new(configuration.profile.clone(), parameters.executor);
-        let answer = crossbar.intersect(mesh, &view.rays, *sides)?;
-        let (verdicts, tally) = view.judge(mesh, &answer);
+        let crossbar =
+            Crossbar::new(configuration.profile.clone(), parameters.executor).all_pairs(parameters.all_pairs);
+        let answer = crossbar.intersect(mesh, &parameters.view, *sides)?;
+        let (verdicts, tally) = view.judge(mesh, &answer.hits);
         let triangles: Vec<Option<u32>> = answer.hits.iter().map(|h| h.map(|h| h.triangle)).collect();
-        let picture = shader.picture(&view.rays, &triangles);
+        let picture = shader.picture(&parameters.view, &triangles);
         let aimed = |judged: &Option<Judged>| -> Result<Tally, EngineError> {
             let Some(judged) = judged else { return Ok(Tally::default()) };
-            Ok(judged.judge(mesh, &crossbar.intersect(mesh, &judged.rays, *sides)?).1)
+            Ok(judged.judge(mesh, &crossbar.intersect_list(mesh, &judged.rays, *sides)?).1)
         };
         rows.push(Row {
             configuration: configuration.clone(),

@@ -6,6 +6,7 @@ mod case;
 mod check;
 mod devices;
 mod help;
+mod tracing;
 
 use std::{
     io::Write as _,

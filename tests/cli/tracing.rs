@@ -1,0 +1,195 @@
+//! `intersect`, `render` and `leaky-teapot`.
+
+use std::fs;
+use std::path::Path;
+
+use crate::crossbar_in;
+
+fn in_project(path: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path).to_string_lossy().into_owned()
+}
+
+/// Hits of the square's rays, as `intersect` writes them.
+fn hits(arguments: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
+    let mut all = vec!["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
+    all.extend(arguments);
+    let ran = crossbar_in(folder.path(), &all, "");
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    fs::read_to_string(folder.path().join("hits.csv")).expect("the hits were written")
+}
+
+#[test]
+fn fp32_and_both_executors_agree_with_exact_arithmetic_on_easy_rays() {
+    for sides in ["front", "both"] {
+        let exact = hits(&["--sides", sides]);
+        assert!(exact.starts_with("ray,triangle,t\n0,"), "{exact}");
+        let batch = hits(&["--sides", sides, "--executor", "batch", "--device", "ideal-fp32"]);
+        let scalar = hits(&["--sides", sides, "--executor", "scalar", "--device", "ideal-fp32"]);
+        assert_eq!(batch, scalar, "{sides}: one kernel, two executors");
+        let triangles =
+            |text: &str| text.lines().map(|l| l.rsplit_once(',').expect("t").0.to_owned()).collect::<Vec<_>>();
+        assert_eq!(triangles(&exact).len(), triangles(&batch).len(), "a line a ray");
+    }
+}
+
+#[test]
+fn a_radeon_8500_traces_rays_of_any_origin_in_one_pass() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A triangle in z = 0 and rays of four origins: two through it (from the front and from behind), one beside it, one
+    // that starts beyond it.
+    fs::write(folder.path().join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    let rays = "ox,oy,oz,dx,dy,dz\n0.25,0.25,1,0,0,-1\n0.25,0.25,-0.5,0,0,2\n0.9,0.9,1,0,0,-1\n0.25,0.25,-1,0,0,-1\n";
+    fs::write(folder.path().join("r.csv"), rays).expect("written");
+    let trace = |sides: &str| {
+        let arguments = [
+            "intersect",
+            "--mesh",
+            "m.obj",
+            "--rays",
+            "r.csv",
+            "--out",
+            "h.csv",
+            "--device",
+            "r200",
+            "--executor",
+            "batch",
+            "--sides",
+            sides,
+        ];
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        let text = fs::read_to_string(folder.path().join("h.csv")).expect("written");
+        let t: Vec<Option<f32>> = text
+            .lines()
+            .skip(1)
+            .map(|l| {
+                let mut parts = l.split(',').skip(1);
+                let triangle: i32 = parts.next().expect("a triangle").parse().expect("a number");
+                let t: f32 = parts.next().expect("t").parse().expect("a number");
+                (triangle == 0).then_some(t)
+            })
+            .collect();
+        t
+    };
+    let near = |t: Option<f32>, wanted: f32| t.is_some_and(|t| (t - wanted).abs() < 0.01);
+    let front = trace("front");
+    assert!(near(front[0], 1.0) && front[1..].iter().all(Option::is_none), "front: {front:?}");
+    let both = trace("both");
+    assert!(near(both[0], 1.0) && near(both[1], 0.25) && both[2..].iter().all(Option::is_none), "both: {both:?}");
+}
+
+#[test]
+fn render_writes_a_picture_and_layers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = in_project("fixtures/models/teapot_2.obj");
+    for executor in ["exact", "batch"] {
+        let ran = crossbar_in(
+            folder.path(),
+            &["render", &mesh, "--size", "24x16", "--executor", executor, "--out", "picture", "--json"],
+            "",
+        );
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        assert_eq!(report["pixels"], 24 * 16, "all pixels are counted");
+        assert!(report["hits"].as_u64().is_some_and(|h| h > 30), "the whole teapot is in the picture: {report}");
+        let png = fs::read(folder.path().join("picture/picture.png")).expect("the picture");
+        assert!(png.starts_with(b"\x89PNG"), "a PNG");
+        let exr = fs::read(folder.path().join("picture/layers.exr")).expect("the layers");
+        assert!(exr.starts_with(&[0x76, 0x2f, 0x31, 0x01]), "an EXR");
+    }
+}
+
+#[test]
+fn leaky_teapot_writes_everything_it_promises() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = [
+        "leaky-teapot",
+        "--size",
+        "20x16",
+        "--tessellation",
+        "2",
+        "--device",
+        "r200",
+        "--device",
+        "r300",
+        "--rays-per-edge",
+        "1",
+        "--out",
+        "a/b",
+        "--json",
+    ];
+    let ran = crossbar_in(folder.path(), &arguments, "");
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(report["rows"].as_array().map(Vec::len), Some(2), "a row a device");
+    assert_eq!(report["provenance"]["version"], env!("CARGO_PKG_VERSION"), "provenance");
+    let out = folder.path().join("a/b");
+    let mut names: Vec<String> = fs::read_dir(&out)
+        .expect("the folder")
+        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let expected = [
+        "edges.csv",
+        "exact.exr",
+        "exact.png",
+        "index.html",
+        "r200-map.png",
+        "r200.exr",
+        "r200.png",
+        "r300-map.png",
+        "r300.exr",
+        "r300.png",
+        "rows.csv",
+        "study.json",
+    ];
+    assert_eq!(names, expected, "these files and no others");
+    let page = fs::read_to_string(out.join("index.html")).expect("the page");
+    assert!(page.matches("data:image/png;base64,").count() == 5, "exact, two pictures, two maps");
+    assert!(!page.contains("http://") && !page.contains("https://"), "self-contained");
+    let again = crossbar_in(folder.path(), &arguments, "");
+    assert_eq!(again.stdout, ran.stdout, "the same run gives the same report");
+    assert_eq!(fs::read_to_string(out.join("index.html")).expect("the page"), page, "and the same page");
+}
+
+#[test]
+fn bad_input_ends_with_2_and_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a_file"), "").expect("written");
+    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
+    let bad = |name: &str| in_project(&format!("fixtures/models/bad/{name}"));
+    let before = || fs::read_dir(folder.path()).expect("the folder").count();
+    let mut cases: Vec<Vec<String>> = Vec::new();
+    let mut case = |words: &[&str]| cases.push(words.iter().map(ToString::to_string).collect());
+    case(&["leaky-teapot", "--device", "voodoo2"]);
+    case(&["leaky-teapot", "--format", "s3.99"]);
+    case(&["leaky-teapot", "--size", "0x9"]);
+    case(&["leaky-teapot", "--tessellation", "0"]);
+    case(&["leaky-teapot", "--device", "nv20", "--size", "4x4", "--tessellation", "1"]);
+    case(&["leaky-teapot", "--device", "r200", "--size", "4096x1", "--tessellation", "1"]);
+    case(&["leaky-teapot", "--size", "4x4", "--out", "a_file/out"]);
+    case(&["intersect", "--mesh", "nowhere.obj", "--rays", &rays, "--out", "h.csv"]);
+    case(&["intersect", "--mesh", &mesh, "--rays", "nowhere.csv", "--out", "h.csv"]);
+    case(&["intersect", "--mesh", &mesh, "--rays", &mesh, "--out", "h.csv"]);
+    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "a_file/h.csv"]);
+    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "h.csv", "--device", "voodoo2"]);
+    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "h.csv", "--device", "nv25", "--executor", "batch"]);
+    case(&["render", "nowhere.obj"]);
+    case(&["render", &rays]);
+    case(&["render", &mesh, "--eye", "1,2"]);
+    case(&["render", &mesh, "--eye", "0,0,0", "--target", "0,0,0"]);
+    for file in fs::read_dir(in_project("fixtures/models/bad")).expect("the bad models") {
+        case(&["render", &bad(&file.expect("an entry").file_name().to_string_lossy())]);
+    }
+    let count = before();
+    for words in cases {
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let ran = crossbar_in(folder.path(), &words, "");
+        assert_eq!(ran.code, Some(2), "{words:?}: {}", ran.transcript());
+        assert!(ran.stdout.is_empty(), "{words:?}: nothing on standard output");
+        assert!(!ran.stderr.is_empty() && !ran.stderr.contains("panicked"), "{words:?}: {}", ran.stderr);
+        assert_eq!(before(), count, "{words:?}: nothing was written");
+    }
+}
