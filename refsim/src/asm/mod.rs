@@ -6,7 +6,7 @@
 //! has no shape (an unknown word, a malformed operand, a wrong operand count) is a syntax error, and one call finds
 //! them all.
 //!
-//! [`print`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
+//! [`print()`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
 //!
 //! Two spellings are ours, because period text cannot say them: `def` takes `0x` and eight hexadecimal digits as the
 //! bits of a float (so that infinities and NaNs can be printed), and a constant's value may end in `f`.

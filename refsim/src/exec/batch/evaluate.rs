@@ -125,6 +125,6 @@ pub fn convert(from: Format, to: Format, bits: &[u32]) -> Vec<u32> {
     let mut wide = Vec::with_capacity(bits.len());
     with_any_lane!(&source, |lane| { wide.extend(bits.iter().map(|&b| lane.to_f64(lane.decode(b)))) });
     let mut out = Vec::with_capacity(bits.len());
-    with_any_lane!(&target, |lane| { out.extend(wide.iter().map(|&x| lane.encode(lane.from_f64(x)))) });
+    with_any_lane!(&target, |lane| { out.extend(wide.iter().map(|&x| lane.encode(lane.round_f64(x)))) });
     out
 }

@@ -201,7 +201,7 @@ fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i
 /// A texel in the register format, as slots hold it.
 fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
     fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
-        L::store(lane.from_f64(x))
+        L::store(lane.round_f64(x))
     }
     texel.0.map(|channel| match channel {
         // Both below 2^24: one division, rounded to odd.

@@ -131,7 +131,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
         } else {
             (magnitude, guard, sticky)
         };
-        let exact = (kept << 1 | u128::from(sticky)) as i128;
+        let exact = (kept << 1 | u128::from(sticky)).cast_signed();
         self.fit128(self.round128(if negative { -exact } else { exact }, &Shift::new(guard + 1)))
     }
 }
@@ -141,7 +141,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn decode(&self, bits: u32) -> i32 {
-        self.residue(bits as i32)
+        self.residue(bits.cast_signed())
     }
 
     #[inline(always)]
@@ -151,7 +151,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn load(raw: u32) -> i32 {
-        raw as i32
+        raw.cast_signed()
     }
 
     #[inline(always)]
@@ -165,7 +165,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
     }
 
     #[inline(always)]
-    fn from_f64(&self, x: f64) -> i32 {
+    fn round_f64(&self, x: f64) -> i32 {
         // In units; scaling by a power of two, floors and the rest below are exact.
         let units = x * (1u64 << self.frac) as f64;
         let floor = units.floor();
@@ -244,7 +244,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
             _ => {
                 let dividend = u128::from(a.unsigned_abs()) << (self.frac + 2);
                 let divisor = u128::from(b.unsigned_abs());
-                self.finish((a < 0) != (b < 0), dividend / divisor, 2, dividend % divisor != 0)
+                self.finish((a < 0) != (b < 0), dividend / divisor, 2, !dividend.is_multiple_of(divisor))
             }
         }
     }
@@ -265,7 +265,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
         }
         let dividend = 1u128 << (2 * self.frac + 2);
         let divisor = u128::from(a.unsigned_abs());
-        self.finish(a < 0, dividend / divisor, 2, dividend % divisor != 0)
+        self.finish(a < 0, dividend / divisor, 2, !dividend.is_multiple_of(divisor))
     }
 
     fn rsq(&self, a: i32) -> i32 {
@@ -283,16 +283,16 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     fn exp2(&self, a: i32) -> i32 {
         // Past the range there is no residue to take.
-        if a >> self.frac >= self.int as i32 && self.wraps() {
+        if a >> self.frac >= self.int.cast_signed() && self.wraps() {
             return self.high;
         }
-        self.from_f64(power::exp2(self.to_f64(a)))
+        self.round_f64(power::exp2(self.to_f64(a)))
     }
 
     fn log2(&self, a: i32) -> i32 {
         match a {
             0 => self.low,
-            1.. => self.from_f64(power::log2(self.to_f64(a))),
+            1.. => self.round_f64(power::log2(self.to_f64(a))),
             _ => 0,
         }
     }

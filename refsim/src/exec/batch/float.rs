@@ -222,7 +222,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let value = if field == 0 {
             if self.flush > 0.0 { 0.0 } else { f64::from(man) * self.min_normal * self.unit }
         } else {
-            f64::from(man | 1 << m) * self.unit * pow2(field as i32 + 1 - (1 << (x - 1)))
+            f64::from(man | 1 << m) * self.unit * pow2(field.cast_signed() + 1 - (1 << (x - 1)))
         };
         f32::from_bits((value as f32).to_bits() | sign)
     }
@@ -244,7 +244,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         }
         let bits = mag.to_bits();
         let bias = (1i64 << (self.exp_bits - 1)) - 1;
-        let field = ((bits >> 52) as i64 - 1023 + bias) as u32;
+        let field = ((bits >> 52).cast_signed() - 1023 + bias) as u32;
         sign | field << m | (bits << 12 >> 12 >> (52 - m)) as u32
     }
 
@@ -264,7 +264,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     #[inline(always)]
-    fn from_f64(&self, x: f64) -> f32 {
+    fn round_f64(&self, x: f64) -> f32 {
         self.narrow(x)
     }
 

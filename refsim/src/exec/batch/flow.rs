@@ -4,7 +4,7 @@
 //! mask of active lanes, and the predicate, allow. Jumps are taken for the batch as a whole: a branch is walked if any
 //! lane takes it.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::arith::Formats;
 use super::graph::{Arith, Kind, Node};
@@ -54,7 +54,7 @@ pub(crate) struct FlowPlan {
     flow: FlowMap,
     constants: Vec<(Slot, u32)>,
     inputs: Vec<(u16, Slot)>,
-    registers: HashMap<Place, Slot>,
+    registers: BTreeMap<Place, Slot>,
     slots: usize,
     results: Results,
 }
@@ -77,7 +77,7 @@ impl FlowPlan {
     }
 
     fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>) -> Self {
-        let mut registers = HashMap::new();
+        let mut registers = BTreeMap::new();
         let mut next = FIRST_REGISTER;
         for place in written(program) {
             registers.entry(place).or_insert_with(|| {
@@ -90,7 +90,7 @@ impl FlowPlan {
         t.loop_counter = Some(COUNTER);
         let parts: Vec<_> = program.instructions.iter().map(|i| part(&mut t, i, &registers)).collect();
         // Constants and inputs live as long as the program.
-        let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), HashMap::new());
+        let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), BTreeMap::new());
         let results = results(&mut t, program, &registers, &mut next, &mut constant_slots);
         for i in 0..t.make.graph.len() as u32 {
             match t.make.graph.kind(Node(i)) {
@@ -172,7 +172,7 @@ struct Part {
     sampler: Option<usize>,
 }
 
-fn part(t: &mut Translator<'_>, instruction: &crate::isa::Instruction, registers: &HashMap<Place, Slot>) -> Part {
+fn part(t: &mut Translator<'_>, instruction: &crate::isa::Instruction, registers: &BTreeMap<Place, Slot>) -> Part {
     const MASK: Arith = Arith::Single;
     let active = t.make.graph.node(Kind::Held(ACTIVE));
     let mut part = Part { roots: Vec::new(), to: Vec::new(), sampler: None };
@@ -228,7 +228,7 @@ fn part(t: &mut Translator<'_>, instruction: &crate::isa::Instruction, registers
 fn results(
     t: &mut Translator<'_>,
     program: &Program,
-    registers: &HashMap<Place, Slot>,
+    registers: &BTreeMap<Place, Slot>,
     next: &mut Slot,
     constants: &mut Vec<(Slot, u32)>,
 ) -> Results {

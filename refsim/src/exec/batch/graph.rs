@@ -4,7 +4,7 @@
 //! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
 //! results and moves cost nothing at run time.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::ops::Code;
 use super::slots::Slot;
@@ -14,7 +14,7 @@ use super::slots::Slot;
 pub(crate) struct Node(pub(crate) u32);
 
 /// In which number format a value is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Arith {
     /// The register format.
     Main,
@@ -27,7 +27,7 @@ pub(crate) enum Arith {
 }
 
 /// How a texture read finds its level of detail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Detail {
     /// From differences across the quad.
     Implicit,
@@ -38,7 +38,7 @@ pub(crate) enum Detail {
 }
 
 /// What a node is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// The same host bits in every lane.
     Constant(u32),
@@ -101,7 +101,7 @@ impl Code {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     kinds: Vec<Kind>,
-    known: HashMap<Kind, Node>,
+    known: BTreeMap<Kind, Node>,
 }
 
 impl Graph {

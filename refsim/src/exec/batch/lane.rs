@@ -29,7 +29,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// The number as a double, always exact.
     fn to_f64(&self, x: Self::T) -> f64;
     /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
-    fn from_f64(&self, x: f64) -> Self::T;
+    fn round_f64(&self, x: f64) -> Self::T;
 
     /// `a + b`
     fn add(&self, a: Self::T, b: Self::T) -> Self::T;

@@ -7,7 +7,7 @@ use super::lanes::{AnyLane, with_any_lane};
 use super::slots::{Row, Slot, Slots, TRUE};
 
 /// What an operation computes from up to three rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Code {
     Add,
     Sub,
@@ -104,14 +104,14 @@ fn dot_lanes<L: Lane>(lane: &L, op: &DotOp, slots: &mut Slots) {
 
 #[inline(always)]
 fn exact<L: Lane, const N: usize>(lane: &L, rows: [(&Row, &Row); N], out: &mut Row) {
-    for i in 0..LANES {
+    for (i, slot) in out.iter_mut().enumerate() {
         let mut a = [L::load(0); N];
         let mut b = a;
         for k in 0..N {
             a[k] = L::load(rows[k].0[i]);
             b[k] = L::load(rows[k].1[i]);
         }
-        out[i] = L::store(lane.exact_dot(a, b));
+        *slot = L::store(lane.exact_dot(a, b));
     }
 }
 
@@ -208,7 +208,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         Code::AddressNearest => {
             for i in 0..LANES {
                 let integer = l.to_f64(L::load(a[i])).round_ties_even();
-                out[i] = address(l.to_f64(l.from_f64(integer)).trunc());
+                out[i] = address(l.to_f64(l.round_f64(integer)).trunc());
             }
         }
         Code::Widen => {
@@ -219,7 +219,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         }
         Code::Narrow => {
             for i in 0..LANES {
-                out[i] = L::store(l.from_f64(wide[i]));
+                out[i] = L::store(l.round_f64(wide[i]));
             }
         }
         Code::Select => {

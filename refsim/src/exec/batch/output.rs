@@ -148,10 +148,10 @@ impl Output {
 /// Drops the lanes for which `stays` doesn't hold and counts them.
 fn drop_lanes(alive: &mut Row, stays: impl Fn(usize) -> bool) -> u64 {
     let mut dropped = 0;
-    for i in 0..LANES {
-        let goes = (alive[i] != 0) & !stays(i);
+    for (i, lane) in alive.iter_mut().enumerate() {
+        let goes = (*lane != 0) & !stays(i);
         dropped += u64::from(goes);
-        alive[i] = if goes { 0 } else { alive[i] };
+        *lane = if goes { 0 } else { *lane };
     }
     dropped
 }

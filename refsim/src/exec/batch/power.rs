@@ -15,8 +15,8 @@ const FRACTION: u32 = 100;
 fn mul_high(a: u128, b: u128) -> u128 {
     let low = u128::from(u64::MAX);
     let (a1, a0, b1, b0) = (a >> 64, a & low, b >> 64, b & low);
-    let middle = (a0 * b0 >> 64) + (a1 * b0 & low) + (a0 * b1 & low);
-    a1 * b1 + (a1 * b0 >> 64) + (a0 * b1 >> 64) + (middle >> 64)
+    let middle = ((a0 * b0) >> 64) + ((a1 * b0) & low) + ((a0 * b1) & low);
+    a1 * b1 + ((a1 * b0) >> 64) + ((a0 * b1) >> 64) + (middle >> 64)
 }
 
 /// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as IEEE would have it. Beyond
@@ -82,7 +82,7 @@ pub(crate) fn log2(x: f64) -> f64 {
     for _ in 0..FRACTION {
         let square = mul_high(m, m);
         let carry = square >> 127;
-        fraction = fraction << 1 | carry as i128;
+        fraction = fraction << 1 | carry.cast_signed();
         m = if carry == 1 { square } else { square << 1 };
     }
     let value = (exponent << FRACTION) + fraction;

@@ -3,7 +3,7 @@
 //! What is the same all over a triangle (attributes that are, and whatever is computed from them and constants) is
 //! computed for 256 triangles at a time, a triangle a lane; the rest for 256 fragments of one triangle.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::arith::Formats;
 use super::graph::{Arith, Graph, Kind, Node};
@@ -104,9 +104,9 @@ impl StraightProgram {
             wanted[root.0 as usize] |= uniform[root.0 as usize] && !is_constant(root);
         }
         let given: Vec<Node> = (0..self.graph.len() as u32).map(Node).filter(|n| wanted[n.0 as usize]).collect();
-        let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &HashMap::new(), 0);
+        let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &BTreeMap::new(), 0);
         debug_assert_eq!(varying.given.iter().map(|g| g.0).collect::<Vec<_>>(), given, "one slot for each given value");
-        let uniform = schedule(&self.graph, &given, |_| false, &HashMap::new(), 0);
+        let uniform = schedule(&self.graph, &given, |_| false, &BTreeMap::new(), 0);
         let results = self.results(&varying);
         StraightPlan { uniform, varying, results }
     }

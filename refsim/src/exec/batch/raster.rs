@@ -35,21 +35,21 @@ pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, o
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
 fn cover_lanes(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
-    for i in 0..LANES {
+    for (i, lane) in out.iter_mut().enumerate() {
         let (x, y) = place(i);
         let at = |e: &[i64; 3]| e[0] * i64::from(x) + e[1] * i64::from(y) + e[2];
         let within = (x >= columns.0) & (x < columns.1) & (y >= rows.0) & (y < rows.1);
         // All three at least zero: no sign bit in any.
         let signs = at(&edges[0]) | at(&edges[1]) | at(&edges[2]);
-        out[i] = if within & (signs >= 0) { TRUE } else { 0 };
+        *lane = if within & (signs >= 0) { TRUE } else { 0 };
     }
 }
 
 /// The lanes whose quad has a covered lane.
 pub(crate) fn quads(covered: &Row, out: &mut Row) {
-    for i in 0..LANES {
+    for (i, lane) in out.iter_mut().enumerate() {
         let (row, column) = (i & !16, i & !1);
-        out[i] = covered[row & column]
+        *lane = covered[row & column]
             | covered[(row & column) | 1]
             | covered[(row & column) | 16]
             | covered[(row & column) | 17];
@@ -122,9 +122,9 @@ impl TileWeights {
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
 fn linear(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
     for (e, row) in edges.iter().zip(out) {
-        for i in 0..LANES {
+        for (i, weight) in row.iter_mut().enumerate() {
             let (x, y) = place(i);
-            row[i] = (e[0] * i64::from(x) + e[1] * i64::from(y) + e[2]) as f32 / area;
+            *weight = (e[0] * i64::from(x) + e[1] * i64::from(y) + e[2]) as f32 / area;
         }
     }
 }

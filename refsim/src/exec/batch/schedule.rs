@@ -1,6 +1,6 @@
 //! From a graph of values to steps on slots.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::graph::{Arith, Detail, Graph, Kind, Node};
 use super::ops::{Code, DotOp, LaneOp};
@@ -77,7 +77,7 @@ pub(crate) fn schedule(
     graph: &Graph,
     roots: &[Node],
     given: impl Fn(Node) -> bool,
-    placed: &HashMap<Node, Slot>,
+    placed: &BTreeMap<Node, Slot>,
     first_slot: usize,
 ) -> Block {
     let (last_use, needed) = uses(graph, roots, &given);
@@ -88,7 +88,7 @@ pub(crate) fn schedule(
         last_use,
         free: Vec::new(),
         next: first_slot,
-        texels: HashMap::new(),
+        texels: BTreeMap::new(),
     };
     for &node in &needed {
         if let Kind::Texel(fetch, component) = graph.kind(node) {
@@ -111,9 +111,9 @@ pub(crate) fn schedule(
 }
 
 /// For each node its last user, roots living for ever; and the nodes needed, in order.
-fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (HashMap<Node, u32>, Vec<Node>) {
+fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (BTreeMap<Node, u32>, Vec<Node>) {
     let mut live = vec![false; graph.len()];
-    let mut last_use: HashMap<Node, u32> = HashMap::new();
+    let mut last_use: BTreeMap<Node, u32> = BTreeMap::new();
     for &root in roots {
         live[root.0 as usize] = true;
         last_use.insert(root, u32::MAX);
@@ -134,11 +134,11 @@ fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (HashMap
 struct Scheduler<'g> {
     graph: &'g Graph,
     block: Block,
-    place: HashMap<Node, Slot>,
-    last_use: HashMap<Node, u32>,
+    place: BTreeMap<Node, Slot>,
+    last_use: BTreeMap<Node, u32>,
     free: Vec<Slot>,
     next: usize,
-    texels: HashMap<Node, Vec<(u8, Node)>>,
+    texels: BTreeMap<Node, Vec<(u8, Node)>>,
 }
 
 impl Scheduler<'_> {

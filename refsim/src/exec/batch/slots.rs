@@ -15,6 +15,7 @@ pub(crate) const TRUE: u32 = u32::MAX;
 /// The slots of one batch, and a spare row that results are made in before they change places with what they replace.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots {
+    #[expect(clippy::vec_box, reason = "a row changes places with the spare one by its pointer, not by its 1 KiB")]
     pub(crate) rows: Vec<Box<Row>>,
     pub(crate) scratch: Box<Row>,
     /// Doubles on their way from one format to another.

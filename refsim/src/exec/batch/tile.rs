@@ -1,6 +1,6 @@
 //! The batch executor on a tile: triangle by triangle, all 256 fragments at once.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::arith::Formats;
@@ -33,7 +33,7 @@ pub struct BatchTiles<'a> {
 #[derive(Debug)]
 enum PixelCode {
     /// Scheduled once for each set of constant components that turns up.
-    Straight(StraightProgram, Mutex<HashMap<u64, Arc<StraightPlan>>>),
+    Straight(StraightProgram, Mutex<BTreeMap<u64, Arc<StraightPlan>>>),
     Flow(FlowPlan),
 }
 
@@ -175,8 +175,8 @@ struct Walk {
     /// Lanes of quads that have a covered lane.
     run: Row,
     depth: Row,
-    /// What given slots hold.
-    held: HashMap<u16, u32>,
+    /// What given slots hold, by slot.
+    held: Vec<Option<u32>>,
 }
 
 impl Walk {
@@ -189,7 +189,7 @@ impl Walk {
             covered_count: 0,
             run: [0; LANES],
             depth: [0; LANES],
-            held: HashMap::new(),
+            held: vec![None; slots],
         }
     }
 
@@ -211,7 +211,7 @@ impl Walk {
 
     /// Puts a value that is the same in all lanes into its slot, unless it is there already.
     fn given(&mut self, slot: u16, raw: u32) {
-        if self.held.insert(slot, raw) != Some(raw) {
+        if self.held[usize::from(slot)].replace(raw) != Some(raw) {
             self.slots.fill(slot, raw);
         }
     }

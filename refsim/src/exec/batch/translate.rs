@@ -1,6 +1,6 @@
 //! One instruction at a time from the instruction set to graph nodes: operands, modifiers, results.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use super::arith::{Formats, Maker, Vector};
 use super::graph::{Arith, Kind, Node};
@@ -35,7 +35,7 @@ pub(crate) struct Translator<'a> {
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
     /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds is
     /// not known here.
-    pub(crate) registers: HashMap<Place, Node>,
+    pub(crate) registers: BTreeMap<Place, Node>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
     /// Dot products left by `texm3x2pad` and `texm3x3pad`, and how many are waiting.
@@ -60,7 +60,7 @@ impl<'a> Translator<'a> {
             program,
             constants,
             bindings,
-            registers: HashMap::new(),
+            registers: BTreeMap::new(),
             loop_counter: None,
             padded: [zero; 2],
             pads: 0,

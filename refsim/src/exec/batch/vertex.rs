@@ -81,7 +81,7 @@ impl BatchVertices {
             lane.to_f64(L::load(raw))
         }
         fn narrow<L: Lane>(lane: &L, x: f64) -> u32 {
-            lane.encode(lane.from_f64(x))
+            lane.encode(lane.round_f64(x))
         }
         let (main, single) = (self.formats.lane(Arith::Main), self.formats.lane(Arith::Single));
         if self.same_format {
