@@ -281,7 +281,7 @@ fn conversions_agree() {
             let bits = Random::new(u64::from(from.mask()) * 31 + u64::from(to.width())).patterns(&from, n);
             let batch = convert(from, to, &bits);
             for (&bits, &result) in bits.iter().zip(&batch) {
-                let scalar = refsim::num::ops::convert(&from, to, bits).bits;
+                let scalar = ops::convert(&from, to, bits).bits;
                 assert_eq!(result, scalar, "{from} to {to}: {bits:#x}: batch {result:#x}, scalar {scalar:#x}");
             }
         }

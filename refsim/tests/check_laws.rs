@@ -140,7 +140,7 @@ fn block() -> impl Strategy<Value = Vec<String>> {
         "setp_lt p0, r0, c3\n",
     ]);
     let leaf = line.prop_map(|l| vec![l.to_owned()]);
-    let nested = leaf.prop_recursive(4, 40, 4, |inner| {
+    leaf.prop_recursive(4, 40, 4, |inner| {
         let many = prop::collection::vec(inner, 1..4).prop_map(|v| v.concat());
         let condition = prop::sample::select(vec!["if b0\n", "if !p0.x\n", "if_ge r0.x, c0.y\n"]);
         prop_oneof![
@@ -157,8 +157,7 @@ fn block() -> impl Strategy<Value = Vec<String>> {
                 wrap("rep i0\n", a, "endrep\n")
             }),
         ]
-    });
-    nested
+    })
 }
 
 fn wrap(open: &str, mut body: Vec<String>, close: &str) -> Vec<String> {

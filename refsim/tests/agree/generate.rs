@@ -189,7 +189,7 @@ fn ps_1_4(r: &mut Random, lines: &mut Vec<String>) {
 fn ps_1_4_read(r: &mut Random, lines: &mut Vec<String>, n: usize, registers: bool) {
     let set = r.below(6);
     // Of one coordinate set always the same selector: even sets .xyz, odd ones .xyw.
-    let selector = if set % 2 == 0 { "" } else { ".xyw" };
+    let selector = if set.is_multiple_of(2) { "" } else { ".xyw" };
     lines.push(match r.below(8) {
         0..=2 => format!("texld r{n}, t{set}{selector}"),
         3 if set % 2 == 1 => format!("texld r{n}, t{set}_dw.xyw"),

@@ -153,7 +153,7 @@ fn sampler(r: &mut Random) -> SamplerState {
 fn constants(r: &mut Random) -> Constants {
     Constants {
         float: (0..8).map(|_| r.vector()).collect(),
-        int: (0..3).map(|_| [r.below(4) as i32, r.below(3) as i32, r.below(3) as i32 - 1, 0]).collect(),
+        int: (0..3).map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0]).collect(),
         boolean: (0..3).map(|_| r.one_in(2)).collect(),
     }
 }

@@ -13,8 +13,8 @@ fn position() -> impl Strategy<Value = (f32, f32)> {
     let axis = |n: u32| {
         prop_oneof![
             -4.0..n as f32 + 4.0,
-            (-2i32..n as i32 + 2).prop_map(|i| i as f32),
-            (-2i32..2 * n as i32).prop_map(|i| i as f32 / 2.0)
+            (-2i32..n.cast_signed() + 2).prop_map(|i| i as f32),
+            (-2i32..2 * n.cast_signed()).prop_map(|i| i as f32 / 2.0)
         ]
     };
     (axis(W), axis(H))

@@ -54,7 +54,7 @@ proptest! {
         let image = Image::from_bytes(format, TextureKind::D2, [7, 5, 1], 1, data).unwrap();
         let found = sample(Some(&image), &linear(mode), &rules(to), bits([u, v, 0., 0.]), Lod::Base);
         let ((x, wx), (y, wy)) = (split(u, 7), split(v, 5));
-        for component in 0..4 {
+        for (component, &filtered) in found.iter().enumerate() {
             let mut sum = Rational::new(0, 1);
             for (dx, dy, weight) in [(0, 0, (256 - wx) * (256 - wy)), (1, 0, wx * (256 - wy)), (0, 1, (256 - wx) * wy), (1, 1, wx * wy)] {
                 let at = (naive(mode, x + dx, 7), naive(mode, y + dy, 5));
@@ -66,7 +66,7 @@ proptest! {
                 let ChannelValue::Ratio { numerator, denominator } = value else { panic!("integer texels only") };
                 sum = sum.add(&Rational::new(numerator * weight, i64::from(denominator) * 65536));
             }
-            assert_nearest(to, found[component], &sum, "bilinear");
+            assert_nearest(to, filtered, &sum, "bilinear");
         }
     }
 
