@@ -53,9 +53,9 @@ impl Bundle {
         let mut bundle = Self { origin, forward, axes, low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for d in directions {
             let point = bundle.project(d)?;
-            for axis in 0..2 {
-                bundle.low[axis] = bundle.low[axis].min(point[axis]);
-                bundle.high[axis] = bundle.high[axis].max(point[axis]);
+            for (axis, at) in point.into_iter().enumerate() {
+                bundle.low[axis] = bundle.low[axis].min(at);
+                bundle.high[axis] = bundle.high[axis].max(at);
             }
         }
         for axis in 0..2 {
