@@ -128,12 +128,23 @@ impl Crossbar {
             return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name });
         }
         let units = Units::choose(kernel.form, mesh, rays);
-        let mut card = Card::set_up(&self.profile, self.executor, &kernel, rays, &units)?;
-        let mut events = DrawEvents::default();
-        for (region, triangles) in self.buckets(mesh, rays, side) {
-            events += card.draw(&kernel, mesh, &units, region, &triangles)?;
+        let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
+            let bucket = rays.part(region);
+            let mut card = Card::set_up(&self.profile, self.executor, &kernel, &bucket, &units)?;
+            let events = card.draw(&kernel, mesh, &units, &triangles)?;
+            Ok((region, card.read_back(&bucket, &units)?, events))
+        };
+        let drawn: Vec<_> = self.buckets(mesh, rays, side).into_par_iter().map(draw).collect::<Result<_, _>>()?;
+        let mut answer =
+            Answer { hits: vec![None; rays.rays().len()], events: DrawEvents::default(), kernel: kernel.name };
+        for (region, hits, events) in drawn {
+            answer.events += events;
+            for (row, hits) in (region.y..).zip(hits.chunks(region.width as usize)) {
+                let start = row as usize * rays.width() as usize + region.x as usize;
+                answer.hits[start..start + hits.len()].copy_from_slice(hits);
+            }
         }
-        Ok(Answer { hits: card.read_back(rays, &units)?, events, kernel: kernel.name })
+        Ok(answer)
     }
 
     /// The same for rays in any order and number, in batches of at most 65,536.
@@ -150,7 +161,8 @@ impl Crossbar {
         Ok(hits)
     }
 
-    /// Regions of the batch, with the triangles that their rays are to meet in rising order.
+    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that its
+    /// rays are to meet in rising order.
     fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
         let everything = || (0..mesh.len() as u32).collect();
         if self.all_pairs || rays.common_origin().is_none() {
@@ -193,13 +205,11 @@ impl Card {
     }
 
     /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
-    /// Only pixels of `region` are drawn.
     fn draw(
         &mut self,
         kernel: &Kernel,
         mesh: &Mesh,
         units: &Units,
-        region: Region,
         triangles: &[u32],
     ) -> Result<DrawEvents, EngineError> {
         let streams = Streams::new(mesh, triangles);
@@ -212,7 +222,6 @@ impl Card {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
         call.center = PixelCenter::OpenGl;
-        call.scissor = Some(region);
         // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
         call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         call.depth = DepthState { test: Some(CompareFunction::Less), write: true };

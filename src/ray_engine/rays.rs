@@ -3,6 +3,8 @@
 //! A card's registers have a range, its ray textures another, its depth buffer a third. The host brings rays and
 //! scene into them by powers of two alone, so that no bit of the input is lost before the card rounds it.
 
+use refsim::texture::Region;
+
 use crate::geom::Ray;
 
 /// Side of the squares that lists are laid out in: a tile of the card, and the paper's bucket of 256 rays (section 5.3).
@@ -83,6 +85,15 @@ impl RayBatch {
     /// The rays, row by row.
     pub fn rays(&self) -> &[Ray] {
         &self.rays
+    }
+
+    /// The rays of a region as a batch of their own; what of the region lies outside is left out.
+    pub(super) fn part(&self, region: Region) -> Self {
+        let whole = Region { x: 0, y: 0, width: self.width, height: self.height };
+        let Region { x, y, width, height } = region.intersect(whole);
+        let rows = self.rays.chunks(self.width.max(1) as usize).skip(y as usize).take(height as usize);
+        let rays = rows.flat_map(|row| &row[x as usize..(x + width) as usize]).copied().collect();
+        Self { width, height, rays }
     }
 
     /// The point at which all rays start, if there is one: eye rays, or rays from a point light.
