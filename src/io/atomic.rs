@@ -36,20 +36,53 @@ pub enum WriteError {
 
 /// Writes one file through `fill`; its folder must exist. On any error, whatever stood at `path` before still stands.
 ///
+/// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written to and
+/// never replaced; it too gets everything or, when `fill` fails, nothing.
+///
 /// # Errors
 /// [`WriteError`].
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
-    let Some(name) = path.file_name() else {
+    match fs::metadata(path) {
+        Ok(place) if place.is_dir() => {
+            let source = io::Error::from(io::ErrorKind::IsADirectory);
+            return Err(WriteError::File { path: path.into(), source });
+        }
+        Ok(place) if !place.is_file() => return fill_device(path, fill),
+        Ok(_) => {}
+        // Nothing is there yet, or a link to nothing, which becomes a file.
+        Err(_) => return write_beside(path, path, fill),
+    }
+    let file = fs::canonicalize(path).map_err(|source| WriteError::File { path: path.into(), source })?;
+    write_beside(&file, path, fill)
+}
+
+/// Hands over to a device or pipe at once what `fill` wrote.
+fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+    let write = || {
+        let mut bytes = Vec::new();
+        fill(&mut bytes)?;
+        File::options().append(true).open(path)?.write_all(&bytes)
+    };
+    write().map_err(|source| WriteError::File { path: path.into(), source })
+}
+
+/// Writes beside `file`, and renames; errors name `path`.
+fn write_beside(
+    file: &Path,
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let Some(name) = file.file_name() else {
         return Err(WriteError::Name { name: path.into() });
     };
-    let folder = match path.parent() {
+    let folder = match file.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
     let staging = stage_in(folder)?;
     let staged = staging.path().join(name);
     fill_file(&staged, path, fill)?;
-    rename(&staged, path)
+    rename(&staged, file)
 }
 
 /// A folder for what will be renamed, on the same file system because it lies within the target's folder. It goes away when dropped.
@@ -208,6 +241,32 @@ mod tests {
         assert_eq!(listing(folder.path()), ["a.txt"]);
         write_file(&path, |out| out.write_all(b"new")).expect("written");
         assert_eq!(fs::read(&path).expect("read"), b"new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link_and_a_device_a_device() {
+        use std::os::unix::fs::{FileTypeExt as _, symlink};
+        let folder = tempfile::tempdir().expect("a folder");
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, b"old").expect("written");
+        symlink(&file, &link).expect("linked");
+        write_file(&link, |out| out.write_all(b"new")).expect("written");
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink(), "the link still stands");
+        assert_eq!(fs::read(&file).expect("read"), b"new");
+        assert_eq!(listing(folder.path()), ["file", "link"]);
+
+        // A link of our own, so that a failure here does no harm to the machine.
+        let null = folder.path().join("null");
+        symlink("/dev/null", &null).expect("linked");
+        write_file(&null, |out| out.write_all(b"gone")).expect("written");
+        assert!(fs::metadata(&null).expect("there").file_type().is_char_device(), "the device still stands");
+        let full = folder.path().join("full");
+        symlink("/dev/full", &full).expect("linked");
+        if full.exists() {
+            assert!(matches!(write_file(&full, |out| out.write_all(b"x")), Err(WriteError::File { .. })), "no room");
+        }
+        assert!(matches!(write_file(folder.path(), |_| Ok(())), Err(WriteError::File { .. })), "a folder");
     }
 
     #[test]
