@@ -101,6 +101,8 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ObjError> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ObjError::TooLong { path: name.into() });
     }
+    // Some editors mark UTF-8 with three bytes; left there, they would hide the first vertex.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut pass = Pass { name, clean: String::new(), vertices: 0, faces: 0, forward: Vec::new() };
     for (line, text) in logical_lines(bytes) {
         pass.line(line, &text)?;
@@ -278,6 +280,12 @@ mod tests {
         assert_eq!(mesh.len(), 4);
         assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 3, 2], [1, 2, 4]]);
         assert_eq!(mesh.positions()[4], [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_byte_order_mark_hides_no_vertex() {
+        let mesh = parse("\u{feff}v 5 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3").expect("a mesh");
+        assert_eq!(mesh.positions()[0], [5.0, 0.0, 0.0]);
     }
 
     #[test]
