@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
@@ -19,7 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar intersect --mesh teapot.obj --rays rays.csv --executor exact --out hits.csv
       decided in exact arithmetic on the f32 numbers of the files
-  crossbar intersect --mesh teapot.obj --rays rays.csv --device r200 --executor batch --out hits.csv
+  crossbar intersect --mesh teapot.obj --rays rays.csv --device r200 --out hits.csv
       what a Radeon 8500 would have said
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
@@ -42,27 +41,17 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "front")]
     sides: view::SidesArg,
 
-    /// The card; `exact` arithmetic needs none
-    #[arg(long, value_name = "D", default_value = "ideal-fp32")]
-    device: String,
+    /// The card; `exact` arithmetic needs none [default: ideal-fp32]
+    #[arg(long, value_name = "D")]
+    device: Option<String>,
 
-    /// Who decides
-    #[arg(long, value_enum, default_value = "exact")]
-    executor: Executor,
+    /// Who decides [default: batch where a device is named, else exact]
+    #[arg(long, value_enum)]
+    executor: Option<view::Decider>,
 
     /// Where the hits go
     #[arg(long, value_name = "H.csv")]
     out: PathBuf,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Executor {
-    /// Exact arithmetic: the truth
-    Exact,
-    /// The emulated card, a fragment at a time
-    Scalar,
-    /// The emulated card, many fragments at once; the bits are those of scalar
-    Batch,
 }
 
 /// No hit.
@@ -70,17 +59,16 @@ const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     // The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
-    let profile = Profile::named(&args.device)?;
+    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = load_obj(&args.mesh)?;
     let rays = load_rays(&args.rays)?;
     let sides = Sides::from(args.sides);
-    let hits: Vec<Candidate> = match args.executor {
-        Executor::Exact => {
+    let hits: Vec<Candidate> = match view::Decider::choose(args.executor, args.device.as_deref()).kind() {
+        None => {
             let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
             nearest_all(&mesh, &rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect()
         }
-        Executor::Scalar => on_card(profile, ExecutorKind::Scalar, &mesh, &rays, sides)?,
-        Executor::Batch => on_card(profile, ExecutorKind::Batch, &mesh, &rays, sides)?,
+        Some(executor) => on_card(profile, executor, &mesh, &rays, sides)?,
     };
     write_file(&args.out, |out| write_hits(&hits, out)).map_err(Problem::from)?;
     let found = hits.iter().filter(|h| h.triangle.is_some()).count();

@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
 
 use super::size::Size;
 use super::{Out, Problem, Verdict, view};
@@ -23,7 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar render bunny.obj --out bunny
       bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
-  crossbar render bunny.obj --device r200 --executor batch --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
+  crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
       the same on a Radeon 8500";
 
 /// Trace the eye rays of a mesh: shaded picture, t and triangle
@@ -58,43 +56,32 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "both")]
     sides: view::SidesArg,
 
-    /// The card; `exact` arithmetic needs none
-    #[arg(long, value_name = "D", default_value = "ideal-fp32")]
-    device: String,
+    /// The card; `exact` arithmetic needs none [default: ideal-fp32]
+    #[arg(long, value_name = "D")]
+    device: Option<String>,
 
-    /// Who decides
-    #[arg(long, value_enum, default_value = "exact")]
-    executor: Executor,
+    /// Who decides [default: batch where a device is named, else exact]
+    #[arg(long, value_enum)]
+    executor: Option<view::Decider>,
 
     /// Folder for picture.png and layers.exr
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Executor {
-    /// Exact arithmetic: the truth
-    Exact,
-    /// The emulated card, a fragment at a time
-    Scalar,
-    /// The emulated card, many fragments at once; the bits are those of scalar
-    Batch,
-}
-
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let profile = Profile::named(&args.device)?;
+    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = load_obj(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let Size { width, height } = args.size;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
-    let hits: Vec<Option<(u32, f32)>> = match args.executor {
-        Executor::Exact => {
+    let hits: Vec<Option<(u32, f32)>> = match view::Decider::choose(args.executor, args.device.as_deref()).kind() {
+        None => {
             nearest_all(&mesh, rays.rays(), sides).into_iter().map(|h| h.map(|h| (h.triangle, h.t.to_f32()))).collect()
         }
-        Executor::Scalar | Executor::Batch => {
-            let kind = if args.executor == Executor::Scalar { ExecutorKind::Scalar } else { ExecutorKind::Batch };
+        Some(kind) => {
             let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, sides)?;
             answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()
         }

@@ -55,6 +55,36 @@ impl From<DeviceExecutor> for ExecutorKind {
     }
 }
 
+/// Who decides what a ray hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Decider {
+    /// Exact arithmetic: the truth
+    Exact,
+    /// The emulated card, a fragment at a time
+    Scalar,
+    /// The emulated card, many fragments at once; the bits are those of scalar
+    Batch,
+}
+
+impl Decider {
+    /// What was asked for; a card that was named is asked, unless the executor says otherwise.
+    pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Self {
+        executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact })
+    }
+
+    /// The executor of the card, or `None` for exact arithmetic.
+    pub(super) const fn kind(self) -> Option<ExecutorKind> {
+        match self {
+            Self::Exact => None,
+            Self::Scalar => Some(ExecutorKind::Scalar),
+            Self::Batch => Some(ExecutorKind::Batch),
+        }
+    }
+}
+
+/// The card where none is named.
+pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
+
 /// `1,2.5,-3` as a point.
 pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
     let wrong = || format!("expected three numbers X,Y,Z; found `{text}`");

@@ -35,6 +35,23 @@ fn fp32_and_both_executors_agree_with_exact_arithmetic_on_easy_rays() {
 }
 
 #[test]
+fn a_named_device_is_asked_without_an_executor() {
+    let card = ["--device", "ideal-e2m1", "--sides", "both"];
+    assert_eq!(hits(&card), hits(&[&card[..], &["--executor", "batch"]].concat()));
+    assert_ne!(hits(&card), hits(&["--sides", "both"]), "without a device the hits are exact");
+}
+
+#[test]
+fn the_wrong_option_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = in_project("fixtures/models/square.obj");
+    let ran = crossbar_in(folder.path(), &["render", &mesh, "--tan-half-height", "0"], "");
+    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
+    // The eye that is derived from the tangent is infinite, but nobody gave it.
+    assert!(ran.stderr.contains("tangent") && !ran.stderr.contains("eye"), "{}", ran.stderr);
+}
+
+#[test]
 fn a_radeon_8500_traces_rays_of_any_origin_in_one_pass() {
     let folder = tempfile::tempdir().expect("a folder");
     // A triangle in z = 0 and rays of four origins: two through it (from the front and from behind), one beside it, one
