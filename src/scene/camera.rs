@@ -71,13 +71,14 @@ impl Camera {
         width: u32,
         height: u32,
     ) -> Result<Self, CameraError> {
+        // First, because callers derive the eye from it.
+        if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
+            return Err(CameraError::FieldOfView { found: tan_half_height });
+        }
         for (what, found) in [("eye", eye), ("target", target), ("up", up)] {
             if !found.iter().all(|value| value.is_finite()) {
                 return Err(CameraError::NotFinite { what, found });
             }
-        }
-        if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
-            return Err(CameraError::FieldOfView { found: tan_half_height });
         }
         if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 30 {
             return Err(CameraError::Size { width, height });
