@@ -1,6 +1,6 @@
 //! The batch executor against the scalar one: random programs of every version, random draws, every format and rule.
 //!
-//! Compared are all targets, the depth buffer and every counter. `CROSSBAR_FULL=1` runs a hundred times more cases;
+//! Compared are all targets, the depth buffer and every counter. `CROSSBAR_FULL=1` runs thirty times more cases;
 //! `CROSSBAR_SEED=n` runs one case alone. A failing case is cut down, instruction by instruction, before it is shown.
 
 #[path = "agree/generate.rs"]
@@ -24,7 +24,7 @@ fn cases(quick: u64) -> std::ops::Range<u64> {
     if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
         return seed..seed + 1;
     }
-    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 100 * quick } else { quick }
+    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * quick } else { quick }
 }
 
 /// The checked program of some lines, if they are one.
@@ -78,7 +78,7 @@ fn cut_down(mut lines: Vec<String>, scene: &Scene, differs: impl Fn(&CheckedProg
 #[test]
 fn pixel_programs_agree() {
     let mut shaded = 0;
-    for seed in cases(420) {
+    for seed in cases(3000) {
         let mut r = Random::new(seed);
         let version = PIXEL[seed as usize % PIXEL.len()];
         let format = FORMATS[(seed as usize / PIXEL.len()) % FORMATS.len()];
@@ -97,7 +97,7 @@ fn pixel_programs_agree() {
 #[test]
 fn vertex_programs_agree() {
     let mut shaded = 0;
-    for seed in cases(60) {
+    for seed in cases(200) {
         let mut r = Random::new(seed ^ 0x5eed);
         let version = [Version::Vs1_1, Version::Vs2_0][seed as usize % 2];
         let scene = Scene::new(scene::profile("fp32", &mut r), Version::Ps2_0, &mut r).with_attributes(&mut r);

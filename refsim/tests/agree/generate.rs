@@ -81,36 +81,34 @@ fn ps_1(version: Version, r: &mut Random, lines: &mut Vec<String>) {
     }
 }
 
-fn ps_1_source(r: &mut Random, alpha: bool, fourth: bool) -> String {
-    let count = if fourth { 6 } else { 2 };
+/// What stands before and after a register: the source modifiers of every ps_1 version.
+const MODIFIERS: [(&str, &str); 10] = [
+    ("", ""),
+    ("", ""),
+    ("", ""),
+    ("", ""),
+    ("-", ""),
+    ("1-", ""),
+    ("", "_bias"),
+    ("-", "_bias"),
+    ("", "_bx2"),
+    ("-", "_bx2"),
+];
+
+fn ps_1_source(r: &mut Random, alpha: bool) -> String {
     let register = match r.below(10) {
-        0..=3 => format!("r{}", r.below(count)),
+        0..=3 => format!("r{}", r.below(2)),
         4 | 5 => format!("c{}", r.below(8)),
-        6 | 7 if !fourth => format!("t{}", r.below(4)),
-        6 | 7 => format!("r{}", r.below(count)),
+        6 | 7 => format!("t{}", r.below(4)),
         _ => format!("v{}", r.below(2)),
     };
-    let is_constant = register.starts_with('c');
     let selector = match r.below(5) {
         0 => ".a",
         1 if alpha => ".b",
-        2 if fourth => r.pick(&[".r", ".g", ".b"]),
         _ => "",
     };
-    if is_constant && fourth {
-        return format!("{register}{selector}");
-    }
-    match r.below(12) {
-        0 => format!("-{register}{selector}"),
-        1 => format!("1-{register}{selector}"),
-        2 => format!("{register}_bias{selector}"),
-        3 => format!("{register}_bx2{selector}"),
-        4 => format!("-{register}_bx2{selector}"),
-        5 if fourth => format!("{register}_x2{selector}"),
-        6 if fourth => format!("-{register}_x2{selector}"),
-        7 => format!("-{register}_bias{selector}"),
-        _ => format!("{register}{selector}"),
-    }
+    let (before, after) = r.choose(&MODIFIERS);
+    format!("{before}{register}{after}{selector}")
 }
 
 fn ps_1_arithmetic(version: Version, r: &mut Random, lines: &mut Vec<String>) {
@@ -128,7 +126,7 @@ fn one_ps_1(version: Version, r: &mut Random, mask: &str, later: bool, partner: 
     let shift = r.pick(&["", "", "", "_x2", "_x4", "_d2"]);
     let sat = r.pick(&["", "", "_sat"]);
     let alpha = mask == ".a";
-    let mut s = || ps_1_source(r, alpha, false);
+    let mut s = || ps_1_source(r, alpha);
     let (a, b, c) = (s(), s(), s());
     let to = format!("r{}", r.below(2));
     match r.below(12) {
@@ -147,81 +145,148 @@ fn one_ps_1(version: Version, r: &mut Random, mask: &str, later: bool, partner: 
 
 // ----------------------------------------------------------------------------------------------------------- ps_1_4
 
+/// What of each register is written.
+#[derive(Clone, Copy, Default)]
+struct Written {
+    rgb: [bool; 6],
+    all: [bool; 6],
+}
+
+impl Written {
+    fn load(&mut self, n: usize, alpha: bool) {
+        self.rgb[n] = true;
+        self.all[n] = alpha;
+    }
+
+    /// A register whose components that `alpha` asks for are written, if there is one.
+    fn pick(&self, alpha: bool, r: &mut Random) -> Option<usize> {
+        let list = if alpha { &self.all } else { &self.rgb };
+        let ready: Vec<usize> = (0..6).filter(|&n| list[n]).collect();
+        (!ready.is_empty()).then(|| ready[r.below(ready.len())])
+    }
+}
+
 fn ps_1_4(r: &mut Random, lines: &mut Vec<String>) {
     for c in 0..r.below(3) {
         lines.push(format!("def c{c}, {}", def(r, 1.0)));
     }
+    let mut w = Written::default();
     let two = !r.one_in(4);
+    let mut loaded = [false; 6];
     if two {
         for n in 0..6 {
-            ps_1_4_read(r, lines, n, false);
+            ps_1_4_read(r, lines, n, &mut w, None);
         }
-        for _ in 0..r.below(7) {
-            ps_1_4_arithmetic(r, lines, false);
+        for _ in 0..r.below(6) {
+            ps_1_4_arithmetic(r, lines, false, &mut w, &[]);
         }
-        if r.one_in(4) {
-            lines.push(format!("bem r{}.rg, r{}, r{}", r.below(6), r.below(6), r.below(6)));
+        if r.one_in(4)
+            && let (Some(a), Some(b)) = (w.pick(false, r), w.pick(false, r))
+        {
+            lines.push(format!("bem r{}.rg, r{a}, r{b}", r.below(6)));
         }
         lines.push("phase".to_owned());
+        loaded = w.rgb;
+        w.all = [false; 6];
     }
-    let depth = two && r.one_in(3);
+    let depth = loaded[5] && r.one_in(3);
+    let before = w;
     for n in 0..if depth { 5 } else { 6 } {
         if !two || !r.one_in(3) {
-            ps_1_4_read(r, lines, n, two);
+            ps_1_4_read(r, lines, n, &mut w, Some(&before));
         }
+    }
+    if r.one_in(6) {
+        lines.push(match before.pick(false, r) {
+            Some(n) if r.one_in(2) => format!("texkill r{n}"),
+            _ => format!("texkill t{}", r.below(6)),
+        });
     }
     if depth {
         lines.push("texdepth r5".to_owned());
+        w.rgb[5] = false;
+        w.all[5] = false;
     }
-    if r.one_in(4) {
-        lines.push(if two && r.one_in(2) {
-            format!("texkill r{}", r.below(5))
-        } else {
-            format!("texkill t{}", r.below(6))
-        });
-    }
-    lines.push(format!("mov r0, {}", r.pick(&["v0", "r0", "r1", "c0", "1-v1"])));
-    for _ in 0..r.below(7) {
-        ps_1_4_arithmetic(r, lines, true);
+    lines.push(match (w.pick(false, r), w.pick(false, r)) {
+        (Some(a), Some(b)) if r.one_in(2) => format!("mad_d2 r0.rgb, r{a}, c{}, r{b}", r.below(3)),
+        _ => format!("mov r0.rgb, {}", r.pick(&["v0", "c0", "1-v1", "v1_bx2"])),
+    });
+    lines.push("mov r0.a, v1".to_owned());
+    w.load(0, true);
+    for _ in 0..r.below(6) {
+        ps_1_4_arithmetic(r, lines, true, &mut w, if depth { &[5] } else { &[] });
     }
 }
 
-fn ps_1_4_read(r: &mut Random, lines: &mut Vec<String>, n: usize, registers: bool) {
+fn ps_1_4_read(r: &mut Random, lines: &mut Vec<String>, n: usize, w: &mut Written, before: Option<&Written>) {
     let set = r.below(6);
     // Of one coordinate set always the same selector: even sets .xyz, odd ones .xyw.
     let selector = if set.is_multiple_of(2) { "" } else { ".xyw" };
-    lines.push(match r.below(8) {
-        0..=2 => format!("texld r{n}, t{set}{selector}"),
-        3 if set % 2 == 1 => format!("texld r{n}, t{set}_dw.xyw"),
-        4 if set % 2 == 1 => format!("texcrd r{n}.rg, t{set}_dw.xyw"),
-        5 if registers => format!("texld r{n}, r{}", r.below(6)),
-        6 if registers && r.one_in(2) => format!("texld r{n}, r{}_dz", r.below(6)),
-        _ => format!("texcrd r{n}.rgb, t{set}{selector}"),
-    });
+    let register = before.and_then(|b| b.pick(false, r));
+    let (line, alpha) = match (r.below(8), register) {
+        (3, _) if set % 2 == 1 => (format!("texld r{n}, t{set}_dw.xyw"), true),
+        (4 | 7, _) => (format!("texcrd r{n}.rgb, t{set}{selector}"), false),
+        (5, Some(a)) => (format!("texld r{n}, r{a}"), true),
+        (6, Some(a)) if r.one_in(2) => (format!("texld r{n}, r{a}_dz"), true),
+        _ => (format!("texld r{n}, t{set}{selector}"), true),
+    };
+    lines.push(line);
+    w.load(n, alpha);
 }
 
-fn ps_1_4_arithmetic(r: &mut Random, lines: &mut Vec<String>, second: bool) {
+fn ps_1_4_arithmetic(r: &mut Random, lines: &mut Vec<String>, second: bool, w: &mut Written, dead: &[usize]) {
     let mask = r.pick(&["", ".rgb", ".rgb", ".a", ".r", ".g", ".b", ".rg", ".ga"]);
-    let line = one_ps_1_4(r, mask, second, false);
+    let before = *w;
+    let line = one_ps_1_4(r, mask, (second, false), &before, w, dead);
     lines.push(line);
     if mask == ".rgb" && r.one_in(2) {
-        let partner = one_ps_1_4(r, ".a", second, true);
+        let partner = one_ps_1_4(r, ".a", (second, true), &before, w, dead);
         lines.push(format!("+{partner}"));
     }
 }
 
-fn one_ps_1_4(r: &mut Random, mask: &str, second: bool, partner: bool) -> String {
+fn ps_1_4_source(r: &mut Random, second: bool, alpha: bool, w: &Written) -> String {
+    let register = match (r.below(10), w.pick(alpha, r)) {
+        (0..=6, Some(n)) => format!("r{n}"),
+        (7 | 8, _) if second => format!("v{}", r.below(2)),
+        _ => return format!("c{}{}", r.below(8), r.pick(&["", ".r", ".a"])),
+    };
+    let selector = match r.below(5) {
+        0 if alpha => ".a",
+        1 => r.pick(&[".r", ".g", ".b"]),
+        _ => "",
+    };
+    let (before, after) = r.choose(&MODIFIERS);
+    let (before, after) = if after.is_empty() && r.one_in(5) { (r.pick(&["", "-"]), "_x2") } else { (before, after) };
+    format!("{before}{register}{after}{selector}")
+}
+
+fn one_ps_1_4(
+    r: &mut Random,
+    mask: &str,
+    (second, partner): (bool, bool),
+    before: &Written,
+    w: &mut Written,
+    dead: &[usize],
+) -> String {
     let shift = r.pick(&["", "", "", "_x2", "_x4", "_x8", "_d2", "_d4", "_d8"]);
     let sat = r.pick(&["", "", "_sat"]);
-    let mut s = || loop {
-        let text = ps_1_source(r, false, true);
-        if second || !text.contains('v') {
-            return text;
+    let wide = mask.is_empty() || mask.contains('a');
+    let kind = r.below(12);
+    let dot4 = kind == 10 && !partner && mask != ".rgb";
+    let mut s = || ps_1_4_source(r, second, wide || dot4, before);
+    let (a, b, c) = (s(), s(), s());
+    let n = loop {
+        let n = r.below(6);
+        if !dead.contains(&n) {
+            break n;
         }
     };
-    let (a, b, c) = (s(), s(), s());
-    let to = format!("r{}", r.below(if second { 5 } else { 6 }));
-    match r.below(12) {
+    let to = format!("r{n}");
+    if mask.is_empty() {
+        w.load(n, true);
+    }
+    match kind {
         0 | 1 => format!("mul{shift}{sat} {to}{mask}, {a}, {b}"),
         2 | 3 => format!("mad{shift}{sat} {to}{mask}, {a}, {b}, {c}"),
         4 => format!("add{shift}{sat} {to}{mask}, {a}, {b}"),
@@ -230,7 +295,7 @@ fn one_ps_1_4(r: &mut Random, mask: &str, second: bool, partner: bool) -> String
         7 if !partner => format!("dp3{shift}{sat} {to}{mask}, {a}, {b}"),
         8 => format!("cnd{shift}{sat} {to}{mask}, {a}, {b}, {c}"),
         9 => format!("cmp{shift}{sat} {to}{mask}, {a}, {b}, {c}"),
-        10 if !partner && mask != ".rgb" => format!("dp4{shift}{sat} {to}{mask}, {a}, {b}"),
+        _ if dot4 => format!("dp4{shift}{sat} {to}{mask}, {a}, {b}"),
         _ => format!("mov{shift}{sat} {to}{mask}, {a}"),
     }
 }
@@ -270,8 +335,9 @@ fn ps_2(version: Version, r: &mut Random, lines: &mut Vec<String>) {
             ps_2_instruction(version, r, lines, false);
         }
     }
-    for i in 0..=r.below(3) {
-        lines.push(format!("mov oC{i}, r{}", r.below(TEMPS)));
+    let first = r.below(TEMPS);
+    for i in 0..4 {
+        lines.push(format!("mov oC{i}, r{}", (first + i) % TEMPS));
     }
     if r.one_in(3) {
         lines.push(format!("mov oDepth, r{}.{}", r.below(TEMPS), component(r)));
@@ -279,12 +345,6 @@ fn ps_2(version: Version, r: &mut Random, lines: &mut Vec<String>) {
     if label {
         lines.extend(["ret", "label l0"].map(str::to_owned));
         for _ in 0..1 + r.below(4) {
-            ps_2_instruction(version, r, lines, true);
-        }
-        if r.one_in(2) {
-            lines.push(format!("if_{} r0.x, r1.y", comparison(r)));
-            lines.push("ret".to_owned());
-            lines.push("endif".to_owned());
             ps_2_instruction(version, r, lines, true);
         }
         lines.push("ret".to_owned());

@@ -1,21 +1,27 @@
 //! A small random stream, so that a failing case is one number.
 
 /// A xorshift stream.
-pub(crate) struct Random(u64);
+pub(crate) struct Random {
+    state: u64,
+    /// Numbers are of ordinary size, none special.
+    pub(crate) tame: bool,
+    /// Tame numbers go beyond the range of short fixed-point formats.
+    pub(crate) wide: bool,
+}
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
         let mut state = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
         state = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         state = (state ^ state >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        Self(state | 1)
+        Self { state: state | 1, tame: false, wide: false }
     }
 
     pub(crate) fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0 >> 8
+        self.state ^= self.state << 13;
+        self.state ^= self.state >> 7;
+        self.state ^= self.state << 17;
+        self.state >> 8
     }
 
     /// Below `n`.
@@ -39,6 +45,10 @@ impl Random {
     /// A number of ordinary size, now and then special.
     pub(crate) fn number(&mut self) -> u32 {
         let r = self.next();
+        if self.tame {
+            let scale = if self.wide { 16.0 } else { 1.0 };
+            return (((r & 0xff_ffff) as f32 / 8_388_608.0 - 0.75) * scale).to_bits();
+        }
         match r % 24 {
             0 => self.choose(&[0, 0x8000_0000, 0x3f80_0000, 0xbf80_0000, 0x3f00_0000, 0x4100_0000]),
             1 => self.choose(&[0x7f80_0000, 0xff80_0000, 0x7fc0_0000, 0x0000_0001, 0x0070_0000, 0x7f7f_ffff]),

@@ -212,6 +212,10 @@ fn blend(r: &mut Random) -> BlendState {
 impl Scene {
     /// A scene for pixel programs of a version.
     pub(crate) fn new(profile: Profile, version: Version, r: &mut Random) -> Self {
+        // Two scenes in three show what the program computes: nothing special goes in, nothing is tested away.
+        r.tame = !r.one_in(3);
+        r.wide = r.one_in(3);
+        let plain = !r.one_in(3);
         let (vertices, primitive) = vertices(r);
         let kinds: &[(usize, TextureKind)] = match version {
             v if v.is_ps_2() => &[
@@ -240,8 +244,7 @@ impl Scene {
                 ));
             }
         }
-        let targets =
-            [TexelFormat::Rgba32f, r.choose(TexelFormat::ALL), r.choose(TexelFormat::ALL), TexelFormat::Rgba16f];
+        let targets = [TexelFormat::Rgba32f, TexelFormat::Rgba32f, r.choose(TexelFormat::ALL), TexelFormat::Rgba16f];
         let count = if version.is_ps_1_x() { 1 } else { 1 + r.below(4) };
         Self {
             profile,
@@ -262,12 +265,19 @@ impl Scene {
             targets: targets[..count].to_vec(),
             depth: (!r.one_in(3)).then(|| r.choose(DepthFormat::ALL)),
             depth_state: DepthState {
-                test: (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL)),
-                write: r.one_in(2),
+                test: if plain {
+                    Some(CompareFunction::Always)
+                } else {
+                    (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL))
+                },
+                write: plain || r.one_in(2),
             },
-            alpha: r.one_in(3).then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
-            blend: r.one_in(4).then(|| blend(r)),
-            masks: std::array::from_fn(|_| if r.one_in(4) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }),
+            alpha: (!plain && r.one_in(2))
+                .then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
+            blend: (!plain && r.one_in(2)).then(|| blend(r)),
+            masks: std::array::from_fn(|_| {
+                if !plain && r.one_in(3) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }
+            }),
             center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
         }
     }
