@@ -21,6 +21,7 @@ fn s(v: [f32; 4]) -> [u32; 4] {
 fn r200() -> Profile {
     let mut profile = Profile::named("r200").unwrap();
     profile.set_switch("constants", "register").unwrap();
+    profile.set_switch("rounding", "rne").unwrap();
     profile
 }
 
@@ -122,6 +123,7 @@ fn constants_are_clamped_in_ps_1_x_only() {
 fn r200_constants_have_eight_bits() {
     let mut profile = Profile::named("r200").unwrap();
     profile.set_switch("constants", "snorm8").unwrap();
+    profile.set_switch("rounding", "rne").unwrap();
     let ran = run("ps_1_4\nmov r0, c0", &profile, &[[0.5, -0.5, 0.001, 1.0]]);
     // 127.5 goes away from zero: 128/255 = 0.50196, 2056.03 in units of 2^-12.
     assert_eq!(ran.value(0), [2056, (-2056i32 & 0xffff).cast_unsigned(), 0, 4096]);

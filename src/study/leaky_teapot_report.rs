@@ -83,6 +83,43 @@ fn rounded(x: f64, steps: f64) -> f64 {
     (x * steps).round() / steps
 }
 
+/// A row, and the rows after it that answered every eye ray alike, to the bit.
+struct Group<'a> {
+    row: &'a Row,
+    same: Vec<&'a Row>,
+}
+
+/// The rows by what they answered: most switches decide what these programs never ask.
+fn groups(outcome: &Outcome) -> Vec<Group<'_>> {
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for row in &outcome.rows {
+        let alike = |g: &&mut Group<'_>| {
+            let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+            g.row.triangle == row.triangle && bits(&g.row.t) == bits(&row.t)
+        };
+        match groups.iter_mut().find(alike) {
+            Some(group) => group.same.push(row),
+            None => groups.push(Group { row, same: Vec::new() }),
+        }
+    }
+    groups
+}
+
+impl Group<'_> {
+    /// `, and the same bits with a, b and c`
+    fn others(&self) -> String {
+        let names: Vec<String> = self
+            .same
+            .iter()
+            .map(|row| match &row.configuration.switch {
+                Some((name, value)) => format!("{name}={value}"),
+                None => row.configuration.label.clone(),
+            })
+            .collect();
+        if names.is_empty() { String::new() } else { format!(". The same bits with {}", names.join(", ")) }
+    }
+}
+
 /// Everything that goes into the output folder, `index.html` last.
 ///
 /// # Errors
@@ -96,25 +133,14 @@ pub fn files(
     let layers = |t: &[f32], triangle: &[u32]| {
         exr(width, height, &[("t", Channel::Float(t)), ("triangle", Channel::Uint(triangle))])
     };
-    let exact_png = rgb8(width, height, &outcome.exact_picture)?;
     let mut files = vec![
-        ("exact.png".to_owned(), exact_png.clone()),
+        ("exact.png".to_owned(), rgb8(width, height, &outcome.exact_picture)?),
         ("exact.exr".to_owned(), layers(&outcome.exact_t, &outcome.exact_triangle)?),
     ];
-    let mut pictures = vec![Figure::new(exact_png, "exact arithmetic")];
-    let mut maps = Vec::new();
     for row in &outcome.rows {
         let label = &row.configuration.label;
-        let picture = rgb8(width, height, &row.picture)?;
-        let map = rgb8(width, height, &row.map)?;
-        let t = &row.tally;
-        pictures.push(Figure::new(picture.clone(), format!("{label}: {} leaks", t.leaks)));
-        maps.push(Figure::new(
-            map.clone(),
-            format!("{label}: {} leaks, {} false hits, {} wrong triangles", t.leaks, t.false_hits, t.wrong_triangle),
-        ));
-        files.push((format!("{label}.png"), picture));
-        files.push((format!("{label}-map.png"), map));
+        files.push((format!("{label}.png"), rgb8(width, height, &row.picture)?));
+        files.push((format!("{label}-map.png"), rgb8(width, height, &row.map)?));
         files.push((format!("{label}.exr"), layers(&row.t, &row.triangle)?));
     }
     let [rows, edges] = tables(outcome);
@@ -122,22 +148,34 @@ pub fn files(
     files.push(("edges.csv".to_owned(), edges.csv()?.into_bytes()));
     let json = serde_json::json!({ "provenance": provenance, "rows": rows.json(), "edges": edges.json() });
     files.push(("study.json".to_owned(), format!("{json:#}\n").into_bytes()));
-    let page = page(parameters, [rows, edges], pictures, maps, provenance.clone());
+    let page = page(parameters, outcome, provenance.clone())?;
     files.push(("index.html".to_owned(), page.html().into_bytes()));
     Ok(files)
 }
 
-fn page(
-    parameters: &Parameters,
-    [rows, edges]: [Table; 2],
-    pictures: Vec<Figure>,
-    maps: Vec<Figure>,
-    provenance: Provenance,
-) -> Page {
+/// Pictures side by side, then maps; one of each for every group of rows that answered alike.
+fn figures(parameters: &Parameters, outcome: &Outcome) -> Result<[Vec<Figure>; 2], ReportError> {
+    let (width, height) = (parameters.view.width() as usize, parameters.view.height() as usize);
+    let mut pictures = vec![Figure::new(rgb8(width, height, &outcome.exact_picture)?, "exact arithmetic")];
+    let mut maps = Vec::new();
+    for group in groups(outcome) {
+        let (label, t) = (&group.row.configuration.label, &group.row.tally);
+        let caption = format!("{label}: {} leaks{}", t.leaks, group.others());
+        pictures.push(Figure::new(rgb8(width, height, &group.row.picture)?, caption));
+        let caption =
+            format!("{label}: {} leaks, {} false hits, {} wrong triangles", t.leaks, t.false_hits, t.wrong_triangle);
+        maps.push(Figure::new(rgb8(width, height, &group.row.map)?, caption));
+    }
+    Ok([pictures, maps])
+}
+
+fn page(parameters: &Parameters, outcome: &Outcome, provenance: Provenance) -> Result<Page, ReportError> {
+    let [pictures, maps] = figures(parameters, outcome)?;
+    let [rows, edges] = tables(outcome);
     let page = Page::new("The leaky teapot", provenance)
         .text(format!(
-            "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card. {} eye rays, each against each of {} triangles, \
-             in several number formats; judged against first hits that are decided in exact arithmetic on the same inputs.",
+            "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {} eye rays and {} triangles, in \
+             several number formats, judged against first hits that are decided in exact arithmetic on the same inputs.",
             parameters.view.rays().len(),
             parameters.mesh.len(),
         ))
@@ -156,13 +194,14 @@ fn page(
         )
         .table(rows);
     if parameters.rays_per_edge == 0 {
-        return page;
+        return Ok(page);
     }
-    page.heading("Aimed at the seams")
+    Ok(page
+        .heading("Aimed at the seams")
         .text(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
              agree: a ray can miss both neighbours, in any precision. These rays are aimed from the eye at random points of \
              every shared edge, and at every vertex; counted are those that truly hit.",
         )
-        .table(edges)
+        .table(edges))
 }
