@@ -185,7 +185,7 @@ fn bad_input_ends_with_2_and_writes_nothing() {
     case(&["leaky-teapot", "--size", "0x9"]);
     case(&["leaky-teapot", "--tessellation", "0"]);
     case(&["leaky-teapot", "--device", "nv20", "--size", "4x4", "--tessellation", "1"]);
-    case(&["leaky-teapot", "--device", "r200", "--size", "4096x1", "--tessellation", "1"]);
+    case(&["leaky-teapot", "--device", "r200", "--size", "4096x1", "--all-pairs", "--tessellation", "1"]);
     case(&["leaky-teapot", "--size", "4x4", "--out", "a_file/out"]);
     case(&["intersect", "--mesh", "nowhere.obj", "--rays", &rays, "--out", "h.csv"]);
     case(&["intersect", "--mesh", &mesh, "--rays", "nowhere.csv", "--out", "h.csv"]);
