@@ -5,6 +5,8 @@
 
 #[path = "agree/generate.rs"]
 mod generate;
+#[path = "agree/generate_ps_1.rs"]
+mod generate_ps_1;
 #[path = "agree/random.rs"]
 mod random;
 #[path = "agree/scene.rs"]

@@ -6,7 +6,7 @@
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
 //!   device's rules; `schedule`: the graph as steps on `slots`, without what nothing reads.
 //! - `ops`, `steps`, `fetch`, `raster`, `output`: carrying the steps out, 256 lanes at a time.
-//! - `program`, `flow`: programs without and with flow control; `tile`, `vertex`: the ways in.
+//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`: the ways in.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations by the `multiversion` crate. No unsafe code.
@@ -17,6 +17,7 @@ mod fetch;
 mod fixed;
 mod float;
 mod flow;
+mod flow_run;
 mod graph;
 mod lane;
 mod lanes;

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::arith::Formats;
 use super::fetch::BatchTexture;
-use super::flow::{FlowPlan, FlowRun};
+use super::flow::FlowPlan;
+use super::flow_run::FlowRun;
 use super::graph::Arith;
 use super::lane::LANES;
 use super::output::Output;

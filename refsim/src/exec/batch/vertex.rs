@@ -1,7 +1,8 @@
 //! Vertex programs on batches of 256 vertices.
 
 use super::arith::Formats;
-use super::flow::{FlowPlan, FlowRun, first_lanes};
+use super::flow::FlowPlan;
+use super::flow_run::{FlowRun, first_lanes};
 use super::graph::Arith;
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};

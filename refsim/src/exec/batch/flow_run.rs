@@ -1,0 +1,252 @@
+//! A run of a program with flow control: which lanes are active, and where the program goes on.
+
+use super::flow::{ACTIVE, COUNTER, DECIDED, FlowPlan, Instr, KILLED};
+use super::lane::LANES;
+use super::slots::{Row, Slots, TRUE};
+use super::steps::{Surroundings, run_steps};
+use crate::event::SAMPLERS;
+use crate::isa::{Opcode, OpcodeClass};
+
+/// Passes of a loop at most, as in the scalar executor.
+const LOOP_LIMIT: i32 = 255;
+
+/// What an open block remembers.
+enum Frame {
+    If { restore: Box<Row>, otherwise: Box<Row> },
+    Loop { live: Box<Row>, restore: Box<Row>, left: i32, step: i32, outer: i32 },
+    Call { restore: Box<Row>, back: usize },
+}
+
+/// One run of a program over a batch.
+pub(crate) struct FlowRun<'p> {
+    plan: &'p FlowPlan,
+    around: &'p Surroundings<'p>,
+    run: &'p Row,
+    covered: &'p Row,
+    frames: Vec<Frame>,
+    counter: i32,
+    /// Instruction slots, summed over the lanes.
+    pub(crate) executed: u64,
+}
+
+fn any(row: &Row) -> bool {
+    row.iter().any(|&m| m != 0)
+}
+
+fn remove(from: &mut Row, lanes: &Row) {
+    for (a, &b) in from.iter_mut().zip(lanes) {
+        *a &= !b;
+    }
+}
+
+impl<'p> FlowRun<'p> {
+    /// A run of the lanes in `run`, of which those in `covered` are fragments (or vertices).
+    pub(crate) fn new(plan: &'p FlowPlan, around: &'p Surroundings<'p>, run: &'p Row, covered: &'p Row) -> Self {
+        Self { plan, around, run, covered, frames: Vec::new(), counter: 0, executed: 0 }
+    }
+
+    /// Runs the program to its end.
+    pub(crate) fn run(&mut self, slots: &mut Slots, fetches: &mut [u64; SAMPLERS]) {
+        *slots.row_mut(ACTIVE) = *self.run;
+        for slot in [KILLED, DECIDED, COUNTER].into_iter().chain(self.plan.registers.values().copied()) {
+            slots.fill(slot, 0);
+        }
+        let mut at = 0;
+        loop {
+            let Some(instruction) = self.plan.code.get(at) else {
+                match self.return_from_call(slots) {
+                    Some(back) => at = back,
+                    None => return,
+                }
+                continue;
+            };
+            let running = any(slots.row(ACTIVE));
+            if running {
+                let lanes = slots.row(ACTIVE).iter().zip(self.covered).filter(|&(&a, &c)| a & c != 0).count() as u64;
+                self.executed += instruction.cost * lanes;
+                if let Some(count) = instruction.sampler.and_then(|s| fetches.get_mut(s)) {
+                    *count += lanes;
+                }
+            }
+            if instruction.opcode.info().class == OpcodeClass::Flow {
+                match self.flow(at, instruction, slots) {
+                    Some(next) => at = next,
+                    None => return,
+                }
+                continue;
+            }
+            if running {
+                run_steps(&instruction.block.steps, self.around, self.run, slots);
+                for (&root, &to) in instruction.block.roots.iter().zip(&instruction.to) {
+                    slots.rows.swap(root.into(), to.into());
+                }
+            }
+            at += 1;
+        }
+    }
+
+    /// The active lanes in which the instruction's condition holds.
+    fn condition(&self, instruction: &Instr, slots: &mut Slots) -> Row {
+        run_steps(&instruction.block.steps, self.around, self.run, slots);
+        instruction.block.roots.first().map_or([0; LANES], |&root| *slots.row(root))
+    }
+
+    fn flow(&mut self, at: usize, instruction: &Instr, slots: &mut Slots) -> Option<usize> {
+        let target = self.plan.flow.target(at);
+        match instruction.opcode {
+            Opcode::If | Opcode::IfC => {
+                let taken = self.condition(instruction, slots);
+                let restore = Box::new(*slots.row(ACTIVE));
+                let mut otherwise = restore.clone();
+                remove(&mut otherwise, &taken);
+                self.frames.push(Frame::If { restore, otherwise });
+                *slots.row_mut(ACTIVE) = taken;
+                Some(if any(&taken) { at + 1 } else { target })
+            }
+            Opcode::Else => {
+                if let Some(Frame::If { otherwise, .. }) = self.frames.last() {
+                    *slots.row_mut(ACTIVE) = **otherwise;
+                }
+                Some(if any(slots.row(ACTIVE)) { at + 1 } else { target })
+            }
+            Opcode::EndIf => {
+                if let Some(Frame::If { restore, .. }) = self.frames.last() {
+                    *slots.row_mut(ACTIVE) = **restore;
+                    self.frames.pop();
+                }
+                Some(at + 1)
+            }
+            Opcode::Rep | Opcode::Loop => Some(self.enter_loop(at, target, instruction, slots)),
+            Opcode::EndRep | Opcode::EndLoop => Some(self.end_pass(at, target, slots)),
+            Opcode::Break => {
+                let leaving = *slots.row(ACTIVE);
+                self.leave_loop(&leaving, slots);
+                Some(at + 1)
+            }
+            Opcode::BreakC | Opcode::BreakP => {
+                let leaving = self.condition(instruction, slots);
+                self.leave_loop(&leaving, slots);
+                Some(at + 1)
+            }
+            Opcode::Call | Opcode::CallNz => {
+                let entering = match instruction.opcode {
+                    Opcode::CallNz => self.condition(instruction, slots),
+                    _ => *slots.row(ACTIVE),
+                };
+                if !any(&entering) || target <= at || target >= self.plan.code.len() {
+                    return Some(at + 1);
+                }
+                self.frames.push(Frame::Call { restore: Box::new(*slots.row(ACTIVE)), back: at + 1 });
+                *slots.row_mut(ACTIVE) = entering;
+                Some(target + 1)
+            }
+            Opcode::Ret => self.ret(at, slots),
+            Opcode::Label => self.return_from_call(slots),
+            _ => Some(at + 1),
+        }
+    }
+
+    fn count_from(&mut self, counter: i32, slots: &mut Slots) {
+        self.counter = counter;
+        slots.fill(COUNTER, counter.cast_unsigned());
+    }
+
+    fn enter_loop(&mut self, at: usize, target: usize, instruction: &Instr, slots: &mut Slots) -> usize {
+        let [count, start, step, _] = instruction.counter;
+        let left = count.clamp(0, LOOP_LIMIT);
+        if left == 0 || !any(slots.row(ACTIVE)) {
+            return target + 1;
+        }
+        let counted = instruction.opcode == Opcode::Loop;
+        let active = Box::new(*slots.row(ACTIVE));
+        let step = if counted { step } else { 0 };
+        self.frames.push(Frame::Loop { live: active.clone(), restore: active, left, step, outer: self.counter });
+        if counted {
+            self.count_from(start, slots);
+        }
+        at + 1
+    }
+
+    fn end_pass(&mut self, at: usize, start: usize, slots: &mut Slots) -> usize {
+        let Some(Frame::Loop { live, restore, left, step, outer }) = self.frames.last_mut() else {
+            return at + 1;
+        };
+        *left -= 1;
+        if *left > 0 && any(live) {
+            *slots.row_mut(ACTIVE) = **live;
+            let counter = self.counter.wrapping_add(*step);
+            self.count_from(counter, slots);
+            return start + 1;
+        }
+        *slots.row_mut(ACTIVE) = **restore;
+        let outer = *outer;
+        self.frames.pop();
+        self.count_from(outer, slots);
+        at + 1
+    }
+
+    fn leave_loop(&mut self, lanes: &Row, slots: &mut Slots) {
+        let in_loop = self
+            .frames
+            .iter()
+            .rev()
+            .take_while(|f| !matches!(f, Frame::Call { .. }))
+            .any(|f| matches!(f, Frame::Loop { .. }));
+        if !in_loop {
+            return;
+        }
+        remove(slots.row_mut(ACTIVE), lanes);
+        for frame in self.frames.iter_mut().rev() {
+            match frame {
+                Frame::If { restore, otherwise } => {
+                    remove(restore, lanes);
+                    remove(otherwise, lanes);
+                }
+                Frame::Loop { live, .. } => {
+                    remove(live, lanes);
+                    return;
+                }
+                Frame::Call { .. } => return,
+            }
+        }
+    }
+
+    fn ret(&mut self, at: usize, slots: &mut Slots) -> Option<usize> {
+        match self.frames.last() {
+            None => return None,
+            Some(Frame::Call { .. }) => return self.return_from_call(slots),
+            Some(_) => {}
+        }
+        let done = *slots.row(ACTIVE);
+        slots.fill(ACTIVE, 0);
+        for frame in self.frames.iter_mut().rev() {
+            match frame {
+                Frame::If { restore, otherwise } => {
+                    remove(restore, &done);
+                    remove(otherwise, &done);
+                }
+                Frame::Loop { live, restore, .. } => {
+                    remove(live, &done);
+                    remove(restore, &done);
+                }
+                Frame::Call { .. } => break,
+            }
+        }
+        Some(at + 1)
+    }
+
+    fn return_from_call(&mut self, slots: &mut Slots) -> Option<usize> {
+        while let Some(frame) = self.frames.pop() {
+            if let Frame::Call { restore, back } = frame {
+                *slots.row_mut(ACTIVE) = *restore;
+                return Some(back);
+            }
+        }
+        None
+    }
+}
+
+/// A mask of the first `count` lanes.
+pub(crate) fn first_lanes(count: usize) -> Row {
+    std::array::from_fn(|i| if i < count { TRUE } else { 0 })
+}
