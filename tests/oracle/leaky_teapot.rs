@@ -80,6 +80,18 @@ fn scalar_and_batch_give_the_same_study() {
     }
 }
 
+#[test]
+fn buckets_lose_nothing_that_the_whole_crossbar_finds() {
+    let mut configurations = Configuration::device_under_each_switch("r200").expect("a card");
+    configurations.retain(|c| !c.label.contains("bits") && !c.label.contains("iterator"));
+    configurations.extend(formats(&["fp16", "fp32"]));
+    let mut parameters = parameters(64, 3, configurations);
+    parameters.rays_per_edge = 0;
+    let buckets = digest(&study(&parameters));
+    parameters.all_pairs = true;
+    assert_eq!(buckets, digest(&study(&parameters)), "the same triangles and the same t, to the bit");
+}
+
 /// FNV-1a over what a run gives a pixel.
 fn digest(outcome: &Outcome) -> u64 {
     let mut h = 0xcbf2_9ce4_8422_2325_u64;
