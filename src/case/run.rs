@@ -1,6 +1,7 @@
 //! Draws a case once and looks at what came out.
 
 use refsim::{
+    device::Rates,
     event::DrawEvents,
     isa::SlotCost,
     machine::{AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams},
@@ -52,6 +53,8 @@ pub struct ShaderSlots {
     pub arithmetic: u64,
     /// Both, over all shaded fragments.
     pub total: u64,
+    /// Clocks that the pixel pipelines are busy at least; `None` where the profile does not say how fast they are.
+    pub cycles: Option<u64>,
 }
 
 impl Outcome {
@@ -114,13 +117,22 @@ pub fn run(setup: &Setup, executor: ExecutorKind) -> Result<Outcome, CaseError> 
         pictures,
         probes: setup.probes.iter().map(answer).collect(),
         events,
-        slots: slots(shader::slots(&setup.pixel), events.fragments.shaded),
+        slots: slots(shader::slots(&setup.pixel), events.fragments.shaded, &setup.profile.rates),
     })
 }
 
-fn slots(cost: SlotCost, fragments: u64) -> ShaderSlots {
+fn slots(cost: SlotCost, fragments: u64, rates: &Rates) -> ShaderSlots {
     let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
-    ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments) }
+    let cycles = pipe_cycles(texture, arithmetic, fragments, rates);
+    ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
+}
+
+/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all the
+/// time, memory for nothing.
+fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
+    let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
+    let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);
+    clocks(fragments.saturating_mul(fragment.max(1)), rates.pixel_pipes)
 }
 
 /// The values of each attribute register, vertex by vertex.

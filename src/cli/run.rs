@@ -110,7 +110,7 @@ fn counts(outcome: &Outcome) -> Table {
 
 fn count_list(outcome: &Outcome) -> Vec<(&'static str, u64)> {
     let (events, slots) = (&outcome.events, &outcome.slots);
-    vec![
+    let mut list = vec![
         ("vertices", events.vertices),
         ("vertex instructions", events.vertex_instructions),
         ("triangles assembled", events.primitives.assembled),
@@ -127,7 +127,9 @@ fn count_list(outcome: &Outcome) -> Vec<(&'static str, u64)> {
         ("shader slots", slots.total),
         ("bytes read", events.bytes.read()),
         ("bytes written", events.bytes.written()),
-    ]
+    ];
+    list.extend(slots.cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
+    list
 }
 
 fn probes(results: &[ProbeResult]) -> Table {

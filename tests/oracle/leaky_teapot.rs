@@ -7,6 +7,7 @@ use crossbar::scene::Camera;
 use crossbar::study::configuration::Configuration;
 use crossbar::study::leaky_teapot::{Outcome, Parameters, run};
 use refsim::machine::ExecutorKind;
+use refsim::num::Format;
 
 fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Parameters {
     let camera = Camera::teapot(size, size).expect("a camera");
@@ -67,6 +68,10 @@ fn rays_at_seams_leak_even_in_fp32() {
 #[test]
 fn scalar_and_batch_give_the_same_study() {
     let mut configurations = vec![Configuration::device("r200").expect("a card")];
+    for card in ["r300", "nv35"] {
+        configurations.push(Configuration::device(card).expect("a card"));
+    }
+    configurations.push(Configuration::device_in_format("nv35", Format::FP16).expect("a card"));
     configurations.extend(formats(&["fp16", "fp24", "fp32", "s5.10", "e6m9:rtz"]));
     let mut small = parameters(24, 2, configurations);
     let batch = study(&small);
@@ -78,6 +83,38 @@ fn scalar_and_batch_give_the_same_study() {
         assert_eq!(bits(&b.t), bits(&s.t), "{}: t", b.configuration.label);
         assert_eq!((b.edges, b.vertices), (s.edges, s.vertices), "{}: aimed rays", b.configuration.label);
     }
+}
+
+#[test]
+fn cards_of_2003_trace_the_teapot_as_their_formats_do() {
+    let mut configurations: Vec<_> =
+        ["r300", "r350", "nv30", "nv35"].map(|c| Configuration::device(c).expect("a card")).to_vec();
+    configurations.push(Configuration::device_in_format("nv35", Format::FP16).expect("a card"));
+    let mut parameters = parameters(96, 6, configurations);
+    parameters.rays_per_edge = 0;
+    for sides in [Sides::Front, Sides::Both] {
+        parameters.sides = sides;
+        let outcome = study(&parameters);
+        let wrong: Vec<u64> =
+            outcome.rows.iter().map(|r| r.tally.leaks + r.tally.false_hits + r.tally.wrong_triangle).collect();
+        assert_eq!(wrong[2..4], [0, 0], "{sides:?}: fp32 on NV30 and NV35 is right everywhere: {wrong:?}");
+        assert!(wrong[0] <= 8 && wrong[0] == wrong[1], "{sides:?}: fp24 on R300 and R350 nearly so: {wrong:?}");
+        assert!(wrong[4] > 50 && wrong[4] * 10 < outcome.rows[4].tally.surface, "{sides:?}: fp16 is not: {wrong:?}");
+    }
+}
+
+/// Both faces cost the Radeon nothing where rays have one origin: the vertex program turns the triangles round.
+#[test]
+fn a_radeon_8500_sees_both_faces() {
+    let mut card = Configuration::device("r200").expect("a card");
+    card.profile.set_switch("rounding", "rne").expect("a switch of r200");
+    let mut parameters = parameters(96, 6, vec![card]);
+    parameters.rays_per_edge = 0;
+    let front = study(&parameters).rows[0].tally;
+    parameters.sides = Sides::Both;
+    let both = study(&parameters).rows[0].tally;
+    assert!(both.surface >= front.surface && both.leaks * 50 < both.surface, "both faces: {both:?}");
+    assert!(both.wrong_triangle * 10 < both.surface, "mostly the right triangles: {both:?}");
 }
 
 #[test]
