@@ -47,7 +47,7 @@ fn every_figure_has_a_source() {
 #[test]
 fn r200_is_what_the_paper_says() {
     let r200 = Profile::named("r200").unwrap();
-    assert_eq!(r200.rules.format, Format::S3_12);
+    assert_eq!(r200.rules.format, Format::S3_12.with_rounding(Rounding::Down));
     assert_eq!(r200.rules.partial, None);
     assert_eq!(r200.rules.vertex_format, Format::FP32);
     assert_eq!(r200.rules.constant_storage, ConstantStorage::Snorm8);
@@ -60,9 +60,9 @@ fn r200_is_what_the_paper_says() {
     assert!(r200.supports(Version::Ps1_4) && !r200.supports(Version::Ps2_0));
     assert_eq!(r200.rates.fill_pixels_per_s, Some(1_100_000_000));
     let format = r200.figures().into_iter().find(|r| r.key == "rules.format").unwrap();
-    assert_eq!((format.value.as_str(), format.confidence), ("s3.12", Confidence::Derived));
+    assert_eq!((format.value.as_str(), format.confidence), ("s3.12:rdn", Confidence::Derived));
     let rounding = r200.figures().into_iter().find(|r| r.key == "rules.rounding").unwrap();
-    assert_eq!((rounding.value.as_str(), rounding.confidence), ("rne", Confidence::Guess));
+    assert_eq!((rounding.value.as_str(), rounding.confidence), ("rdn", Confidence::Guess));
 }
 
 #[test]
