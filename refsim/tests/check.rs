@@ -187,3 +187,11 @@ fn a_version_limit_is_lifted_on_ideal_devices_only() {
     assert!(verdict(&text, "r300").unwrap_err().contains("`ps_1_4` allows 8"));
     verdict(&text, "ideal-fp16").unwrap();
 }
+
+#[test]
+fn an_instruction_that_the_version_lacks_still_counts_as_a_write() {
+    let program = asm::assemble("ps_1_1\ncmp r0, v0, v0, v1\n").unwrap();
+    let report = check::check(program, &Profile::named("ideal-fp32").unwrap()).unwrap_err();
+    let rules: Vec<RuleId> = report.violations.iter().map(|v| v.rule).collect();
+    assert_eq!(rules, [RuleId::V03], "cmp is not in ps_1_1, and nothing else is wrong: {report}");
+}

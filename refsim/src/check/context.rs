@@ -31,7 +31,7 @@ pub(super) struct Context<'a> {
     pub(super) version: Version,
     pub(super) violations: Vec<Violation>,
     /// Whether the version has instruction `i` and it has its operands: what later passes may rely on.
-    sound: Vec<bool>,
+    pub(super) sound: Vec<bool>,
     /// For each instruction the one that ends or continues its block, its loop, or its subroutine.
     pub(super) jump: Vec<Option<usize>>,
     phase_marker: Option<usize>,

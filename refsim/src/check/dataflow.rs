@@ -29,12 +29,19 @@ impl Written {
 
 pub(super) fn check(context: &mut Context<'_>) {
     let mut written = Written::default();
-    let all: Vec<(usize, &Instruction)> = context.instructions().collect();
+    let sound: Vec<bool> = context.sound.to_vec();
+    // What is no instruction of the version is V03's to report; here it still writes what it names.
+    let all: Vec<(usize, &Instruction)> = context.program.instructions.iter().enumerate().collect();
     let mut at = 0;
     let mut loop_end = 0;
     let mut subroutines = false;
     while at < all.len() {
         let (index, instruction) = all[at];
+        if !sound[index] {
+            write(&mut written, context.version, instruction);
+            at += 1;
+            continue;
+        }
         match instruction.opcode {
             Opcode::Phase if context.phase_marker() == Some(index) => forget_alpha(&mut written),
             // Once for the outermost loop: it holds the inner ones.
@@ -53,7 +60,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             _ => {}
         }
         // Both halves of a pair read before either writes.
-        let pair = all.get(at + 1).filter(|(i, next)| *i == index + 1 && next.coissue);
+        let pair = all.get(at + 1).filter(|(i, next)| sound[*i] && next.coissue);
         let group = [Some(instruction), pair.map(|(_, next)| *next)];
         for instruction in group.into_iter().flatten() {
             read(context, &mut written, instruction);
