@@ -11,7 +11,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The folder cannot be made, or nothing can be written in it.
-    #[error("cannot write into the folder {}: {source}; choose another folder, or make it writable", path.display())]
+    #[error("cannot write into the folder {}; choose another folder, or make it writable", path.display())]
     Folder {
         /// The folder.
         path: PathBuf,
@@ -19,7 +19,7 @@ pub enum WriteError {
         source: io::Error,
     },
     /// The file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot write {}", path.display())]
     File {
         /// The file, at its final place.
         path: PathBuf,
@@ -236,7 +236,7 @@ mod tests {
             out.write_all(b"half")?;
             Err(io::Error::other("no more"))
         });
-        assert_eq!(failed.unwrap_err().to_string(), format!("cannot write {}: no more", path.display()));
+        assert_eq!(failed.unwrap_err().to_string(), format!("cannot write {}", path.display()));
         assert_eq!(fs::read(&path).expect("read"), b"old");
         assert_eq!(listing(folder.path()), ["a.txt"]);
         write_file(&path, |out| out.write_all(b"new")).expect("written");
