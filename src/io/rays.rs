@@ -188,12 +188,7 @@ mod tests {
         assert_eq!(with("1,2,3,0,0,0"), "r.csv:3: expected a direction, found (0, 0, 0)");
         assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected six finite numbers, found origin y not finite");
         assert_eq!(with("1,2,3,0,0,1e39"), "r.csv:3: expected six finite numbers, found direction z not finite");
-        assert!(
-            load_rays(Path::new("/no/such.csv"))
-                .unwrap_err()
-                .to_string()
-                .eq("cannot read the rays /no/such.csv")
-        );
+        assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().eq("cannot read the rays /no/such.csv"));
     }
 
     #[test]
