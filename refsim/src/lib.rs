@@ -1,4 +1,48 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
+//!
+//! A draw goes from left to right through the rooms. [`asm`] turns period assembly into an [`isa::Program`];
+//! [`check`](mod@check) judges it by a [`device::Profile`], which says what a card allows and how it computes, and gives a
+//! [`check::Checked`] program or every rule that it breaks; a [`machine::Machine`] holds textures and targets and obeys draw
+//! calls: vertices through a vertex program, [`raster`] from triangles to fragments, [`exec`] for the pixel program,
+//! [`output`] for tests and blending. [`texture`] says what a texel is, [`num`] what a number is, and [`event`] counts what
+//! happened. Nothing in here knows what is drawn: rays, radiosity and transfer are the business of the crate above.
+//!
+//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Two
+//! executors compute them by different means: the scalar one by integers alone, a value at a time, to be read beside the
+//! specification; the batch one in vector code of the host. Tests hold them together.
+//!
+//! A full-screen quad on a Radeon 8500 that doubles a colour, in 16-bit fixed point:
+//!
+//! ```
+//! use refsim::exec::Constants;
+//! use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+//! use refsim::raster::{PixelCenter, Primitive, Vertex};
+//! use refsim::texture::TexelFormat;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let r200 = refsim::device::Profile::named("r200")?;
+//! let program = refsim::check::check(refsim::asm::assemble("ps_1_4\nmov_x2 r0, v0\n")?, &r200)?;
+//!
+//! let mut card = Machine::new(r200, ExecutorKind::Scalar);
+//! let target = card.create_target(TexelFormat::Bgra8, 4, 4)?;
+//! let corner = |x: f32, y: f32| Vertex {
+//!     position: [x, y, 0.0, 1.0].map(f32::to_bits),
+//!     colors: [[0.25, 0.5, 0.75, 1.0].map(f32::to_bits); 2],
+//!     ..Vertex::default()
+//! };
+//! let quad = [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
+//! let constants = Constants::default();
+//! let vertices = VertexSource::Transformed(&quad);
+//! let mut call = DrawCall::new(vertices, Primitive::QuadList, &program, &constants, target);
+//! call.center = PixelCenter::OpenGl;
+//!
+//! let events = card.draw(&call)?;
+//! assert_eq!(events.fragments.passed, 16);
+//! // A8R8G8B8: a quarter doubled is 128/255, a half 1, three quarters saturate.
+//! assert_eq!(card.read_back(target)?.raw(0, 0, 2, 2), 0xff80_ffff);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod asm;
 pub mod check;
