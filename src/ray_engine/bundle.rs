@@ -36,9 +36,9 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// The bundle of a region's rays; `None` if they have no common side to look to.
-    pub(super) fn of(rays: &RayBatch, region: Region) -> Option<Self> {
-        let origin = rays.common_origin()?.map(f64::from);
+    /// The bundle of a region's rays, which all start at `origin`; `None` if they have no common side to look to.
+    pub(super) fn of(rays: &RayBatch, region: Region, origin: [f32; 3]) -> Option<Self> {
+        let origin = origin.map(f64::from);
         let rows = region.y..region.y + region.height;
         let index = |(x, y): (u32, u32)| y as usize * rays.width() as usize + x as usize;
         let pixels = rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| (x, y)));

@@ -165,12 +165,12 @@ impl Crossbar {
     /// rays are to meet in rising order.
     fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
         let everything = || (0..mesh.len() as u32).collect();
-        if self.all_pairs || rays.common_origin().is_none() {
+        let Some(origin) = rays.common_origin().filter(|_| !self.all_pairs) else {
             let whole = Region { x: 0, y: 0, width: rays.width(), height: rays.height() };
             return vec![(whole, everything())];
-        }
+        };
         let bucket = |region: Region| {
-            let near = Bundle::of(rays, region).map_or_else(everything, |bundle| bundle.near(mesh));
+            let near = Bundle::of(rays, region, origin).map_or_else(everything, |bundle| bundle.near(mesh));
             (region, near)
         };
         regions(rays, side).into_par_iter().map(bucket).collect()

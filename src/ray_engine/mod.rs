@@ -13,4 +13,4 @@ mod units;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit};
 pub use kernel::{Form, Kernel};
-pub use rays::{RayBatch, RayBatchError, ceil_power_of_two, normalise_range, power_of_two, scale_into};
+pub use rays::{RayBatch, RayBatchError};

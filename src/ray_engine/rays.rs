@@ -110,14 +110,14 @@ fn floor_log2(x: f64) -> i32 {
 }
 
 /// 2^`exponent`, for exponents in the range of normal f64.
-pub fn power_of_two(exponent: i32) -> f64 {
+fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
 }
 
 /// A direction scaled by a power of two so that its largest component lies in [1/2, 1), and the power.
 ///
 /// `scaled = direction * power`, hence `t = t_scaled * power`.
-pub fn normalise_range(direction: [f32; 3]) -> ([f64; 3], f64) {
+pub(super) fn normalise_range(direction: [f32; 3]) -> ([f64; 3], f64) {
     let d = direction.map(f64::from);
     let largest = d.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let power = power_of_two(-1 - floor_log2(largest));
@@ -125,7 +125,7 @@ pub fn normalise_range(direction: [f32; 3]) -> ([f64; 3], f64) {
 }
 
 /// The smallest power of two that is not below `x`; 1 for 0.
-pub fn ceil_power_of_two(x: f64) -> f64 {
+pub(super) fn ceil_power_of_two(x: f64) -> f64 {
     if x == 0.0 {
         return 1.0;
     }
@@ -134,7 +134,7 @@ pub fn ceil_power_of_two(x: f64) -> f64 {
 }
 
 /// The largest power of two `s` with `s * extent <= range`; 1 for an empty scene.
-pub fn scale_into(extent: f64, range: f64) -> f64 {
+pub(super) fn scale_into(extent: f64, range: f64) -> f64 {
     if extent == 0.0 { 1.0 } else { 1.0 / ceil_power_of_two(extent / range) }
 }
 

@@ -4,12 +4,7 @@ use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
 
 /// The rows of a matrix operation's second source.
 pub fn matrix_rows(opcode: Opcode) -> Option<u16> {
-    match opcode {
-        Opcode::M3x2 => Some(2),
-        Opcode::M3x3 | Opcode::M4x3 => Some(3),
-        Opcode::M3x4 | Opcode::M4x4 => Some(4),
-        _ => None,
-    }
+    opcode.matrix().map(|(rows, _)| rows)
 }
 
 /// Whether the operation reads one component and replicates its result.

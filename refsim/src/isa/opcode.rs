@@ -223,6 +223,20 @@ opcodes! {
     Ret          "ret"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
 }
 
+impl Opcode {
+    /// Rows of a matrix product, that is constants read from the named one on, and the terms of each row's dot product.
+    pub const fn matrix(self) -> Option<(u16, usize)> {
+        match self {
+            Self::M3x2 => Some((2, 3)),
+            Self::M3x3 => Some((3, 3)),
+            Self::M3x4 => Some((4, 3)),
+            Self::M4x3 => Some((3, 4)),
+            Self::M4x4 => Some((4, 4)),
+            _ => None,
+        }
+    }
+}
+
 /// The comparison of `if_`, `break_` and `setp_`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the variants are the suffixes")]

@@ -219,7 +219,7 @@ impl<'a> Translator<'a> {
                 let value = s[0].map(|x| self.make.unary(Arith::Main, code, x));
                 return self.writes(instruction, value, effects);
             }
-            opcode => match matrix_rows(opcode) {
+            opcode => match opcode.matrix() {
                 Some((rows, terms)) => self.matrix(k, instruction, &s[0], rows, terms),
                 None => {
                     let bump = self.bump(destination.register.index).matrix;
@@ -296,17 +296,5 @@ impl<'a> Translator<'a> {
             _ => self.make.zero(),
         };
         if source.modifier == Modifier::Not { self.inverted(value) } else { value }
-    }
-}
-
-/// Rows of a matrix product and the terms of each row's dot product.
-fn matrix_rows(opcode: Opcode) -> Option<(u16, usize)> {
-    match opcode {
-        Opcode::M3x2 => Some((2, 3)),
-        Opcode::M3x3 => Some((3, 3)),
-        Opcode::M3x4 => Some((4, 3)),
-        Opcode::M4x3 => Some((3, 4)),
-        Opcode::M4x4 => Some((4, 4)),
-        _ => None,
     }
 }

@@ -178,7 +178,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {
             *slot = self.source(lane, source, wanted, destination.partial_precision);
         }
-        let rows = matrix_rows(opcode);
+        let rows = opcode.matrix();
         let mut matrix = [[0; 4]; 4];
         if let (Some((count, _)), Some(source)) = (rows, instruction.sources.get(1)) {
             for (row, slot) in (0..count).zip(&mut matrix) {
@@ -333,17 +333,5 @@ fn compare(alu: &Alu<'_>, comparison: Comparison, a: u32, b: u32) -> bool {
         Comparison::Le => alu.less_or_equal(a, b),
         Comparison::Eq => alu.equal(a, b),
         Comparison::Ne => !alu.equal(a, b),
-    }
-}
-
-/// Rows of a matrix product and the terms of each row's dot product.
-fn matrix_rows(opcode: Opcode) -> Option<(u16, usize)> {
-    match opcode {
-        Opcode::M3x2 => Some((2, 3)),
-        Opcode::M3x3 => Some((3, 3)),
-        Opcode::M3x4 => Some((4, 3)),
-        Opcode::M4x3 => Some((3, 4)),
-        Opcode::M4x4 => Some((4, 4)),
-        _ => None,
     }
 }
