@@ -9,11 +9,13 @@ use crate::texture::value;
 pub(crate) struct ClipVertex {
     pub(crate) position: [u32; 4],
     pub(crate) components: [u32; COMPONENTS],
+    /// Whether the polygon's edge from here to the next corner lies on an edge of the triangle, not on a plane.
+    pub(crate) begins_edge: bool,
 }
 
 impl ClipVertex {
     pub(crate) fn new(vertex: &Vertex) -> Self {
-        Self { position: vertex.position, components: vertex.components() }
+        Self { position: vertex.position, components: vertex.components(), begins_edge: true }
     }
 }
 
@@ -104,8 +106,10 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
                 polygon.push(*corner);
             }
             match (is_outside(d), is_outside(d_next)) {
-                (false, true) => polygon.push(crossing(corner, d, next, d_next)),
-                (true, false) => polygon.push(crossing(next, d_next, corner, d)),
+                // From here the polygon follows the plane.
+                (false, true) => polygon.push(crossing(corner, d, next, d_next, false)),
+                // From here it goes on along what it followed before.
+                (true, false) => polygon.push(crossing(next, d_next, corner, d, corner.begins_edge)),
                 _ => {}
             }
         }
@@ -114,12 +118,13 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
 }
 
 /// Where the edge from an inside to an outside vertex meets the plane.
-fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside: u32) -> ClipVertex {
+fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside: u32, begins_edge: bool) -> ClipVertex {
     let t = value::div(d_inside, value::sub(d_inside, d_outside));
     let between = |a: u32, b: u32| if a == b { a } else { value::add(a, value::mul(t, value::sub(b, a))) };
     ClipVertex {
         position: std::array::from_fn(|i| between(inside.position[i], outside.position[i])),
         components: std::array::from_fn(|i| between(inside.components[i], outside.components[i])),
+        begins_edge,
     }
 }
 

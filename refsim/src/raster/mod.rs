@@ -8,6 +8,7 @@ mod assembly;
 mod clip;
 mod cover;
 mod error;
+mod fan;
 mod interpolate;
 mod setup;
 mod vertex;

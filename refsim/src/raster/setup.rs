@@ -2,6 +2,7 @@
 
 use super::RasterError;
 use super::clip::{ClipVertex, clip, is_inside};
+use super::fan::clipped_setup;
 use super::interpolate::ComponentMask;
 use super::vertex::{COMPONENTS, Vertex};
 use crate::device::Rules;
@@ -191,7 +192,7 @@ pub enum Dropped {
     NotFinite,
     /// It lies outside a clip plane.
     Clipped,
-    /// Its snapped vertices lie on a line.
+    /// Its snapped vertices lie on a line, or snapping folded over what the clipper left.
     Degenerate,
     /// Its winding is culled.
     Culled,
@@ -220,7 +221,7 @@ pub fn setup(
         return dropped(Dropped::NotFinite);
     }
     if is_inside(&triangle, state.clip_space) {
-        return match prepare(&triangle.map(ClipVertex::new), state, rules) {
+        return match whole(&triangle.map(ClipVertex::new), state, rules) {
             Ok(done) => {
                 out.push(done);
                 SetupReport { emitted: 1, dropped: None }
@@ -228,24 +229,12 @@ pub fn setup(
             Err(why) => dropped(why),
         };
     }
-    let polygon = clip(triangle, state.clip_space);
-    let corners = polygon.corners();
-    let (mut emitted, mut why) = (0, Dropped::Clipped);
-    for pair in corners.get(1..).unwrap_or(&[]).windows(2) {
-        match prepare(&[corners[0], pair[0], pair[1]], state, rules) {
-            Ok(done) => {
-                out.push(done);
-                emitted += 1;
-            }
-            Err(reason) => why = reason,
-        }
-    }
-    SetupReport { emitted, dropped: (emitted == 0).then_some(why) }
+    clipped_setup(&clip(triangle, state.clip_space), state, rules, out)
 }
 
 /// A corner in window space.
 #[derive(Clone, Copy)]
-struct Corner {
+pub(super) struct Corner {
     x: i64,
     y: i64,
     depth: u32,
@@ -253,7 +242,7 @@ struct Corner {
 }
 
 /// Viewport transform in FP32 steps, then snapping to the grid (nearest, halves up).
-fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) -> Option<Corner> {
+pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) -> Option<Corner> {
     let v = &state.viewport;
     // Half extents and centre are exact in FP32.
     let halves = |n: i64| value::mul(value::from_integer(n), value::HALF);
@@ -278,18 +267,34 @@ fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) ->
     Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
 }
 
-/// Sets up a triangle that needs no (more) clipping.
-fn prepare(vertices: &[ClipVertex; 3], state: &RasterState, rules: &RasterRules) -> Result<TriangleSetup, Dropped> {
+/// Sets up a triangle that needs no clipping.
+fn whole(vertices: &[ClipVertex; 3], state: &RasterState, rules: &RasterRules) -> Result<TriangleSetup, Dropped> {
     let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
     let [Some(c0), Some(c1), Some(c2)] = vertices.map(|v| to_window(v.position, state, subpixel_bits)) else {
         return Err(Dropped::NotFinite);
     };
+    prepare(vertices, [c0, c1, c2], state, rules)
+}
+
+/// Twice the signed area in units of the snapping grid squared: positive is clockwise with rows downward.
+pub(super) fn doubled_area([c0, c1, c2]: [Corner; 3]) -> i64 {
+    (c1.x - c0.x) * (c2.y - c0.y) - (c2.x - c0.x) * (c1.y - c0.y)
+}
+
+/// Sets up a triangle whose window positions are known.
+pub(super) fn prepare(
+    vertices: &[ClipVertex; 3],
+    corners: [Corner; 3],
+    state: &RasterState,
+    rules: &RasterRules,
+) -> Result<TriangleSetup, Dropped> {
+    let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
+    let [c0, c1, c2] = corners;
     // Half-integer centres need one fraction bit.
     let unit_bits = subpixel_bits.max(1);
     let widen = |c: Corner| (c.x << (unit_bits - subpixel_bits), c.y << (unit_bits - subpixel_bits));
     let points = [widen(c0), widen(c1), widen(c2)];
-    let [(x0, y0), (x1, y1), (x2, y2)] = points;
-    let signed = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
+    let signed = doubled_area(corners) << (2 * (unit_bits - subpixel_bits));
     if signed == 0 {
         return Err(Dropped::Degenerate);
     }

@@ -57,16 +57,31 @@ proptest! {
         a in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0], b in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0],
         up in 0.5f32..30.0, down in 0.5f32..30.0,
     ) {
-        // Two vertices on either side of the line through a and b as seen on the screen.
-        let on_screen = |v: [f32; 4]| [v[0] / v[3], v[1] / v[3]];
-        let (p, q) = (on_screen(a), on_screen(b));
-        let across = [-(q[1] - p[1]), q[0] - p[0]];
-        prop_assume!(across[0].abs() + across[1].abs() > 0.1);
-        let beside = |k: f32| vertex([(p[0] + q[0]) / 2.0 + across[0] * k, (p[1] + q[1]) / 2.0 + across[1] * k, 0.5, 1.0]);
-        let (va, vb, vc, vd) = (vertex(a), vertex(b), beside(up), beside(-down));
-        let found = counts(&[[&va, &vb, &vc], [&va, &vb, &vd]], &state(64, 48, CONVENTIONS[0]), &RULES);
-        prop_assert!(found.iter().all(|&n| n <= 1));
+        prop_assume!((a[0] / a[3] - b[0] / b[3]).abs() + (a[1] / a[3] - b[1] / b[3]).abs() > 0.1);
+        prop_assert!(neighbours(a, b, up, down).iter().all(|&n| n <= 1));
     }
+}
+
+/// How often each pixel is covered by two triangles on either side of the edge from a to b: their third vertices lie
+/// `up` and `down` lengths of the edge away from its middle as seen on the screen.
+fn neighbours(a: [f32; 4], b: [f32; 4], up: f32, down: f32) -> Vec<u32> {
+    let on_screen = |v: [f32; 4]| [v[0] / v[3], v[1] / v[3]];
+    let (p, q) = (on_screen(a), on_screen(b));
+    let across = [-(q[1] - p[1]), q[0] - p[0]];
+    let beside = |k: f32| vertex([(p[0] + q[0]) / 2.0 + across[0] * k, (p[1] + q[1]) / 2.0 + across[1] * k, 0.5, 1.0]);
+    let (va, vb, vc, vd) = (vertex(a), vertex(b), beside(up), beside(-down));
+    counts(&[[&va, &vb, &vc], [&va, &vb, &vd]], &state(64, 48, CONVENTIONS[0]), &RULES)
+}
+
+/// The near plane cuts off, or leaves, so little that snapping folds the rest over the common edge.
+#[test]
+fn a_folded_sliver_is_left_out() {
+    let (a, b) =
+        ([0.741_720_3, 1.214_467_8, 1.441_506_6, 2.824_437_4], [-1.980_204_1, 0.472_432_05, -0.562_358_7, 2.206_684_8]);
+    assert!(neighbours(a, b, 0.5, 19.782_885).iter().all(|&n| n <= 1));
+    let (a, b) =
+        ([1.815_795_1, -0.124_025_3, -0.002_630_855_7, 2.265_137], [0.732_016_86, 0.0, 1.443_721_9, 0.785_518_9]);
+    assert!(neighbours(a, b, 0.5, 25.613_966).iter().all(|&n| n <= 1));
 }
 
 /// One triangle far larger than the guard band covers everything once, and its attributes survive.

@@ -1,0 +1,54 @@
+//! What the clipper left of a triangle, as a fan of triangles.
+
+use super::RasterRules;
+use super::clip::{ClipVertex, Polygon};
+use super::setup::{Corner, Dropped, RasterState, SetupReport, TriangleSetup, doubled_area, prepare, to_window};
+
+/// Sets up what the clipper left, as a fan around its first corner.
+///
+/// The clipper's corners are snapped like any others, and where it cuts off or leaves very little that can fold the
+/// polygon over: it would cover pixels of its neighbour. So corners that lie beyond an edge of the triangle are left
+/// out, and of the fan the parts that are wound against the whole. What is lost is a sliver of the snapping's size.
+pub(super) fn clipped_setup(
+    polygon: &Polygon,
+    state: &RasterState,
+    rules: &RasterRules,
+    out: &mut Vec<TriangleSetup>,
+) -> SetupReport {
+    let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
+    let snapped = |v: &ClipVertex| Some((*v, to_window(v.position, state, subpixel_bits)?));
+    let Some(corners) = polygon.corners().iter().map(snapped).collect::<Option<Vec<_>>>() else {
+        return SetupReport { emitted: 0, dropped: Some(Dropped::NotFinite) };
+    };
+    let (winding, corners) = unfolded(&corners);
+    let (mut emitted, mut why) = (0, if polygon.corners().is_empty() { Dropped::Clipped } else { Dropped::Degenerate });
+    for pair in corners.get(1..).unwrap_or(&[]).windows(2) {
+        let part = [corners[0], pair[0], pair[1]];
+        if doubled_area(part.map(|(_, corner)| corner)).signum() != winding {
+            continue;
+        }
+        match prepare(&part.map(|(vertex, _)| vertex), part.map(|(_, corner)| corner), state, rules) {
+            Ok(done) => {
+                out.push(done);
+                emitted += 1;
+            }
+            Err(reason) => why = reason,
+        }
+    }
+    SetupReport { emitted, dropped: (emitted == 0).then_some(why) }
+}
+
+/// The winding of a snapped polygon (the sign of its area) and those of its corners that lie within the lines of all
+/// its edges that are the triangle's own. Neighbours snap a common edge alike, so what they keep lies on either side.
+fn unfolded(corners: &[(ClipVertex, Corner)]) -> (i64, Vec<(ClipVertex, Corner)>) {
+    let around = |i: usize| (corners[i].1, corners[(i + 1) % corners.len()].1);
+    let part = |i: usize| doubled_area([corners[0].1, around(i).0, around(i).1]);
+    let winding = (0..corners.len()).map(part).sum::<i64>().signum();
+    let is_within = |corner: Corner| {
+        (0..corners.len()).filter(|&i| corners[i].0.begins_edge).all(|i| {
+            let (from, to) = around(i);
+            doubled_area([from, to, corner]) * winding >= 0
+        })
+    };
+    (winding, corners.iter().copied().filter(|&(_, corner)| is_within(corner)).collect())
+}
