@@ -22,7 +22,7 @@ pub use memory::{DepthId, TextureId};
 
 use crate::device::Profile;
 use crate::event::DrawEvents;
-use crate::exec::batch::BatchTiles;
+use crate::exec::batch::{BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw, TileExecutor};
 use memory::Memory;
@@ -42,6 +42,7 @@ pub enum ExecutorKind {
 pub struct Machine {
     profile: Profile,
     executor: ExecutorKind,
+    simd: Option<SimdLevel>,
     pool: Option<rayon::ThreadPool>,
     memory: Memory,
 }
@@ -49,7 +50,7 @@ pub struct Machine {
 impl Machine {
     /// A machine with empty memory, on the global worker threads.
     pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor, pool: None, memory: Memory::default() }
+        Self { profile, executor, simd: None, pool: None, memory: Memory::default() }
     }
 
     /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.
@@ -74,13 +75,19 @@ impl Machine {
         self.executor
     }
 
+    /// Which vector instructions the batch executor uses: `None`, as in a new machine, for the widest that the processor
+    /// has; a level that it lacks stands for what it has of it. The level changes nothing but the time a draw takes.
+    pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
+        self.simd = level;
+    }
+
     /// Draws.
     ///
     /// # Errors
     /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
-        let (memory, profile, kind) = (&self.memory, &self.profile, self.executor);
+        let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
             walk::draw(memory, profile, call, &plan, kind, executor.as_ref())
@@ -97,11 +104,11 @@ impl Machine {
 }
 
 /// The tile executor of a draw.
-fn executor<'a>(kind: ExecutorKind, draw: &TileDraw<'a>) -> Box<dyn TileExecutor + 'a> {
+fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Box<dyn TileExecutor + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
         ExecutorKind::Batch => match BatchTiles::new(draw) {
-            Some(tiles) => Box::new(tiles),
+            Some(tiles) => Box::new(tiles.with_simd_level(simd)),
             None => Box::new(ScalarTiles::new(draw)),
         },
     }

@@ -4,7 +4,7 @@ use super::validate::Plan;
 use super::{DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, StepRate, VertexSource, VertexStreams};
 use crate::device::{Profile, Rules};
 use crate::event::PrimitiveCounts;
-use crate::exec::batch::BatchVertices;
+use crate::exec::batch::{BatchVertices, SimdLevel};
 use crate::exec::scalar::VertexProgram;
 use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
 use rayon::prelude::*;
@@ -26,14 +26,18 @@ pub(super) enum VertexStage<'a> {
 }
 
 impl<'a> VertexStage<'a> {
-    pub(super) fn new(call: &'a DrawCall<'a>, rules: &'a Rules, kind: ExecutorKind) -> Self {
+    pub(super) fn new(
+        call: &'a DrawCall<'a>,
+        rules: &'a Rules,
+        (kind, simd): (ExecutorKind, Option<SimdLevel>),
+    ) -> Self {
         match &call.vertices {
             VertexSource::Transformed(vertices) => Self::Transformed(vertices),
             VertexSource::Program { program, constants, streams } => {
                 if kind == ExecutorKind::Batch
                     && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants)
                 {
-                    return Self::Batch(Box::new(batch), streams);
+                    return Self::Batch(Box::new(batch.with_simd_level(simd)), streams);
                 }
                 Self::Program(Box::new(VertexProgram::new(program, rules, constants)), streams)
             }

@@ -6,6 +6,7 @@ use super::vertices::{VertexStage, set_up};
 use super::{DrawCall, ExecutorKind, MachineError};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
+use crate::exec::batch::SimdLevel;
 use crate::exec::{TILE, TileExecutor};
 use crate::output::TargetTile;
 use crate::raster::TriangleSetup;
@@ -36,7 +37,7 @@ pub(super) fn draw(
     profile: &Profile,
     call: &DrawCall<'_>,
     plan: &Plan,
-    kind: ExecutorKind,
+    kind: (ExecutorKind, Option<SimdLevel>),
     executor: &dyn TileExecutor,
 ) -> Result<Drawn, MachineError> {
     let stage = VertexStage::new(call, &profile.rules, kind);

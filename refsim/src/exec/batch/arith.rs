@@ -3,6 +3,7 @@
 use super::graph::{Arith, Graph, Kind, Node};
 use super::lanes::AnyLane;
 use super::ops::Code;
+use super::simd::SimdLevel;
 use crate::device::{LrpMode, MadMode, Rules};
 use crate::num::{self, DotOrder, Format, Overflow};
 
@@ -14,6 +15,7 @@ pub(crate) type Vector = [Node; 4];
 pub(crate) struct Formats {
     formats: [Format; 4],
     lanes: [AnyLane; 4],
+    simd: SimdLevel,
 }
 
 impl Formats {
@@ -21,7 +23,7 @@ impl Formats {
     pub(crate) fn new(main: Format, partial: Option<Format>) -> Option<Self> {
         let formats = [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap)];
         let [Some(a), Some(b), Some(c), Some(d)] = formats.map(AnyLane::new) else { return None };
-        Some(Self { formats, lanes: [a, b, c, d] })
+        Some(Self { formats, lanes: [a, b, c, d], simd: SimdLevel::widest() })
     }
 
     pub(crate) fn format(&self, arith: Arith) -> Format {
@@ -30,6 +32,16 @@ impl Formats {
 
     pub(crate) fn lane(&self, arith: Arith) -> &AnyLane {
         &self.lanes[arith as usize]
+    }
+
+    /// The vector instructions to use.
+    pub(crate) fn simd(&self) -> SimdLevel {
+        self.simd
+    }
+
+    /// Chooses vector instructions; `None` for the widest there are.
+    pub(crate) fn set_simd(&mut self, level: Option<SimdLevel>) {
+        self.simd = level.unwrap_or(SimdLevel::widest());
     }
 }
 

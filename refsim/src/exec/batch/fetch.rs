@@ -1,8 +1,6 @@
 //! Texture reads of a batch: whole rows of nearest texels out of a table where that is all there is to do, the texture
 //! room's own functions a lane at a time otherwise.
 
-use multiversion::multiversion;
-
 use super::arith::Formats;
 use super::graph::Arith;
 use super::lane::{LANES, Lane};
@@ -53,7 +51,11 @@ impl<'a> BatchTexture<'a> {
         match &self.table {
             Some(table) => {
                 let mut index = [0u32; LANES];
-                table.indices(slots.row(step.coordinates[0]), slots.row(step.coordinates[1]), &mut index);
+                let (u, v) = (slots.row(step.coordinates[0]), slots.row(step.coordinates[1]));
+                formats.simd().run(
+                    #[inline(always)]
+                    || table.indices(u, v, &mut index),
+                );
                 for (c, to) in step.to.iter().enumerate() {
                     let Some(to) = *to else { continue };
                     for (value, &i) in slots.row_mut(to).iter_mut().zip(&index) {
@@ -151,6 +153,7 @@ impl Table {
     }
 
     /// The index of each lane's texel.
+    #[inline(always)]
     fn indices(&self, u: &Row, v: &Row, out: &mut Row) {
         let (mut x, mut y) = ([0i32; LANES], [0i32; LANES]);
         axis(u, self.scale[0], self.width, self.modes[0], &mut x);
@@ -167,7 +170,7 @@ impl Table {
 ///
 /// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of less
 /// than 2^15 can't be rounded up to an integer that it doesn't reach.
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i32; LANES]) {
     let n = f64::from(size);
     for i in 0..LANES {

@@ -9,7 +9,7 @@
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`: the ways in.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
-//! vector width is chosen once for each run of lane operations by the `multiversion` crate. No unsafe code.
+//! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
 mod arith;
 mod evaluate;
@@ -29,6 +29,7 @@ mod power;
 mod program;
 mod raster;
 mod schedule;
+mod simd;
 mod slots;
 mod steps;
 mod tile;
@@ -37,5 +38,6 @@ mod translate_texture;
 mod vertex;
 
 pub use evaluate::{LaneOperation, convert, evaluate};
+pub use simd::SimdLevel;
 pub use tile::BatchTiles;
 pub use vertex::BatchVertices;

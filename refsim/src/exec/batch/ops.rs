@@ -1,9 +1,8 @@
 //! Lane operations: what decoded programs consist of, and the loops that carry them out.
 
-use multiversion::multiversion;
-
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
+use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots, TRUE};
 
 /// What an operation computes from up to three rows.
@@ -75,23 +74,33 @@ pub(crate) struct DotOp {
 }
 
 /// Runs operations in the arithmetic of a format. The one place where a processor's vector width is chosen.
-pub(crate) fn run(lane: &AnyLane, ops: &[LaneOp], slots: &mut Slots) {
-    with_any_lane!(lane, |lane| { run_lanes(lane, ops, slots) });
+pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    with_any_lane!(lane, |lane| {
+        simd.run(
+            #[inline(always)]
+            || run_lanes(lane, ops, slots),
+        )
+    });
 }
 
 /// As [`run`], for a dot product.
-pub(crate) fn run_dot(lane: &AnyLane, op: &DotOp, slots: &mut Slots) {
-    with_any_lane!(lane, |lane| { dot_lanes(lane, op, slots) });
+pub(crate) fn run_dot(lane: &AnyLane, simd: SimdLevel, op: &DotOp, slots: &mut Slots) {
+    with_any_lane!(lane, |lane| {
+        simd.run(
+            #[inline(always)]
+            || dot_lanes(lane, op, slots),
+        )
+    });
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
         step(lane, op, slots);
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn dot_lanes<L: Lane>(lane: &L, op: &DotOp, slots: &mut Slots) {
     let row = |k: usize| (&*slots.rows[usize::from(op.a[k])], &*slots.rows[usize::from(op.b[k])]);
     match op.terms {

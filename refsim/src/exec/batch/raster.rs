@@ -1,10 +1,9 @@
 //! Rasterisation of a triangle within a tile: coverage by the exact edge functions, interpolation in host single precision,
 //! step by step as the raster room defines it.
 
-use multiversion::multiversion;
-
 use super::lane::LANES;
 use super::lanes::AnyLane;
+use super::simd::SimdLevel;
 use super::slots::{Row, TRUE};
 use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, Weights};
@@ -16,7 +15,7 @@ pub(crate) const fn place(lane: usize) -> (u32, u32) {
 }
 
 /// Which lanes of the tile at `origin` a triangle covers within `region`. Returns how many.
-pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, out: &mut Row) -> u64 {
+pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, simd: SimdLevel, out: &mut Row) -> u64 {
     let inside = region.intersect(setup.bounds);
     if inside.width == 0 || inside.height == 0 {
         out.fill(0);
@@ -29,11 +28,14 @@ pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, o
     let edges = setup.edges.map(|e| [e.a, e.b, e.at(origin.0, origin.1) - e.bias]);
     let columns = (inside.x - origin.0, inside.x - origin.0 + inside.width);
     let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);
-    cover_lanes(&edges, columns, rows, out);
+    simd.run(
+        #[inline(always)]
+        || cover_lanes(&edges, columns, rows, out),
+    );
     out.iter().map(|&m| u64::from(m & 1)).sum()
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn cover_lanes(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
     for (i, lane) in out.iter_mut().enumerate() {
         let (x, y) = place(i);
@@ -59,6 +61,7 @@ pub(crate) fn quads(covered: &Row, out: &mut Row) {
 /// The weights of vertices 1 and 2 in every lane of a tile.
 #[derive(Clone, Debug)]
 pub(crate) struct TileWeights {
+    simd: SimdLevel,
     linear: [[f32; LANES]; 2],
     perspective: [[f32; LANES]; 2],
     /// What they were computed from: edges 1 and 2, area, reciprocals of w.
@@ -69,8 +72,8 @@ pub(crate) struct TileWeights {
 type Origin = ([[i64; 3]; 2], u32, Option<[u32; 3]>, (u32, u32));
 
 impl TileWeights {
-    pub(crate) fn new() -> Self {
-        Self { linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
+    pub(crate) fn new(simd: SimdLevel) -> Self {
+        Self { simd, linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
     }
 
     /// Computes the weights of a triangle, unless they are those of the triangle before.
@@ -86,16 +89,33 @@ impl TileWeights {
             let e = &setup.edges[i];
             [e.a, e.b, e.at(origin.0, origin.1)]
         });
-        linear(&local, f32::from_bits(setup.area_bits), &mut self.linear);
+        let area = f32::from_bits(setup.area_bits);
+        self.simd.run(
+            #[inline(always)]
+            || linear(&local, area, &mut self.linear),
+        );
         match w {
-            Some(w) => perspective(&self.linear, w.map(f32::from_bits), &mut self.perspective),
+            Some(w) => {
+                let w = w.map(f32::from_bits);
+                self.simd.run(
+                    #[inline(always)]
+                    || perspective(&self.linear, w, &mut self.perspective),
+                );
+            }
             None => self.perspective = self.linear,
         }
     }
 
     /// Depth in every lane.
     pub(crate) fn depth(&self, setup: &TriangleSetup, out: &mut Row) {
-        if setup.depth_constant { out.fill(setup.depth.base) } else { along(&setup.depth, &self.linear, out) }
+        if setup.depth_constant {
+            out.fill(setup.depth.base);
+        } else {
+            self.simd.run(
+                #[inline(always)]
+                || along(&setup.depth, &self.linear, out),
+            );
+        }
     }
 
     /// A component in every lane, single precision.
@@ -106,7 +126,10 @@ impl TileWeights {
         if setup.constant.has(component) {
             out.fill(single.decode(plane.base));
         } else if setup.iterator_format == Format::FP32 {
-            along(plane, &self.perspective, out);
+            self.simd.run(
+                #[inline(always)]
+                || along(plane, &self.perspective, out),
+            );
         } else {
             for (i, slot) in out.iter_mut().enumerate() {
                 let at = |rows: &[[f32; LANES]; 2]| {
@@ -119,7 +142,7 @@ impl TileWeights {
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn linear(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
     for (e, row) in edges.iter().zip(out) {
         for (i, weight) in row.iter_mut().enumerate() {
@@ -129,7 +152,7 @@ fn linear(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn perspective(linear: &[[f32; LANES]; 2], w: [f32; 3], out: &mut [[f32; LANES]; 2]) {
     let [first, second] = out;
     for i in 0..LANES {
@@ -142,7 +165,7 @@ fn perspective(linear: &[[f32; LANES]; 2], w: [f32; 3], out: &mut [[f32; LANES];
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[inline(always)]
 fn along(plane: &Plane, weights: &[[f32; LANES]; 2], out: &mut Row) {
     let [base, d1, d2] = [plane.base, plane.d1, plane.d2].map(f32::from_bits);
     for i in 0..LANES {

@@ -30,8 +30,10 @@ pub(crate) fn fill_constants(block: &Block, slots: &mut Slots) {
 pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, slots: &mut Slots) {
     for step in steps {
         match step {
-            Step::Lanes(arith, lane_ops) => ops::run(around.formats.lane(*arith), lane_ops, slots),
-            Step::Dot(arith, op) => ops::run_dot(around.formats.lane(*arith), op, slots),
+            Step::Lanes(arith, lane_ops) => {
+                ops::run(around.formats.lane(*arith), around.formats.simd(), lane_ops, slots)
+            }
+            Step::Dot(arith, op) => ops::run_dot(around.formats.lane(*arith), around.formats.simd(), op, slots),
             Step::Unorm { steps, from } => to_steps(*steps, *from, slots),
             Step::Fetch(fetch) => {
                 if let Some(Some(texture)) = around.textures.get(fetch.sampler) {

@@ -13,6 +13,7 @@ use super::output::Output;
 use super::program::{StraightPlan, StraightProgram, has_flow, pixel_formats};
 use super::raster::{TileWeights, cover, quads};
 use super::schedule::Block;
+use super::simd::SimdLevel;
 use super::slots::{Row, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use crate::event::FragmentCounts;
@@ -67,6 +68,13 @@ impl<'a> BatchTiles<'a> {
         })
     }
 
+    /// The same with chosen vector instructions; `None` for the widest that there are.
+    #[must_use]
+    pub fn with_simd_level(mut self, level: Option<SimdLevel>) -> Self {
+        self.formats.set_simd(level);
+        self
+    }
+
     fn around(&self) -> Surroundings<'_> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
@@ -79,7 +87,7 @@ impl<'a> BatchTiles<'a> {
         tile: &mut TargetTile,
         counts: &mut FragmentCounts,
     ) {
-        let mut walk = Walk::new(tile, plan.varying.slots);
+        let mut walk = Walk::new(tile, plan.varying.slots, self.formats.simd());
         let mut uniform = Slots::new(plan.uniform.slots);
         fill_constants(&plan.uniform, &mut uniform);
         fill_constants(&plan.varying, &mut walk.slots);
@@ -125,7 +133,7 @@ impl<'a> BatchTiles<'a> {
         tile: &mut TargetTile,
         counts: &mut FragmentCounts,
     ) {
-        let mut walk = Walk::new(tile, plan.slots());
+        let mut walk = Walk::new(tile, plan.slots(), self.formats.simd());
         plan.fill(&mut walk.slots);
         let around = self.around();
         for triangle in triangles {
@@ -168,6 +176,7 @@ impl TileExecutor for BatchTiles<'_> {
 
 /// A walk over the triangles of one tile.
 struct Walk {
+    simd: SimdLevel,
     origin: (u32, u32),
     slots: Slots,
     weights: TileWeights,
@@ -181,11 +190,12 @@ struct Walk {
 }
 
 impl Walk {
-    fn new(tile: &TargetTile, slots: usize) -> Self {
+    fn new(tile: &TargetTile, slots: usize, simd: SimdLevel) -> Self {
         Self {
+            simd,
             origin: (tile.region.x & !15, tile.region.y & !15),
             slots: Slots::new(slots),
-            weights: TileWeights::new(),
+            weights: TileWeights::new(simd),
             covered: [0; LANES],
             covered_count: 0,
             run: [0; LANES],
@@ -196,7 +206,7 @@ impl Walk {
 
     /// Finds what a triangle covers, and its depth; false if it covers nothing.
     fn enter(&mut self, triangle: &TriangleSetup, tile: &TargetTile, counts: &mut FragmentCounts) -> bool {
-        self.covered_count = cover(triangle, self.origin, tile.region, &mut self.covered);
+        self.covered_count = cover(triangle, self.origin, tile.region, self.simd, &mut self.covered);
         if self.covered_count == 0 {
             return false;
         }

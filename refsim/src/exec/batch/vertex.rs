@@ -7,6 +7,7 @@ use super::graph::Arith;
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
 use super::program::vertex_formats;
+use super::simd::SimdLevel;
 use super::slots::{Slot, Slots};
 use super::steps::{Surroundings, raw_constants};
 use crate::device::Rules;
@@ -34,6 +35,13 @@ impl BatchVertices {
         let plan = FlowPlan::vertex(program, rules, &formats, &constants);
         let raw = raw_constants(&constants.float, &formats);
         Some(Self { constants: raw, plan, same_format: rules.vertex_format == Format::FP32, formats })
+    }
+
+    /// The same with chosen vector instructions; `None` for the widest that there are.
+    #[must_use]
+    pub fn with_simd_level(mut self, level: Option<SimdLevel>) -> Self {
+        self.formats.set_simd(level);
+        self
     }
 
     /// Runs the program on the attributes `v0` to `v15` of each vertex, single precision patterns. Returns the vertices and

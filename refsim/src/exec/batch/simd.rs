@@ -1,0 +1,80 @@
+//! Which vector instructions of the host the batch executor uses. No level changes a bit; the narrower ones exist so that
+//! this can be tested on one machine.
+
+use multiversion::multiversion;
+
+/// A set of vector instructions, each level with those of the ones before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SimdLevel {
+    /// What every processor of the target has (SSE2 on x86-64).
+    Baseline,
+    /// AVX2.
+    Avx2,
+    /// AVX-512 F, BW, DQ and VL.
+    Avx512,
+}
+
+impl SimdLevel {
+    /// All levels, narrowest first.
+    pub const ALL: [SimdLevel; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
+    /// The levels that this processor has, narrowest first; never empty.
+    pub fn available() -> Vec<SimdLevel> {
+        Self::ALL.into_iter().filter(|level| level.is_available()).collect()
+    }
+
+    /// The widest level that this processor has.
+    pub fn widest() -> SimdLevel {
+        Self::ALL.into_iter().rfind(|level| level.is_available()).unwrap_or(Self::Baseline)
+    }
+
+    /// Lower-case name: `baseline`, `avx2`, `avx512`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn is_available(self) -> bool {
+        let avx2 = is_x86_feature_detected!("avx2");
+        match self {
+            Self::Baseline => true,
+            Self::Avx2 => avx2,
+            Self::Avx512 => {
+                avx2 && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+        }
+    }
+
+    #[cfg(not(target_arch = "x86_64"))]
+    fn is_available(self) -> bool {
+        self == Self::Baseline
+    }
+
+    /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must be
+    /// `#[inline(always)]` to be compiled for the level at all.
+    #[inline(always)]
+    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        match self {
+            Self::Baseline => work(),
+            Self::Avx2 => avx2(work),
+            Self::Avx512 => avx512(work),
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn avx512<R, F: FnOnce() -> R>(work: F) -> R {
+    work()
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn avx2<R, F: FnOnce() -> R>(work: F) -> R {
+    work()
+}
