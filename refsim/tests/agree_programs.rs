@@ -11,6 +11,8 @@ mod generate_ps_1;
 mod random;
 #[path = "agree/scene.rs"]
 mod scene;
+#[path = "agree/traces.rs"]
+mod traces;
 
 use random::Random;
 use refsim::asm::assemble;

@@ -12,6 +12,7 @@ mod flow;
 mod observer;
 pub mod scalar;
 mod tile;
+mod trace;
 mod usage;
 
 pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, SamplerBinding};
@@ -19,6 +20,7 @@ pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
 pub use flow::FlowMap;
 pub use observer::{NoObserver, Observer, Step, Trace};
 pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
+pub use trace::{PixelTracer, Shading};
 pub use usage::{colors_written, inputs_read};
 
 use crate::check::Checked;

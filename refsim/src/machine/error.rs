@@ -181,6 +181,18 @@ pub enum MachineError {
         /// How many vertices there are.
         limit: usize,
     },
+    /// A pixel outside the targets.
+    #[error("expected a pixel of the {width}x{height} target, found ({x}, {y}); columns and rows count from 0")]
+    NoSuchPixel {
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// Width of the targets.
+        width: u32,
+        /// Height of the targets.
+        height: u32,
+    },
     /// Something cannot be a target.
     #[error(transparent)]
     Output(#[from] OutputError),

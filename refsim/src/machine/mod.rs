@@ -12,6 +12,7 @@
 mod draw;
 mod error;
 mod memory;
+mod trace;
 mod validate;
 mod vertices;
 mod walk;
@@ -19,6 +20,7 @@ mod walk;
 pub use draw::{AttributeStream, BoundTexture, DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
 pub use error::MachineError;
 pub use memory::{DepthId, TextureId};
+pub use trace::{FragmentTrace, PixelState};
 
 use crate::device::Profile;
 use crate::event::DrawEvents;

@@ -113,6 +113,11 @@ fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[
     out
 }
 
+/// What a device says about rasterising.
+pub(super) fn raster_rules(profile: &Profile) -> RasterRules {
+    RasterRules { subpixel_bits: profile.rules.subpixel_bits, iterator_format: profile.rules.iterator_format }
+}
+
 /// Sets up the triangles of `instances` instances whose vertices stand one after the other.
 pub(super) fn set_up(
     vertices: &[Vertex],
@@ -120,8 +125,7 @@ pub(super) fn set_up(
     plan: &Plan,
     profile: &Profile,
 ) -> (Vec<TriangleSetup>, PrimitiveCounts) {
-    let rules =
-        RasterRules { subpixel_bits: profile.rules.subpixel_bits, iterator_format: profile.rules.iterator_format };
+    let rules = raster_rules(profile);
     let each = plan.triangles.len();
     let total = each * instances;
     let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 /// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
 /// however many there are.
-const ROUND: usize = 8192;
+pub(super) const ROUND: usize = 8192;
 
 /// What a draw leaves behind.
 pub(super) struct Drawn {
@@ -122,7 +122,7 @@ fn row_bins(setups: &[TriangleSetup], work: &[Work]) -> Vec<Vec<u32>> {
     rows
 }
 
-fn load(memory: &Memory, call: &DrawCall<'_>, region: Region) -> Result<TargetTile, MachineError> {
+pub(super) fn load(memory: &Memory, call: &DrawCall<'_>, region: Region) -> Result<TargetTile, MachineError> {
     let mut colors = Vec::with_capacity(call.targets.len());
     for &id in &call.targets {
         colors.push(Some(memory.texture(id)?));

@@ -9,7 +9,8 @@ use refsim::event::DrawEvents;
 use refsim::exec::{BumpStage, CheckedProgram, Constants};
 use refsim::isa::{Program, Version};
 use refsim::machine::{
-    AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams,
+    AttributeStream, DrawCall, ExecutorKind, FragmentTrace, Machine, MachineError, StepRate, VertexSource,
+    VertexStreams,
 };
 use refsim::num::{DotOrder, Format};
 use refsim::output::{
@@ -301,6 +302,39 @@ impl Scene {
         pixel: &CheckedProgram,
         vertex: Option<&CheckedProgram>,
     ) -> Result<Outcome, MachineError> {
+        self.with_call(kind, threads, pixel, vertex, |machine, call| {
+            let events = machine.draw(call)?;
+            let mut outcome = Outcome { targets: Vec::new(), depth: Vec::new(), events };
+            for &target in &call.targets {
+                outcome.targets.push(machine.read_back(target)?.bytes().to_vec());
+            }
+            if let Some(id) = call.depth_buffer {
+                outcome.depth = machine.read_depth(id)?.data().to_vec();
+            }
+            Ok(outcome)
+        })
+    }
+
+    /// Follows every pixel, row by row, through the draw.
+    pub(crate) fn traces(
+        &self,
+        kind: ExecutorKind,
+        pixel: &CheckedProgram,
+        vertex: Option<&CheckedProgram>,
+    ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
+        let pixels: Vec<_> = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y))).collect();
+        self.with_call(kind, 1, pixel, vertex, |machine, call| machine.trace_pixels(call, &pixels))
+    }
+
+    /// Does something with a machine that holds the scene, and the draw call.
+    fn with_call<T>(
+        &self,
+        kind: ExecutorKind,
+        threads: usize,
+        pixel: &CheckedProgram,
+        vertex: Option<&CheckedProgram>,
+        act: impl FnOnce(&mut Machine, &DrawCall<'_>) -> Result<T, MachineError>,
+    ) -> Result<T, MachineError> {
         let mut machine = Machine::with_threads(self.profile.clone(), kind, threads)?;
         let mut targets = Vec::new();
         for &format in &self.targets {
@@ -344,15 +378,7 @@ impl Scene {
         call.depth = if call.depth_buffer.is_some() { self.depth_state } else { DepthState::default() };
         (call.bump, call.alpha_test, call.blend, call.masks, call.center) =
             (self.bump, self.alpha, self.blend, self.masks, self.center);
-        let events = machine.draw(&call)?;
-        let mut outcome = Outcome { targets: Vec::new(), depth: Vec::new(), events };
-        for target in targets {
-            outcome.targets.push(machine.read_back(target)?.bytes().to_vec());
-        }
-        if let Some(id) = call.depth_buffer {
-            outcome.depth = machine.read_depth(id)?.data().to_vec();
-        }
-        Ok(outcome)
+        act(&mut machine, &call)
     }
 
     /// Where two outcomes differ first, in words.

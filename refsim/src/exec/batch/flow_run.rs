@@ -17,6 +17,19 @@ enum Frame {
     Call { restore: Box<Row>, back: usize },
 }
 
+/// Looks on while a program runs: called around every instruction but flow control. The default does nothing.
+pub(crate) trait Watch {
+    /// An instruction is about to run.
+    fn before(&mut self, _at: usize, _slots: &Slots) {}
+    /// It has run.
+    fn after(&mut self, _at: usize, _slots: &Slots) {}
+}
+
+/// Nobody looks on.
+struct Unwatched;
+
+impl Watch for Unwatched {}
+
 /// One run of a program over a batch.
 pub(crate) struct FlowRun<'p> {
     plan: &'p FlowPlan,
@@ -47,6 +60,11 @@ impl<'p> FlowRun<'p> {
 
     /// Runs the program to its end.
     pub(crate) fn run(&mut self, slots: &mut Slots, fetches: &mut [u64; SAMPLERS]) {
+        self.run_watched(slots, fetches, &mut Unwatched);
+    }
+
+    /// [`Self::run`] with somebody looking on.
+    pub(crate) fn run_watched(&mut self, slots: &mut Slots, fetches: &mut [u64; SAMPLERS], watch: &mut impl Watch) {
         *slots.row_mut(ACTIVE) = *self.run;
         for slot in [KILLED, DECIDED, COUNTER].into_iter().chain(self.plan.registers.values().copied()) {
             slots.fill(slot, 0);
@@ -76,10 +94,12 @@ impl<'p> FlowRun<'p> {
                 continue;
             }
             if running {
+                watch.before(at, slots);
                 run_steps(&instruction.block.steps, self.around, self.run, slots);
                 for (&root, &to) in instruction.block.roots.iter().zip(&instruction.to) {
                     slots.rows.swap(root.into(), to.into());
                 }
+                watch.after(at, slots);
             }
             at += 1;
         }

@@ -6,7 +6,7 @@
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
 //!   device's rules; `schedule`: the graph as steps on `slots`, without what nothing reads.
 //! - `ops`, `steps`, `fetch`, `raster`, `output`: carrying the steps out, 256 lanes at a time.
-//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`: the ways in.
+//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`, `trace`: the ways in.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
@@ -33,6 +33,7 @@ mod simd;
 mod slots;
 mod steps;
 mod tile;
+mod trace;
 mod translate;
 mod translate_texture;
 mod vertex;
@@ -40,4 +41,5 @@ mod vertex;
 pub use evaluate::{LaneOperation, convert, evaluate};
 pub use simd::SimdLevel;
 pub use tile::BatchTiles;
+pub use trace::BatchTracer;
 pub use vertex::BatchVertices;

@@ -10,6 +10,7 @@ use super::graph::{Arith, Graph, Kind, Node};
 use super::ops::Code;
 use super::output::Results;
 use super::schedule::{Block, schedule};
+use super::slots::Slot;
 use super::translate::{Effect, Translator};
 use crate::device::Rules;
 use crate::exec::{PixelBindings, ResolvedConstants};
@@ -21,11 +22,17 @@ use crate::raster::ComponentMask;
 #[derive(Debug)]
 pub(crate) struct StraightProgram {
     graph: Graph,
+    ends: Ends,
+    /// Texture reads by sampler, one for each read of a fragment.
+    pub(crate) fetches: Vec<usize>,
+}
+
+/// What a straight pixel program leaves behind.
+#[derive(Debug)]
+pub(crate) struct Ends {
     colors: [Option<[Node; 4]>; 4],
     killed: Option<Node>,
     depth: Option<(Arith, Node)>,
-    /// Texture reads by sampler, one for each read of a fragment.
-    pub(crate) fetches: Vec<usize>,
 }
 
 /// A straight program scheduled for triangles that have certain components constant.
@@ -56,40 +63,14 @@ impl StraightProgram {
         bindings: &PixelBindings<'_>,
     ) -> Self {
         let mut t = Translator::new(program, rules, formats.clone(), constants, Some(bindings));
-        let mut killed: Option<Node> = None;
-        let mut depth: Option<(Arith, Node)> = None;
-        let mut at = 0;
-        while let Some(instruction) = program.instructions.get(at) {
-            let pair = program.instructions.get(at + 1).filter(|i| i.coissue && is_arithmetic(instruction));
-            let mut effects = Vec::new();
-            one(&mut t, instruction, &mut effects);
-            if let Some(partner) = pair {
-                // Both read what stood before the pair.
-                one(&mut t, partner, &mut effects);
-            }
-            at += if pair.is_some() { 2 } else { 1 };
-            for effect in effects {
-                match effect {
-                    Effect::Write(place, value, _) => {
-                        t.registers.insert(place, value);
-                    }
-                    Effect::Kill(mask) => {
-                        killed = Some(killed.map_or(mask, |k| t.make.binary(Arith::Single, Code::Or, k, mask)));
-                    }
-                    Effect::Depth(arith, value) => depth = Some((arith, value)),
-                }
-            }
-        }
-        let colors = final_colors(&mut t, program);
-        let own = t.registers.get(&(RegisterFile::DepthOut, 0, 0)).map(|&n| (Arith::Main, n));
-        Self { colors, killed, depth: depth.or(own), fetches: t.fetches, graph: t.make.graph }
+        let ends = decode(&mut t, program, |_, _| {});
+        Self { ends, fetches: t.fetches, graph: t.make.graph }
     }
 
     /// Schedules the program for triangles whose components in `constant` are constant.
     pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
         let uniform = self.graph.uniform(|component| constant.has(component.into()));
-        let roots: Vec<Node> =
-            self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect();
+        let roots = self.ends.roots();
         let live = self.graph.live(roots.iter().copied());
         // Given to the varying block: uniform values that something varying, or the output, reads.
         let is_constant = |n: Node| matches!(self.graph.kind(n), Kind::Constant(_));
@@ -107,19 +88,60 @@ impl StraightProgram {
         let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &BTreeMap::new(), 0);
         debug_assert_eq!(varying.given.iter().map(|g| g.0).collect::<Vec<_>>(), given, "one slot for each given value");
         let uniform = schedule(&self.graph, &given, |_| false, &BTreeMap::new(), 0);
-        let results = self.results(&varying);
+        let results = self.ends.results(&varying.roots);
         StraightPlan { uniform, varying, results }
     }
+}
 
-    /// The result slots, in the order in which `plan` asks for roots.
-    fn results(&self, block: &Block) -> Results {
-        let mut slots = block.roots.iter().copied();
+impl Ends {
+    /// The values to compute.
+    pub(crate) fn roots(&self) -> Vec<Node> {
+        self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect()
+    }
+
+    /// Where they lie, given the slots of [`Self::roots`] in their order.
+    pub(crate) fn results(&self, roots: &[Slot]) -> Results {
+        let mut slots = roots.iter().copied();
         let mut next = || slots.next().unwrap_or_default();
         let colors = self.colors.map(|c| c.map(|c| c.map(|_| next())));
         let killed = self.killed.map(|_| next());
         let depth = self.depth.map(|(arith, _)| (arith, next(), None));
         Results { colors, killed, depth }
     }
+}
+
+/// Translates a straight pixel program; `visit` sees what each instruction does.
+pub(crate) fn decode(t: &mut Translator<'_>, program: &Program, mut visit: impl FnMut(usize, &[Effect])) -> Ends {
+    let mut killed: Option<Node> = None;
+    let mut depth: Option<(Arith, Node)> = None;
+    let mut at = 0;
+    while let Some(instruction) = program.instructions.get(at) {
+        let pair = program.instructions.get(at + 1).filter(|i| i.coissue && is_arithmetic(instruction));
+        let mut effects = Vec::new();
+        one(t, instruction, &mut effects);
+        visit(at, &effects);
+        if let Some(partner) = pair {
+            // Both read what stood before the pair.
+            let first = effects.len();
+            one(t, partner, &mut effects);
+            visit(at + 1, effects.get(first..).unwrap_or_default());
+        }
+        at += if pair.is_some() { 2 } else { 1 };
+        for effect in effects {
+            match effect {
+                Effect::Write(place, value, _) => {
+                    t.registers.insert(place, value);
+                }
+                Effect::Kill(mask) => {
+                    killed = Some(killed.map_or(mask, |k| t.make.binary(Arith::Single, Code::Or, k, mask)));
+                }
+                Effect::Depth(arith, value) => depth = Some((arith, value)),
+            }
+        }
+    }
+    let colors = final_colors(t, program);
+    let own = t.registers.get(&(RegisterFile::DepthOut, 0, 0)).map(|&n| (Arith::Main, n));
+    Ends { colors, killed, depth: depth.or(own) }
 }
 
 fn is_arithmetic(instruction: &Instruction) -> bool {

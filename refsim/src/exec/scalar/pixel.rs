@@ -5,6 +5,7 @@ use super::prepared::Prepared;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::{CheckedProgram, NoObserver, Observer, PixelBindings, delivered_color};
+use crate::isa::{Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, TEXCOORD_COMPONENT};
 
@@ -45,6 +46,28 @@ impl<'a> PixelProgram<'a> {
         self.prepared.reads
     }
 
+    /// A colour as instructions read it.
+    fn color(&self, interpolated: [u32; 4]) -> [u32; 4] {
+        interpolated.map(|x| delivered_color(self.prepared.rules, x))
+    }
+
+    /// A coordinate set as arithmetic instructions of ps_2_x read it.
+    fn coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
+        interpolated.map(|x| ops::convert(&Format::FP32, self.prepared.format, x).bits)
+    }
+
+    /// The input registers that hold interpolated values, as instructions read them.
+    pub(super) fn delivered(&self, input: &FragmentInput) -> Vec<(Register, [u32; 4])> {
+        let reads = self.prepared.reads;
+        let colors = (0u16..).zip(&input.v).filter(|&(n, _)| reads.has(COLOR_COMPONENT + 4 * usize::from(n)));
+        let mut out: Vec<_> = colors.map(|(n, v)| (Register::new(RegisterFile::Input, n), self.color(*v))).collect();
+        if self.prepared.program.version.is_ps_2() {
+            let sets = (0u16..).zip(&input.t).filter(|&(n, _)| reads.has(TEXCOORD_COMPONENT + 4 * usize::from(n)));
+            out.extend(sets.map(|(n, t)| (Register::new(RegisterFile::Texture, n), self.coordinates(*t))));
+        }
+        out
+    }
+
     /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
     /// others run as helpers. The results of helpers mean nothing. Texture reads of covered lanes are added to `fetches`.
     pub fn run(
@@ -73,12 +96,12 @@ impl<'a> PixelProgram<'a> {
             let registers = &mut run.lanes[lane];
             for (number, color) in input.v.iter().enumerate() {
                 if prepared.reads.has(COLOR_COMPONENT + 4 * number) {
-                    registers.input[number] = color.map(|x| delivered_color(prepared.rules, x));
+                    registers.input[number] = self.color(*color);
                 }
             }
             for (number, set) in input.t.iter().enumerate() {
                 if version.is_ps_2() && prepared.reads.has(TEXCOORD_COMPONENT + 4 * number) {
-                    registers.texture[number] = set.map(|x| ops::convert(&Format::FP32, format, x).bits);
+                    registers.texture[number] = self.coordinates(*set);
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! The reference executor on a tile: triangle by triangle, quad by quad, fragment by fragment.
 
 use super::pixel::{DepthValue, FragmentResult, PixelProgram};
-use crate::event::FragmentCounts;
-use crate::exec::{TileDraw, TileExecutor, colors_written};
+use crate::event::{FragmentCounts, SAMPLERS};
+use crate::exec::trace::{as_written, canonical};
+use crate::exec::{CheckedProgram, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written, program};
 use crate::num::Format;
 use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
 use crate::raster::{FragmentInput, PixelQuad, TriangleSetup};
@@ -10,6 +11,7 @@ use crate::raster::{FragmentInput, PixelQuad, TriangleSetup};
 /// The scalar tile executor of one draw.
 pub struct ScalarTiles<'a> {
     program: PixelProgram<'a>,
+    source: &'a CheckedProgram,
     written: u8,
     output: OutputState,
     rules: OutputRules,
@@ -20,18 +22,22 @@ impl<'a> ScalarTiles<'a> {
     pub fn new(draw: &TileDraw<'a>) -> Self {
         Self {
             program: PixelProgram::new(draw.program, draw.rules, &draw.bindings),
+            source: draw.program,
             written: colors_written(draw.program),
             output: draw.output,
             rules: draw.output_rules(),
         }
     }
 
-    fn shade(&self, triangle: &TriangleSetup, quad: &PixelQuad, tile: &mut TargetTile, counts: &mut FragmentCounts) {
-        let mut inputs = [FragmentInput::default(); 4];
-        for (lane, input) in inputs.iter_mut().enumerate() {
+    fn inputs(&self, triangle: &TriangleSetup, quad: &PixelQuad) -> [FragmentInput; 4] {
+        [0, 1, 2, 3].map(|lane| {
             let (x, y) = quad.lane(lane);
-            *input = triangle.interpolate(x, y, self.program.inputs_read());
-        }
+            triangle.interpolate(x, y, self.program.inputs_read())
+        })
+    }
+
+    fn shade(&self, triangle: &TriangleSetup, quad: &PixelQuad, tile: &mut TargetTile, counts: &mut FragmentCounts) {
+        let inputs = self.inputs(triangle, quad);
         let results = self.program.run(&inputs, quad.mask, &mut counts.fetches);
         for (lane, (result, input)) in results.iter().zip(&inputs).enumerate() {
             if quad.mask >> lane & 1 == 1 {
@@ -72,5 +78,25 @@ impl TileExecutor for ScalarTiles<'_> {
             }
         }
         counts
+    }
+}
+
+impl PixelTracer for ScalarTiles<'_> {
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading {
+        let (x, y) = (tile.region.x, tile.region.y);
+        let lane = ((x & 1) | (y & 1) << 1) as usize;
+        let quad = PixelQuad { x: x & !1, y: y & !1, mask: 1 << lane };
+        let inputs = self.inputs(triangle, &quad);
+        let mut trace = Trace::of_lane(lane);
+        let results = self.program.run_observed(&inputs, quad.mask, &mut [0; SAMPLERS], &mut trace);
+        let (input, output) = (inputs[lane], results[lane]);
+        let source = program(self.source);
+        Shading {
+            delivered: self.program.delivered(&input),
+            steps: trace.steps.into_iter().map(|step| as_written(step, source)).collect(),
+            output,
+            fate: self.merge(&output, input.depth, (x, y), tile),
+            input: canonical(input),
+        }
     }
 }

@@ -1,0 +1,338 @@
+//! Following one pixel in the batch executor: the program's own graph, scheduled so that every instruction's result is
+//! kept, run on the rows of the pixel's tile; one lane is read out.
+//!
+//! The draw itself computes less: what nothing reads, and what is the same all over a triangle, is left out there. What
+//! becomes of the fragment is therefore found by the draw's own executor.
+
+use std::collections::BTreeMap;
+
+use super::arith::Formats;
+use super::fetch::BatchTexture;
+use super::flow::FlowPlan;
+use super::flow_run::{FlowRun, Watch};
+use super::graph::{Arith, Node};
+use super::lane::LANES;
+use super::output::Results;
+use super::program::{Ends, decode, has_flow, pixel_formats};
+use super::raster::{TileWeights, cover, quads};
+use super::schedule::{Block, schedule};
+use super::slots::{Row, Slot, Slots};
+use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
+use super::tile::BatchTiles;
+use super::translate::{Effect, Translator};
+use crate::event::{FragmentCounts, SAMPLERS};
+use crate::exec::scalar::{DepthValue, FragmentResult};
+use crate::exec::trace::{as_written, canonical};
+use crate::exec::{PixelTracer, ResolvedConstants, Shading, Step, TileDraw, TileExecutor, inputs_read, sample_rules};
+use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile};
+use crate::num::Flags;
+use crate::output::{FragmentFate, TargetTile};
+use crate::raster::{
+    COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, FragmentInput, TEXCOORD_COMPONENT, TriangleSetup,
+};
+
+/// Instructions whose results are kept in one run; a longer program is run again for the next ones.
+const KEPT: usize = 4096;
+
+/// The batch executor of one draw, for one pixel at a time.
+#[derive(Debug)]
+pub struct BatchTracer<'a> {
+    tiles: BatchTiles<'a>,
+    formats: Formats,
+    textures: Vec<Option<BatchTexture<'a>>>,
+    constants: Vec<[u32; 4]>,
+    program: &'a Program,
+    reads: ComponentMask,
+    delivered: (Vec<Register>, Block),
+    code: Code,
+}
+
+#[derive(Debug)]
+enum Code {
+    /// Runs over the whole program, each for some instructions; the last one leaves the results.
+    Straight(Vec<Part>, Ends),
+    Flow(FlowPlan),
+}
+
+/// What the roots of a block mean: an instruction's results, component by component.
+#[derive(Debug)]
+struct Part {
+    written: Vec<(usize, Mask)>,
+    block: Block,
+}
+
+impl<'a> BatchTracer<'a> {
+    /// Prepares a draw. `None` where [`BatchTiles::new`] gives none.
+    pub fn new(draw: &TileDraw<'a>) -> Option<Self> {
+        let tiles = BatchTiles::new(draw)?;
+        let program = crate::exec::program(draw.program);
+        let formats = pixel_formats(draw.rules)?;
+        let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
+        let rules = sample_rules(draw.rules);
+        let reads = inputs_read(program);
+        let translator = || Translator::new(program, draw.rules, formats.clone(), &constants, Some(&draw.bindings));
+        let delivered = delivered(&mut translator(), program, reads);
+        let code = if has_flow(program) {
+            Code::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings))
+        } else {
+            straight(&mut translator(), program)
+        };
+        let main = formats.lane(Arith::Main);
+        let textures = draw.bindings.samplers.iter().map(|s| s.map(|b| BatchTexture::new(b, rules, main))).collect();
+        let constants = raw_constants(&constants.float, &formats);
+        Some(Self { tiles, textures, constants, program, reads, delivered, code, formats })
+    }
+
+    fn main(&self, slots: &Slots, slot: Slot, lane: usize) -> u32 {
+        self.formats.lane(Arith::Main).encode(slots.row(slot)[lane])
+    }
+
+    fn output(&self, results: &Results, slots: &Slots, lane: usize) -> FragmentResult {
+        let holds = |slot: Slot| slots.row(slot)[lane] != 0;
+        let own = results.depth.filter(|(_, _, decided)| decided.is_none_or(holds));
+        FragmentResult {
+            killed: results.killed.is_some_and(holds),
+            colors: results.colors.map(|c| c.map_or([0; 4], |c| c.map(|slot| self.main(slots, slot, lane)))),
+            depth: own.map(|(arith, slot, _)| DepthValue {
+                format: self.formats.format(arith),
+                bits: self.formats.lane(arith).encode(slots.row(slot)[lane]),
+            }),
+        }
+    }
+}
+
+/// The input registers that hold interpolated values, and a block that computes them.
+fn delivered(t: &mut Translator<'_>, program: &Program, reads: ComponentMask) -> (Vec<Register>, Block) {
+    let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
+    let sets = (0u16..8).filter(|_| program.version.is_ps_2());
+    let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
+    let registers: Vec<Register> = colors
+        .chain(sets)
+        .filter(|(register, first)| reads.has(first + 4 * usize::from(register.index)))
+        .map(|(register, _)| register)
+        .collect();
+    let roots: Vec<Node> = registers.iter().flat_map(|r| [0, 1, 2, 3].map(|c| t.held(r, c))).collect();
+    let block = schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0);
+    (registers, block)
+}
+
+/// Whether an instruction is one of those that steps are made of.
+fn makes_step(instruction: &Instruction) -> bool {
+    let class = instruction.opcode.info().class;
+    instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
+}
+
+fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
+    let mut written: Vec<(usize, Mask, Vec<Node>)> = Vec::new();
+    let ends = decode(t, program, |at, effects| {
+        if !program.instructions.get(at).is_some_and(makes_step) {
+            return;
+        }
+        let values = effects.iter().filter_map(|effect| match effect {
+            Effect::Write((_, _, component), value, _) => Some((*component, *value)),
+            _ => None,
+        });
+        let (components, nodes): (Vec<u8>, Vec<Node>) = values.unzip();
+        let mut mask = components.iter().fold(0, |mask, c| mask | 1 << c);
+        if let Some(destination) = program.instructions[at].destination
+            && destination.register.file == RegisterFile::DepthOut
+        {
+            mask = destination.mask.0 & destination.mask.0.wrapping_neg();
+        }
+        written.push((at, Mask(mask), nodes));
+    });
+    let mut chunks: Vec<&[_]> = written.chunks(KEPT).collect();
+    if chunks.is_empty() {
+        chunks.push(&[]);
+    }
+    let parts = chunks.into_iter().map(|chunk| {
+        let mut roots = ends.roots();
+        roots.extend(chunk.iter().flat_map(|(_, _, nodes)| nodes.iter().copied()));
+        Part {
+            written: chunk.iter().map(|&(at, mask, _)| (at, mask)).collect(),
+            block: schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0),
+        }
+    });
+    Code::Straight(parts.collect(), ends)
+}
+
+/// The rows of one tile that a triangle is followed on.
+struct Rows<'t> {
+    triangle: &'t TriangleSetup,
+    origin: (u32, u32),
+    weights: TileWeights,
+    covered: Row,
+    run: Row,
+    lane: usize,
+}
+
+impl Rows<'_> {
+    fn fill(&mut self, inputs: &[(u16, Slot)], formats: &Formats, slots: &mut Slots) {
+        self.weights.make(self.triangle, self.origin);
+        for &(component, slot) in inputs {
+            let single = formats.lane(Arith::Single);
+            self.weights.component(self.triangle, component.into(), single, slots.row_mut(slot));
+        }
+    }
+
+    fn input(&mut self, reads: ComponentMask, formats: &Formats) -> FragmentInput {
+        let single = formats.lane(Arith::Single);
+        let mut row = [0; LANES];
+        self.weights.make(self.triangle, self.origin);
+        self.weights.depth(self.triangle, &mut row);
+        let mut input = FragmentInput { depth: row[self.lane], ..FragmentInput::default() };
+        for component in (0..COMPONENTS).filter(|&c| reads.has(c)) {
+            self.weights.component(self.triangle, component, single, &mut row);
+            let value = single.encode(row[self.lane]);
+            match component {
+                FOG_COMPONENT => input.fog = value,
+                COLOR_COMPONENT.. => input.v[(component - COLOR_COMPONENT) / 4][component % 4] = value,
+                _ => input.t[component / 4][component % 4] = value,
+            }
+        }
+        canonical(input)
+    }
+}
+
+impl BatchTracer<'_> {
+    fn run_block(&self, block: &Block, rows: &mut Rows<'_>) -> Slots {
+        let mut slots = Slots::new(block.slots);
+        fill_constants(block, &mut slots);
+        rows.fill(&block.inputs, &self.formats, &mut slots);
+        run_steps(&block.steps, &self.around(), &rows.run, &mut slots);
+        slots
+    }
+
+    fn around(&self) -> Surroundings<'_> {
+        Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
+    }
+
+    fn run_straight(&self, parts: &[Part], ends: &Ends, rows: &mut Rows<'_>) -> (Vec<Step>, FragmentResult) {
+        let (mut steps, mut output) = (Vec::new(), FragmentResult::default());
+        for part in parts {
+            let slots = self.run_block(&part.block, rows);
+            output = self.output(&ends.results(&part.block.roots), &slots, rows.lane);
+            let mut roots = part.block.roots.iter().skip(ends.roots().len());
+            for &(instruction, mask) in &part.written {
+                let mut value = [0; 4];
+                for (c, &slot) in mask.components().zip(&mut roots) {
+                    value[c] = self.main(&slots, slot, rows.lane);
+                }
+                steps.push(step(instruction, rows.lane, mask, value));
+            }
+        }
+        (steps, output)
+    }
+
+    fn run_flow(&self, plan: &FlowPlan, rows: &mut Rows<'_>) -> (Vec<Step>, FragmentResult) {
+        let mut slots = Slots::new(plan.slots());
+        plan.fill(&mut slots);
+        rows.fill(plan.inputs(), &self.formats, &mut slots);
+        let mut watch = LaneWatch { tracer: self, plan, lane: rows.lane, mask: None, steps: Vec::new() };
+        let around = self.around();
+        FlowRun::new(plan, &around, &rows.run, &rows.covered).run_watched(&mut slots, &mut [0; SAMPLERS], &mut watch);
+        (watch.steps, self.output(plan.results(), &slots, rows.lane))
+    }
+}
+
+fn step(instruction: usize, lane: usize, mask: Mask, value: [u32; 4]) -> Step {
+    // Lanes of a tile are 16 a row; a step counts those of a quad.
+    let lane = lane & 1 | (lane >> 4 & 1) << 1;
+    Step { instruction, lane, mask, value, flags: Flags::empty() }
+}
+
+/// Notes what one lane of a program with flow control writes.
+struct LaneWatch<'w> {
+    tracer: &'w BatchTracer<'w>,
+    plan: &'w FlowPlan,
+    lane: usize,
+    /// What the instruction under way may write; `None` where the lane does not run.
+    mask: Option<Mask>,
+    steps: Vec<Step>,
+}
+
+impl LaneWatch<'_> {
+    fn held(&self, slots: &Slots, file: RegisterFile, index: u16, component: usize) -> u32 {
+        self.plan.register(file, index, component as u8).map_or(0, |slot| slots.row(slot)[self.lane])
+    }
+}
+
+impl Watch for LaneWatch<'_> {
+    fn before(&mut self, at: usize, slots: &Slots) {
+        self.mask = None;
+        let Some(instruction) = self.tracer.program.instructions.get(at).filter(|i| makes_step(i)) else { return };
+        if slots.row(super::flow::ACTIVE)[self.lane] == 0 {
+            return;
+        }
+        let mut mask = match (&instruction.destination, instruction.opcode) {
+            (_, Opcode::TexKill) | (None, _) => Mask(0),
+            (Some(destination), _) => destination.mask,
+        };
+        if let Some(predicate) = &instruction.predicate {
+            for c in mask.components() {
+                let bit = usize::from(predicate.swizzle.0[c] & 3);
+                if (self.held(slots, RegisterFile::Predicate, 0, bit) != 0) == predicate.not {
+                    mask.0 &= !(1 << c);
+                }
+            }
+        }
+        self.mask = Some(mask);
+    }
+
+    fn after(&mut self, at: usize, slots: &Slots) {
+        let program = self.tracer.program;
+        let Some((mask, instruction)) = self.mask.take().zip(program.instructions.get(at)) else { return };
+        let mut value = [0; 4];
+        if let Some(destination) = &instruction.destination {
+            let (file, index) = (destination.register.file, destination.register.index);
+            for c in mask.components() {
+                let raw = match file {
+                    RegisterFile::DepthOut => self.held(slots, file, 0, 0),
+                    _ => self.held(slots, file, index, c),
+                };
+                value[c] = match file {
+                    RegisterFile::Predicate => u32::from(raw != 0),
+                    _ => self.tracer.formats.lane(Arith::Main).encode(raw),
+                };
+            }
+        }
+        self.steps.push(as_written(step(at, self.lane, mask, value), program));
+    }
+}
+
+impl PixelTracer for BatchTracer<'_> {
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading {
+        let (x, y) = (tile.region.x, tile.region.y);
+        let mut rows = Rows {
+            triangle,
+            origin: (x & !15, y & !15),
+            weights: TileWeights::new(),
+            covered: [0; LANES],
+            run: [0; LANES],
+            lane: ((y & 15) * 16 + (x & 15)) as usize,
+        };
+        cover(triangle, rows.origin, tile.region, &mut rows.covered);
+        quads(&rows.covered, &mut rows.run);
+        let (registers, block) = &self.delivered;
+        let slots = self.run_block(block, &mut rows);
+        let values = block.roots.chunks_exact(4).map(|r| [0, 1, 2, 3].map(|c| self.main(&slots, r[c], rows.lane)));
+        let delivered = registers.iter().copied().zip(values).collect();
+        let (steps, output) = match &self.code {
+            Code::Straight(parts, ends) => self.run_straight(parts, ends, &mut rows),
+            Code::Flow(plan) => self.run_flow(plan, &mut rows),
+        };
+        let counts = self.tiles.run_tile(std::slice::from_ref(triangle), &[0], tile);
+        Shading { input: rows.input(self.reads, &self.formats), delivered, steps, output, fate: fate(&counts) }
+    }
+}
+
+/// What became of the one fragment that was counted.
+fn fate(counts: &FragmentCounts) -> FragmentFate {
+    match counts {
+        FragmentCounts { killed: 1.., .. } => FragmentFate::KilledByShader,
+        FragmentCounts { alpha_failed: 1.., .. } => FragmentFate::AlphaFailed,
+        FragmentCounts { depth_failed: 1.., .. } => FragmentFate::DepthFailed,
+        FragmentCounts { passed: 1.., .. } => FragmentFate::Passed,
+        _ => FragmentFate::OutsideTile,
+    }
+}

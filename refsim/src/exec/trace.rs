@@ -1,0 +1,58 @@
+//! Following one pixel through a draw, instruction by instruction: the seam between the machine and whoever can tell.
+//!
+//! A trace is made beside a draw, never during one, so that drawing pays nothing for it: the machine finds the triangles
+//! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets. An executor joins by implementing
+//! the trait; `crate::machine` chooses.
+
+use super::Step;
+use super::scalar::FragmentResult;
+use crate::isa::{Program, Register, RegisterFile};
+use crate::num::{Format, ops};
+use crate::output::{FragmentFate, TargetTile};
+use crate::raster::{FragmentInput, TriangleSetup};
+
+/// What an executor did with one fragment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shading {
+    /// What the rasteriser gave the program, single precision; what the program cannot read is zero. NaN is canonical.
+    pub input: FragmentInput,
+    /// The input registers that hold interpolated values, as instructions read them: patterns of the register format.
+    pub delivered: Vec<(Register, [u32; 4])>,
+    /// The instructions that wrote, read texels, killed or decided depth, in the order they ran. Components outside a
+    /// step's mask are zero; `oDepth` has one component, the lowest of its mask. Only the scalar executor knows flags.
+    pub steps: Vec<Step>,
+    /// What the program left behind.
+    pub output: FragmentResult,
+    /// What became of the fragment.
+    pub fate: FragmentFate,
+}
+
+/// Shades single fragments and tells everything about them.
+pub trait PixelTracer: Send + Sync {
+    /// Draws the fragment of a triangle into the one pixel of `tile`, which the triangle covers.
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading;
+}
+
+/// A step as a [`Shading`] holds it.
+pub(crate) fn as_written(mut step: Step, program: &Program) -> Step {
+    let destination = program.instructions.get(step.instruction).and_then(|i| i.destination);
+    if destination.is_some_and(|d| d.register.file == RegisterFile::DepthOut) {
+        // Only the lowest component of the mask is written.
+        step.mask.0 &= step.mask.0.wrapping_neg();
+    }
+    for (c, value) in step.value.iter_mut().enumerate() {
+        if !step.mask.contains(c) {
+            *value = 0;
+        }
+    }
+    step
+}
+
+/// Inputs with NaN made canonical: executors that compute in host floats keep no payload.
+pub(crate) fn canonical(mut input: FragmentInput) -> FragmentInput {
+    let clean = |x: &mut u32| *x = ops::convert(&Format::FP32, Format::FP32, *x).bits;
+    input.t.iter_mut().chain(&mut input.v).flatten().for_each(clean);
+    clean(&mut input.fog);
+    clean(&mut input.depth);
+    input
+}

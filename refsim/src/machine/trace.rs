@@ -1,0 +1,163 @@
+//! Following pixels through a draw.
+
+use super::validate::Plan;
+use super::vertices::{VertexStage, raster_rules};
+use super::walk::{ROUND, load};
+use super::{DrawCall, ExecutorKind, Machine, MachineError, tile_draw, validate};
+use crate::exec::batch::BatchTracer;
+use crate::exec::scalar::ScalarTiles;
+use crate::exec::{PixelTracer, Shading, TileDraw};
+use crate::output::{MOST_TARGETS, TargetTile};
+use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
+use crate::texture::Region;
+use rayon::prelude::*;
+
+/// A fragment of one pixel: where it came from, what the program did with it, what it did to the targets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FragmentTrace {
+    /// The instance, from 0.
+    pub instance: usize,
+    /// The triangle within the instance, from 0, as assembly makes them.
+    pub triangle: usize,
+    /// The part of the triangle, from 0: more than one where clipping left more than three corners.
+    pub part: usize,
+    /// What the targets held at the pixel before.
+    pub before: PixelState,
+    /// What the executor did.
+    pub shading: Shading,
+    /// What the targets hold at the pixel after.
+    pub after: PixelState,
+}
+
+/// What the targets hold at one pixel, as stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PixelState {
+    /// The texel of each colour target, a little-endian integer.
+    pub colors: [Option<u128>; MOST_TARGETS],
+    /// The pattern in the depth buffer.
+    pub depth: Option<u32>,
+}
+
+impl PixelState {
+    fn of(tile: &TargetTile) -> Self {
+        Self {
+            colors: [0, 1, 2, 3].map(|i: usize| tile.colors[i].as_ref().map(|target| target.raw(0))),
+            depth: tile.depth.as_ref().and_then(|depth| depth.data.first().copied()),
+        }
+    }
+}
+
+impl Machine {
+    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every triangle
+    /// that covers the pixel, in the order of submission; what they find in the targets is what those before them left.
+    ///
+    /// # Errors
+    /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
+    pub fn trace(&self, call: &DrawCall<'_>, pixel: (u32, u32)) -> Result<Vec<FragmentTrace>, MachineError> {
+        Ok(self.trace_pixels(call, &[pixel])?.into_iter().flatten().collect())
+    }
+
+    /// [`Machine::trace`] for some pixels at once: the vertices are processed once.
+    ///
+    /// # Errors
+    /// As [`Machine::trace`].
+    pub fn trace_pixels(
+        &self,
+        call: &DrawCall<'_>,
+        pixels: &[(u32, u32)],
+    ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
+        let plan = validate::plan(&self.profile, &self.memory, call)?;
+        let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
+        let mut work = || {
+            let tracer = tracer(self.executor, &tile_draw(&self.profile, &self.memory, call));
+            self.follow(call, &plan, tracer.as_ref(), &mut followed);
+        };
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+        Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
+    }
+
+    fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<Followed, MachineError> {
+        let tile = load(&self.memory, call, Region { x, y, width: 1, height: 1 })?;
+        if tile.index(x, y).is_none() {
+            let size = match (call.targets.first(), call.depth_buffer) {
+                (Some(&id), _) => self.memory.texture(id).map(|image| (image.width(), image.height()))?,
+                (None, Some(id)) => self.memory.depth(id).map(|surface| (surface.width(), surface.height()))?,
+                (None, None) => (0, 0),
+            };
+            return Err(MachineError::NoSuchPixel { x, y, width: size.0, height: size.1 });
+        }
+        Ok(Followed { tile, fragments: Vec::new() })
+    }
+
+    /// Takes all triangles of a call to all pixels, in rounds as the draw does.
+    fn follow(&self, call: &DrawCall<'_>, plan: &Plan, tracer: &dyn PixelTracer, followed: &mut [Followed]) {
+        let stage = VertexStage::new(call, &self.profile.rules, self.executor);
+        let rules = raster_rules(&self.profile);
+        let round = (ROUND / plan.triangles.len().max(1)).max(1);
+        let mut first = 0;
+        while first < plan.instance_count {
+            let count = round.min(plan.instance_count - first);
+            let vertices = stage.run(first, count, plan).vertices;
+            for triangles in (0..count * plan.triangles.len()).collect::<Vec<_>>().chunks(ROUND) {
+                let setups = set_up(&vertices, triangles, first, plan, &rules);
+                followed.par_iter_mut().for_each(|pixel| pixel.pass(&setups, tracer));
+            }
+            first += count;
+        }
+    }
+}
+
+/// A set-up with instance, triangle and part.
+type Placed = (usize, usize, usize, TriangleSetup);
+
+/// Sets up some triangles of a round whose first instance is `first`.
+fn set_up(vertices: &[Vertex], triangles: &[usize], first: usize, plan: &Plan, rules: &RasterRules) -> Vec<Placed> {
+    let each = plan.triangles.len().max(1);
+    let mut placed = Vec::new();
+    let mut parts = Vec::new();
+    for &i in triangles {
+        let (instance, triangle) = (i / each, i % each);
+        let corners = plan.triangles[triangle].map(|v| vertices.get(instance * plan.vertex_count + v));
+        let [Some(a), Some(b), Some(c)] = corners else { continue };
+        setup([a, b, c], &plan.raster, rules, &mut parts);
+        placed.extend(parts.drain(..).enumerate().map(|(part, setup)| (first + instance, triangle, part, setup)));
+    }
+    placed
+}
+
+/// A pixel on its way through a draw.
+struct Followed {
+    tile: TargetTile,
+    fragments: Vec<FragmentTrace>,
+}
+
+impl Followed {
+    fn pass(&mut self, setups: &[Placed], tracer: &dyn PixelTracer) {
+        let pixel = self.tile.region;
+        for (instance, triangle, part, setup) in setups {
+            let inside = setup.bounds.intersect(pixel);
+            if inside.width == 0 || inside.height == 0 || !setup.coverage(pixel.x, pixel.y) {
+                continue;
+            }
+            let before = PixelState::of(&self.tile);
+            let shading = tracer.follow(setup, &mut self.tile);
+            let after = PixelState::of(&self.tile);
+            let (instance, triangle, part) = (*instance, *triangle, *part);
+            self.fragments.push(FragmentTrace { instance, triangle, part, before, shading, after });
+        }
+    }
+}
+
+/// Who follows fragments for an executor.
+fn tracer<'a>(kind: ExecutorKind, draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
+    match kind {
+        ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
+        ExecutorKind::Batch => match BatchTracer::new(draw) {
+            Some(tracer) => Box::new(tracer),
+            None => Box::new(ScalarTiles::new(draw)),
+        },
+    }
+}
