@@ -4,7 +4,7 @@ use super::validate::Plan;
 use super::vertices::{VertexStage, raster_rules};
 use super::walk::{ROUND, load};
 use super::{DrawCall, ExecutorKind, Machine, MachineError, tile_draw, validate};
-use crate::exec::batch::BatchTracer;
+use crate::exec::batch::{BatchTracer, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelTracer, Shading, TileDraw};
 use crate::output::{MOST_TARGETS, TargetTile};
@@ -69,7 +69,7 @@ impl Machine {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
         let mut work = || {
-            let tracer = tracer(self.executor, &tile_draw(&self.profile, &self.memory, call));
+            let tracer = tracer((self.executor, self.simd), &tile_draw(&self.profile, &self.memory, call));
             self.follow(call, &plan, tracer.as_ref(), &mut followed);
         };
         match &self.pool {
@@ -94,7 +94,7 @@ impl Machine {
 
     /// Takes all triangles of a call to all pixels, in rounds as the draw does.
     fn follow(&self, call: &DrawCall<'_>, plan: &Plan, tracer: &dyn PixelTracer, followed: &mut [Followed]) {
-        let stage = VertexStage::new(call, &self.profile.rules, self.executor);
+        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd));
         let rules = raster_rules(&self.profile);
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
@@ -152,11 +152,11 @@ impl Followed {
 }
 
 /// Who follows fragments for an executor.
-fn tracer<'a>(kind: ExecutorKind, draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
+fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
         ExecutorKind::Batch => match BatchTracer::new(draw) {
-            Some(tracer) => Box::new(tracer),
+            Some(tracer) => Box::new(tracer.with_simd_level(simd)),
             None => Box::new(ScalarTiles::new(draw)),
         },
     }

@@ -16,6 +16,7 @@ use super::output::Results;
 use super::program::{Ends, decode, has_flow, pixel_formats};
 use super::raster::{TileWeights, cover, quads};
 use super::schedule::{Block, schedule};
+use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use super::tile::BatchTiles;
@@ -81,6 +82,14 @@ impl<'a> BatchTracer<'a> {
         let textures = draw.bindings.samplers.iter().map(|s| s.map(|b| BatchTexture::new(b, rules, main))).collect();
         let constants = raw_constants(&constants.float, &formats);
         Some(Self { tiles, textures, constants, program, reads, delivered, code, formats })
+    }
+
+    /// The same with chosen vector instructions, as [`BatchTiles::with_simd_level`].
+    #[must_use]
+    pub fn with_simd_level(mut self, level: Option<SimdLevel>) -> Self {
+        self.formats.set_simd(level);
+        self.tiles = self.tiles.with_simd_level(level);
+        self
     }
 
     fn main(&self, slots: &Slots, slot: Slot, lane: usize) -> u32 {
@@ -306,12 +315,12 @@ impl PixelTracer for BatchTracer<'_> {
         let mut rows = Rows {
             triangle,
             origin: (x & !15, y & !15),
-            weights: TileWeights::new(),
+            weights: TileWeights::new(self.formats.simd()),
             covered: [0; LANES],
             run: [0; LANES],
             lane: ((y & 15) * 16 + (x & 15)) as usize,
         };
-        cover(triangle, rows.origin, tile.region, &mut rows.covered);
+        cover(triangle, rows.origin, tile.region, self.formats.simd(), &mut rows.covered);
         quads(&rows.covered, &mut rows.run);
         let (registers, block) = &self.delivered;
         let slots = self.run_block(block, &mut rows);
