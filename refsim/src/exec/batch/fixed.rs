@@ -122,6 +122,36 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
         if negative { self.low } else { self.high }
     }
 
+    /// What `a / 0` gives.
+    #[inline(always)]
+    fn by_zero(&self, a: i32) -> i32 {
+        if a == 0 { 0 } else { self.extreme(a < 0) }
+    }
+
+    /// `n / d` units for `n <= 2^30` and `d <= 2^15` not zero, rounded and saturated.
+    ///
+    /// The single precision quotient, cut to `2^17`, is off by less than one: two roundings of half a unit of 24 bits. One
+    /// step up or down makes it the floor; where the cut made a difference the result saturates anyway.
+    #[inline(always)]
+    fn quotient(&self, negative: bool, n: u32, d: u32) -> i32 {
+        let (n, d) = (n.cast_signed(), d.cast_signed());
+        let near = n as f32 / d as f32;
+        let near = if near < 131_072.0 { near } else { 131_072.0 } as i32;
+        let rest = n.wrapping_sub(near.wrapping_mul(d));
+        let (low, high) = (i32::from(rest < 0), i32::from(rest >= d));
+        let floor = near - low + high;
+        let rest = n.wrapping_sub(floor.wrapping_mul(d));
+        let twice = rest.wrapping_mul(2);
+        let up = match self.rounding() {
+            0 => (twice > d) | ((twice == d) & (floor & 1 == 1)),
+            1 => twice >= d,
+            2 => false,
+            _ => negative & (rest != 0),
+        };
+        let magnitude = floor + i32::from(up);
+        self.fit32(if negative { -magnitude } else { magnitude })
+    }
+
     /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
     fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
         // Two guard bits and the sticky bit beneath them say all; the rest folds into the last.
@@ -237,16 +267,18 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
         }
     }
 
+    #[inline(always)]
     fn div(&self, a: i32, b: i32) -> i32 {
-        match (a, b) {
-            (0, 0) => 0,
-            (_, 0) => self.extreme(a < 0),
-            _ => {
-                let dividend = u128::from(a.unsigned_abs()) << (self.frac + 2);
-                let divisor = u128::from(b.unsigned_abs());
-                self.finish((a < 0) != (b < 0), dividend / divisor, 2, !dividend.is_multiple_of(divisor))
-            }
+        if !WIDE && !self.wraps() {
+            let quotient = self.quotient((a < 0) != (b < 0), a.unsigned_abs() << self.frac, b.unsigned_abs());
+            return if b == 0 { self.by_zero(a) } else { quotient };
         }
+        if b == 0 {
+            return self.by_zero(a);
+        }
+        let dividend = u128::from(a.unsigned_abs()) << (self.frac + 2);
+        let divisor = u128::from(b.unsigned_abs());
+        self.finish((a < 0) != (b < 0), dividend / divisor, 2, !dividend.is_multiple_of(divisor))
     }
 
     fn sqrt(&self, a: i32) -> i32 {
@@ -259,9 +291,13 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
         self.finish(false, root, 16, root * root != square)
     }
 
+    #[inline(always)]
     fn rcp(&self, a: i32) -> i32 {
         if a == 0 {
             return self.high;
+        }
+        if !WIDE && !self.wraps() {
+            return self.quotient(a < 0, 1 << (2 * self.frac), a.unsigned_abs());
         }
         let dividend = 1u128 << (2 * self.frac + 2);
         let divisor = u128::from(a.unsigned_abs());
@@ -330,7 +366,11 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn scale(&self, a: i32, shift: i32) -> i32 {
-        if shift >= 0 {
+        if !WIDE && shift >= 0 {
+            self.fit32(a << shift)
+        } else if !WIDE {
+            self.fit32(self.round32(a, &Shift::new(shift.unsigned_abs())))
+        } else if shift >= 0 {
             self.fit64(i64::from(a) << shift)
         } else {
             self.fit64(self.round64(i64::from(a), &Shift::new(shift.unsigned_abs())))

@@ -48,7 +48,7 @@ pub(crate) enum Kind {
     Input(u16),
     /// An operation.
     Compute(Arith, Code, [Node; 3]),
-    /// A dot product rounded once.
+    /// A dot product of so many terms, rounded once.
     Dot(Arith, u8, [Node; 4], [Node; 4]),
     /// A value of one format rounded into another.
     Convert(Arith, Arith, Node),
@@ -86,12 +86,16 @@ impl Kind {
 }
 
 impl Code {
-    /// How many rows the operation reads.
+    /// How many operands the operation reads.
     pub(crate) fn arity(self) -> usize {
         match self {
             Code::Add | Code::Sub | Code::Mul | Code::Div | Code::Min | Code::Max | Code::Factor => 2,
             Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or | Code::AndNot => 2,
             Code::Mad | Code::FusedMad | Code::SelectNonNegative | Code::SelectAboveHalf | Code::Select => 3,
+            Code::AddTo | Code::SubFrom | Code::SubOff => 2,
+            Code::MadBy => 3,
+            Code::Difference => 4,
+            Code::Dot(terms) | Code::Sum(terms) | Code::SumBy(terms) => 2 * usize::from(terms),
             _ => 1,
         }
     }

@@ -37,6 +37,15 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn sub(&self, a: Self::T, b: Self::T) -> Self::T;
     /// `a b`
     fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// Products added in order, each product and each sum rounded; `N` at least 1.
+    #[inline(always)]
+    fn sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
+        let mut sum = self.mul(a[0], b[0]);
+        for k in 1..N {
+            sum = self.add(sum, self.mul(a[k], b[k]));
+        }
+        sum
+    }
     /// `a b + c`, rounded once.
     fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
     /// The sum of `N` products, rounded once.

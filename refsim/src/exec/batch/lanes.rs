@@ -2,6 +2,7 @@
 
 use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, HOST, SINGLE};
+use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
 use crate::num::{Format, Kind, Overflow, Rounding};
 
@@ -15,6 +16,9 @@ pub(crate) enum AnyLane {
     Fixed16Down(FixedLane<3, false, 0>),
     Fixed16Wrap(FixedLane<ANY, false, 1>),
     Fixed32(FixedLane<ANY, true, 2>),
+    IeeeHost(IeeeLane<HOST>),
+    IeeeSingle(IeeeLane<SINGLE>),
+    IeeeDouble(IeeeLane<DOUBLE>),
     Host(FloatLane<HOST, 0>),
     Single(FloatLane<SINGLE, 0>),
     DoubleEven(FloatLane<DOUBLE, 0>),
@@ -33,9 +37,12 @@ impl AnyLane {
                 Rounding::TowardZero => Self::Fixed16Zero(FixedLane::new(format)?),
                 Rounding::Down => Self::Fixed16Down(FixedLane::new(format)?),
             },
-            Kind::Float { .. } => match float::path(&format) {
-                HOST => Self::Host(FloatLane::new(format)?),
-                SINGLE => Self::Single(FloatLane::new(format)?),
+            Kind::Float { .. } => match (ieee::path(&format), float::path(&format)) {
+                (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(format)?),
+                (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(format)?),
+                (Some(_), _) => Self::IeeeDouble(IeeeLane::new(format)?),
+                (_, HOST) => Self::Host(FloatLane::new(format)?),
+                (_, SINGLE) => Self::Single(FloatLane::new(format)?),
                 _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(format)?),
                 _ => Self::Double(FloatLane::new(format)?),
             },
@@ -53,6 +60,9 @@ macro_rules! with_any_lane {
             $crate::exec::batch::lanes::AnyLane::Fixed16Down($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Fixed16Wrap($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Fixed32($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::IeeeHost($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::IeeeSingle($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::IeeeDouble($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Host($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Single($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::DoubleEven($lane) => $body,

@@ -1,10 +1,11 @@
 //! The batch executor: programs on whole tiles of fragments, in vector code of the host. Equal to
 //! [`super::scalar`] bit for bit; `refsim/tests/agree_*.rs` prove it. The two share no arithmetic.
 //!
-//! - `lane`: what an arithmetic has to offer; `fixed`, `float`: the two kinds, in host integers and host floats; `odd`,
+//! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`,
 //!   `power`: exact results squeezed into doubles; `lanes`: which format gets which.
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
-//!   device's rules; `schedule`: the graph as steps on `slots`, without what nothing reads.
+//!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
+//!   reads, and with what only one operation reads as part of that.
 //! - `ops`, `steps`, `fetch`, `raster`, `output`: carrying the steps out, 256 lanes at a time.
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`, `trace`: the ways in.
 //!
@@ -18,7 +19,9 @@ mod fixed;
 mod float;
 mod flow;
 mod flow_run;
+mod fuse;
 mod graph;
+mod ieee;
 mod lane;
 mod lanes;
 mod macros;

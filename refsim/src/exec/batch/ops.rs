@@ -47,6 +47,19 @@ pub(crate) enum Code {
     /// `a` into the wide row; the wide row, rounded, into the destination.
     Widen,
     Narrow,
+    /// So many products, 2 to 4, summed exactly and rounded once.
+    Dot(u8),
+    /// So many products, 2 to 4, added in order, each product and each sum rounded.
+    Sum(u8),
+    /// Likewise, 1 to 4, with the first factor of each the same in all lanes.
+    SumBy(u8),
+    /// `a b - c d`, every step rounded.
+    Difference,
+    /// Operations whose `a` is the same in all lanes: `a + b`, `a - b`, `b - a`, `a b + c` in two roundings.
+    AddTo,
+    SubFrom,
+    SubOff,
+    MadBy,
     /// Mask operations: `a ? b : c`, and, or, `b and not a`.
     Select,
     And,
@@ -54,23 +67,16 @@ pub(crate) enum Code {
     AndNot,
 }
 
+/// Slots that an operation reads at most.
+pub(crate) const OPERANDS: usize = 8;
+
 /// One operation on whole rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LaneOp {
     pub(crate) code: Code,
     pub(crate) to: Slot,
-    pub(crate) a: Slot,
-    pub(crate) b: Slot,
-    pub(crate) c: Slot,
-}
-
-/// A dot product that is rounded once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct DotOp {
-    pub(crate) to: Slot,
-    pub(crate) terms: usize,
-    pub(crate) a: [Slot; 4],
-    pub(crate) b: [Slot; 4],
+    /// The operands `a`, `b`, `c`, or the factors of one product after the other.
+    pub(crate) args: [Slot; OPERANDS],
 }
 
 /// Runs operations in the arithmetic of a format. The one place where a processor's vector width is chosen.
@@ -83,44 +89,127 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
     });
 }
 
-/// As [`run`], for a dot product.
-pub(crate) fn run_dot(lane: &AnyLane, simd: SimdLevel, op: &DotOp, slots: &mut Slots) {
-    with_any_lane!(lane, |lane| {
-        simd.run(
-            #[inline(always)]
-            || dot_lanes(lane, op, slots),
-        )
-    });
-}
-
 #[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
-        step(lane, op, slots);
+        match op.code {
+            Code::Dot(2) => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            Code::Dot(3) => dot::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            Code::Dot(_) => dot::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            Code::Sum(2) => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::Sum(3) => dot::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::Sum(_) => dot::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::Difference => {
+                dot::<L, 2>(
+                    op,
+                    slots,
+                    #[inline(always)]
+                    |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
+                );
+            }
+            Code::SumBy(1) => dot_by::<L, 1>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::SumBy(2) => dot_by::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::SumBy(3) => dot_by::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            Code::SumBy(_) => dot_by::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            _ => step(lane, op, slots),
+        }
     }
 }
 
+/// A function of pairs of rows.
 #[inline(always)]
-fn dot_lanes<L: Lane>(lane: &L, op: &DotOp, slots: &mut Slots) {
-    let row = |k: usize| (&*slots.rows[usize::from(op.a[k])], &*slots.rows[usize::from(op.b[k])]);
-    match op.terms {
-        2 => exact(lane, [row(0), row(1)], &mut slots.scratch),
-        3 => exact(lane, [row(0), row(1), row(2)], &mut slots.scratch),
-        _ => exact(lane, [row(0), row(1), row(2), row(3)], &mut slots.scratch),
-    }
+fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
+    let Slots { rows, scratch, .. } = slots;
+    let a: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k])]);
+    let b: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k + 1])]);
+    pairs::<L, N>(a, b, scratch, f);
     slots.commit(op.to);
 }
 
 #[inline(always)]
-fn exact<L: Lane, const N: usize>(lane: &L, rows: [(&Row, &Row); N], out: &mut Row) {
-    for (i, slot) in out.iter_mut().enumerate() {
-        let mut a = [L::load(0); N];
-        let mut b = a;
+fn pairs<L: Lane, const N: usize>(a: [&Row; N], b: [&Row; N], out: &mut Row, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
+    for i in 0..LANES {
+        let (mut x, mut y) = ([L::load(0); N], [L::load(0); N]);
         for k in 0..N {
-            a[k] = L::load(rows[k].0[i]);
-            b[k] = L::load(rows[k].1[i]);
+            (x[k], y[k]) = (L::load(a[k][i]), L::load(b[k][i]));
         }
-        *slot = L::store(lane.exact_dot(a, b));
+        out[i] = L::store(f(x, y));
+    }
+}
+
+/// A function of pairs of a value that is the same in all lanes and a row.
+#[inline(always)]
+fn dot_by<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
+    let Slots { rows, scratch, values, .. } = slots;
+    let a: [L::T; N] = std::array::from_fn(|k| L::load(values[usize::from(op.args[2 * k])]));
+    let b: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k + 1])]);
+    pairs_by::<L, N>(a, b, scratch, f);
+    slots.commit(op.to);
+}
+
+#[inline(always)]
+fn pairs_by<L: Lane, const N: usize>(
+    a: [L::T; N],
+    b: [&Row; N],
+    out: &mut Row,
+    f: impl Fn([L::T; N], [L::T; N]) -> L::T,
+) {
+    for i in 0..LANES {
+        let mut y = [L::load(0); N];
+        for k in 0..N {
+            y[k] = L::load(b[k][i]);
+        }
+        out[i] = L::store(f(a, y));
     }
 }
 
@@ -159,6 +248,28 @@ fn bitwise(a: &Row, b: &Row, out: &mut Row, f: impl Fn(u32, u32) -> u32) {
     }
 }
 
+#[inline(always)]
+fn select(mask: &Row, a: &Row, b: &Row, out: &mut Row) {
+    for i in 0..LANES {
+        // Masks are all zeros or all ones; a choice would become a choice of addresses.
+        out[i] = mask[i] & a[i] | !mask[i] & b[i];
+    }
+}
+
+#[inline(always)]
+fn widen<L: Lane>(lane: &L, a: &Row, out: &mut [f64; LANES]) {
+    for i in 0..LANES {
+        out[i] = lane.to_f64(L::load(a[i]));
+    }
+}
+
+#[inline(always)]
+fn narrow<L: Lane>(lane: &L, a: &[f64; LANES], out: &mut Row) {
+    for i in 0..LANES {
+        out[i] = L::store(lane.round_f64(a[i]));
+    }
+}
+
 /// Lane partners: the lower and the higher lane of a pair that differs in `bit` of its number.
 #[inline(always)]
 fn difference<L: Lane>(lane: &L, a: &Row, out: &mut Row, bit: usize) {
@@ -174,39 +285,204 @@ fn address(x: f64) -> u32 {
 
 #[inline(always)]
 fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
-    let Slots { rows, scratch: out, wide } = slots;
-    let (a, b, c) = (&*rows[usize::from(op.a)], &*rows[usize::from(op.b)], &*rows[usize::from(op.c)]);
+    let Slots { rows, scratch, values, wide, .. } = slots;
+    let (out, wide): (&mut Row, &mut [f64; LANES]) = (scratch, wide);
+    let [a, b, c] = [0, 1, 2].map(|k| &*rows[usize::from(op.args[k])]);
+    let uniform = L::load(values[usize::from(op.args[0])]);
     match op.code {
-        Code::Add => two::<L>(a, b, out, |a, b| l.add(a, b)),
-        Code::Sub => two::<L>(a, b, out, |a, b| l.sub(a, b)),
-        Code::Mul => two::<L>(a, b, out, |a, b| l.mul(a, b)),
-        Code::Div => two::<L>(a, b, out, |a, b| l.div(a, b)),
-        Code::Mad => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
-        Code::FusedMad => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),
-        Code::Min => two::<L>(a, b, out, |a, b| l.min(a, b)),
-        Code::Max => two::<L>(a, b, out, |a, b| l.max(a, b)),
-        Code::Neg => one::<L>(a, out, |a| l.neg(a)),
-        Code::Abs => one::<L>(a, out, |a| l.abs(a)),
-        Code::Floor => one::<L>(a, out, |a| l.floor(a)),
-        Code::Frc => one::<L>(a, out, |a| l.frc(a)),
-        Code::Rcp => one::<L>(a, out, |a| l.rcp(a)),
-        Code::Rsq => one::<L>(a, out, |a| l.rsq(a)),
-        Code::Exp2 => one::<L>(a, out, |a| l.exp2(a)),
-        Code::Log2 => one::<L>(a, out, |a| l.log2(a)),
-        Code::Saturate => one::<L>(a, out, |a| l.saturate(a)),
+        Code::Add => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.add(a, b),
+        ),
+        Code::Sub => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.sub(a, b),
+        ),
+        Code::Mul => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.mul(a, b),
+        ),
+        Code::AddTo => one::<L>(
+            b,
+            out,
+            #[inline(always)]
+            |b| l.add(uniform, b),
+        ),
+        Code::SubFrom => one::<L>(
+            b,
+            out,
+            #[inline(always)]
+            |b| l.sub(uniform, b),
+        ),
+        Code::SubOff => one::<L>(
+            b,
+            out,
+            #[inline(always)]
+            |b| l.sub(b, uniform),
+        ),
+        Code::MadBy => two::<L>(
+            b,
+            c,
+            out,
+            #[inline(always)]
+            |b, c| l.add(l.mul(uniform, b), c),
+        ),
+        Code::Div => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.div(a, b),
+        ),
+        Code::Mad => three::<L>(
+            a,
+            b,
+            c,
+            out,
+            #[inline(always)]
+            |a, b, c| l.add(l.mul(a, b), c),
+        ),
+        Code::FusedMad => three::<L>(
+            a,
+            b,
+            c,
+            out,
+            #[inline(always)]
+            |a, b, c| l.fused_mad(a, b, c),
+        ),
+        Code::Min => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.min(a, b),
+        ),
+        Code::Max => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.max(a, b),
+        ),
+        Code::Neg => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.neg(a),
+        ),
+        Code::Abs => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.abs(a),
+        ),
+        Code::Floor => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.floor(a),
+        ),
+        Code::Frc => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.frc(a),
+        ),
+        Code::Rcp => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.rcp(a),
+        ),
+        Code::Rsq => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.rsq(a),
+        ),
+        Code::Exp2 => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.exp2(a),
+        ),
+        Code::Log2 => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.log2(a),
+        ),
+        Code::Saturate => one::<L>(
+            a,
+            out,
+            #[inline(always)]
+            |a| l.saturate(a),
+        ),
         Code::Scale(shift) => {
             let shift = i32::from(shift);
-            one::<L>(a, out, |a| l.scale(a, shift));
+            one::<L>(
+                a,
+                out,
+                #[inline(always)]
+                |a| l.scale(a, shift),
+            );
         }
-        Code::Factor => two::<L>(a, b, out, |a, b| l.factor(a, b)),
+        Code::Factor => two::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.factor(a, b),
+        ),
         Code::SelectNonNegative => {
             let zero = L::load(0);
-            three::<L>(a, b, c, out, |a, b, c| if l.le(zero, a) { b } else { c });
+            three::<L>(
+                a,
+                b,
+                c,
+                out,
+                #[inline(always)]
+                |a, b, c| if l.le(zero, a) { b } else { c },
+            );
         }
-        Code::SelectAboveHalf => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
-        Code::Less => compare::<L>(a, b, out, |a, b| l.lt(a, b)),
-        Code::LessEqual => compare::<L>(a, b, out, |a, b| l.le(a, b)),
-        Code::Equal => compare::<L>(a, b, out, |a, b| l.eq(a, b)),
+        Code::SelectAboveHalf => three::<L>(
+            a,
+            b,
+            c,
+            out,
+            #[inline(always)]
+            |a, b, c| if l.above_half(a) { b } else { c },
+        ),
+        Code::Less => compare::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.lt(a, b),
+        ),
+        Code::LessEqual => compare::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.le(a, b),
+        ),
+        Code::Equal => compare::<L>(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| l.eq(a, b),
+        ),
         Code::DifferenceX => difference(l, a, out, 1),
         Code::DifferenceY => difference(l, a, out, 16),
         Code::AddressFloor => {
@@ -221,24 +497,38 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
             }
         }
         Code::Widen => {
-            for i in 0..LANES {
-                wide[i] = l.to_f64(L::load(a[i]));
-            }
+            widen(l, a, wide);
             return;
         }
         Code::Narrow => {
-            for i in 0..LANES {
-                out[i] = L::store(l.round_f64(wide[i]));
-            }
+            narrow(l, wide, out);
         }
         Code::Select => {
-            for i in 0..LANES {
-                out[i] = if a[i] != 0 { b[i] } else { c[i] };
-            }
+            select(a, b, c, out);
         }
-        Code::And => bitwise(a, b, out, |a, b| a & b),
-        Code::Or => bitwise(a, b, out, |a, b| a | b),
-        Code::AndNot => bitwise(a, b, out, |a, b| !a & b),
+        Code::And => bitwise(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| a & b,
+        ),
+        Code::Or => bitwise(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| a | b,
+        ),
+        Code::AndNot => bitwise(
+            a,
+            b,
+            out,
+            #[inline(always)]
+            |a, b| !a & b,
+        ),
+        // Carried out by the caller.
+        Code::Dot(_) | Code::Sum(_) | Code::SumBy(_) | Code::Difference => {}
     }
     slots.commit(op.to);
 }

@@ -1,9 +1,10 @@
 //! From a graph of values to steps on slots.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::fuse::{Fused, Fusion};
 use super::graph::{Arith, Detail, Graph, Kind, Node};
-use super::ops::{Code, DotOp, LaneOp};
+use super::ops::{Code, LaneOp, OPERANDS};
 use super::slots::Slot;
 
 /// A texture read with its operands in slots.
@@ -29,8 +30,6 @@ pub(crate) enum FetchDetail {
 pub(crate) enum Step {
     /// Lane operations of one format.
     Lanes(Arith, Vec<LaneOp>),
-    /// A dot product rounded once.
-    Dot(Arith, DotOp),
     /// Single precision values to steps of [0, 1], into the wide row.
     Unorm {
         /// Number of steps.
@@ -67,6 +66,8 @@ pub(crate) struct Block {
     pub(crate) roots: Vec<Slot>,
     /// Slots used.
     pub(crate) slots: usize,
+    /// For each slot whether it is read as a row; the rest are constants and given values of which only the number is read.
+    pub(crate) as_rows: Vec<bool>,
 }
 
 /// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
@@ -80,9 +81,12 @@ pub(crate) fn schedule(
     placed: &BTreeMap<Node, Slot>,
     first_slot: usize,
 ) -> Block {
-    let (last_use, needed) = uses(graph, roots, &given);
+    let fusion = Fusion::new(graph, roots, &given);
+    let (last_use, needed) = uses(graph, &fusion, roots, &given);
     let mut maker = Scheduler {
         graph,
+        fusion,
+        read: BTreeSet::new(),
         block: Block::default(),
         place: placed.clone(),
         last_use,
@@ -107,11 +111,22 @@ pub(crate) fn schedule(
     }
     maker.block.roots = roots.iter().map(|root| maker.place[root]).collect();
     maker.block.slots = maker.next;
+    let leaves = maker.block.constants.iter().map(|c| c.0).chain(maker.block.given.iter().map(|g| g.1));
+    let mut as_rows = vec![true; maker.next];
+    for slot in leaves {
+        as_rows[usize::from(slot)] = maker.read.contains(&slot) || maker.block.roots.contains(&slot);
+    }
+    maker.block.as_rows = as_rows;
     maker.block
 }
 
 /// For each node its last user, roots living for ever; and the nodes needed, in order.
-fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (BTreeMap<Node, u32>, Vec<Node>) {
+fn uses(
+    graph: &Graph,
+    fusion: &Fusion<'_>,
+    roots: &[Node],
+    given: impl Fn(Node) -> bool,
+) -> (BTreeMap<Node, u32>, Vec<Node>) {
     let mut live = vec![false; graph.len()];
     let mut last_use: BTreeMap<Node, u32> = BTreeMap::new();
     for &root in roots {
@@ -121,7 +136,7 @@ fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (BTreeMa
     for i in (0..graph.len() as u32).rev() {
         let node = Node(i);
         if live[i as usize] && !given(node) {
-            graph.kind(node).needs(|n| {
+            fusion.needs(node, |n| {
                 live[n.0 as usize] = true;
                 last_use.entry(n).or_insert(i);
             });
@@ -133,12 +148,15 @@ fn uses(graph: &Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> (BTreeMa
 
 struct Scheduler<'g> {
     graph: &'g Graph,
+    fusion: Fusion<'g>,
     block: Block,
     place: BTreeMap<Node, Slot>,
     last_use: BTreeMap<Node, u32>,
     free: Vec<Slot>,
     next: usize,
     texels: BTreeMap<Node, Vec<(u8, Node)>>,
+    /// Slots that some step reads as a row.
+    read: BTreeSet<Slot>,
 }
 
 impl Scheduler<'_> {
@@ -184,7 +202,7 @@ impl Scheduler<'_> {
     fn release(&mut self, node: Node) {
         let mut done = Vec::new();
         let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
-        graph.kind(node).needs(|n| {
+        self.fusion.needs(node, |n| {
             let kept = matches!(graph.kind(n), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
             if !kept
                 && last_use.get(&n) == Some(&node.0)
@@ -201,8 +219,31 @@ impl Scheduler<'_> {
         }
     }
 
-    fn at(&self, node: Node) -> Slot {
-        self.place.get(&node).copied().unwrap_or_default()
+    /// The slot of a value whose row is read.
+    fn at(&mut self, node: Node) -> Slot {
+        let slot = self.place.get(&node).copied().unwrap_or_default();
+        self.read.insert(slot);
+        slot
+    }
+
+    /// A lane operation with its result.
+    fn operation(&mut self, node: Node, fused: &Fused) {
+        let mut args = [0; OPERANDS];
+        for (i, &operand) in fused.operands().iter().enumerate() {
+            args[i] = if fused.is_shared(i) {
+                self.place.get(&operand).copied().unwrap_or_default()
+            } else {
+                self.at(operand)
+            };
+        }
+        // Operands that an operation lacks read as its first: a slot that exists.
+        for i in fused.operands().len()..OPERANDS {
+            args[i] = args[0];
+        }
+        self.release(node);
+        let to = self.result();
+        self.place.insert(node, to);
+        self.lane_op(fused.arith, LaneOp { code: fused.code, to, args });
     }
 
     fn lane_op(&mut self, arith: Arith, op: LaneOp) {
@@ -214,33 +255,17 @@ impl Scheduler<'_> {
     }
 
     fn place_node(&mut self, node: Node) {
+        if let Some(&fused) = self.fusion.operation(node) {
+            return self.operation(node, &fused);
+        }
         match self.graph.kind(node) {
-            Kind::Compute(arith, code, [a, b, c]) => {
-                let [a, b, c] = [a, b, c].map(|n| self.at(n));
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
-                let op = match code.arity() {
-                    1 => LaneOp { code, to, a, b: a, c: a },
-                    2 => LaneOp { code, to, a, b, c: a },
-                    _ => LaneOp { code, to, a, b, c },
-                };
-                self.lane_op(arith, op);
-            }
-            Kind::Dot(arith, terms, a, b) => {
-                let (a, b) = (a.map(|n| self.at(n)), b.map(|n| self.at(n)));
-                self.release(node);
-                let to = self.result();
-                self.place.insert(node, to);
-                self.block.steps.push(Step::Dot(arith, DotOp { to, terms: terms.into(), a, b }));
-            }
             Kind::Convert(from, target, a) => {
                 let a = self.at(a);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
-                self.lane_op(from, LaneOp { code: Code::Widen, to, a, b: a, c: a });
-                self.lane_op(target, LaneOp { code: Code::Narrow, to, a, b: a, c: a });
+                self.lane_op(from, LaneOp { code: Code::Widen, to, args: [a; OPERANDS] });
+                self.lane_op(target, LaneOp { code: Code::Narrow, to, args: [a; OPERANDS] });
             }
             Kind::Steps(steps, a) => {
                 let from = self.at(a);
@@ -248,7 +273,7 @@ impl Scheduler<'_> {
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Unorm { steps, from });
-                self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, a: from, b: from, c: from });
+                self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, args: [from; OPERANDS] });
             }
             Kind::Relative(base, component, address) => {
                 let address = self.at(address);
@@ -274,7 +299,12 @@ impl Scheduler<'_> {
                 self.block.steps.push(Step::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
             }
             // Leaves have their places, texels got theirs with the read.
-            Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
+            Kind::Compute(..)
+            | Kind::Dot(..)
+            | Kind::Texel(..)
+            | Kind::Constant(_)
+            | Kind::Held(_)
+            | Kind::Input(_) => {}
         }
     }
 }

@@ -19,11 +19,17 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) constants: &'a [[u32; 4]],
 }
 
-/// Fills the constants of a block.
-pub(crate) fn fill_constants(block: &Block, slots: &mut Slots) {
+/// Makes slots those of a block and fills its constants.
+pub(crate) fn prepare(block: &Block, slots: &mut Slots) {
+    slots.prepare(block.slots, &block.as_rows);
     for &(slot, raw) in &block.constants {
-        slots.fill(slot, raw);
+        slots.give(slot, raw);
     }
+}
+
+/// As [`prepare`], for new slots.
+pub(crate) fn fill_constants(block: &Block, slots: &mut Slots) {
+    prepare(block, slots);
 }
 
 /// Runs steps. Reads that can't be made in rows are made for the lanes that `run` names.
@@ -33,7 +39,6 @@ pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, sl
             Step::Lanes(arith, lane_ops) => {
                 ops::run(around.formats.lane(*arith), around.formats.simd(), lane_ops, slots)
             }
-            Step::Dot(arith, op) => ops::run_dot(around.formats.lane(*arith), around.formats.simd(), op, slots),
             Step::Unorm { steps, from } => to_steps(*steps, *from, slots),
             Step::Fetch(fetch) => {
                 if let Some(Some(texture)) = around.textures.get(fetch.sampler) {

@@ -100,7 +100,7 @@ impl<'a> BatchTiles<'a> {
                 }
                 for (&(_, slot), &root) in plan.varying.given.iter().zip(&plan.uniform.roots) {
                     let raw = uniform.row(root)[lane];
-                    walk.given(slot, raw);
+                    walk.slots.give(slot, raw);
                 }
                 walk.interpolate(triangle, &plan.varying, &self.formats);
                 run_steps(&plan.varying.steps, &around, &walk.run, &mut walk.slots);
@@ -185,8 +185,6 @@ struct Walk {
     /// Lanes of quads that have a covered lane.
     run: Row,
     depth: Row,
-    /// What given slots hold, by slot.
-    held: Vec<Option<u32>>,
 }
 
 impl Walk {
@@ -200,7 +198,6 @@ impl Walk {
             covered_count: 0,
             run: [0; LANES],
             depth: [0; LANES],
-            held: vec![None; slots],
         }
     }
 
@@ -218,13 +215,6 @@ impl Walk {
         }
         self.weights.depth(triangle, &mut self.depth);
         true
-    }
-
-    /// Puts a value that is the same in all lanes into its slot, unless it is there already.
-    fn given(&mut self, slot: u16, raw: u32) {
-        if self.held[usize::from(slot)].replace(raw) != Some(raw) {
-            self.slots.fill(slot, raw);
-        }
     }
 
     fn interpolate(&mut self, triangle: &TriangleSetup, block: &Block, formats: &Formats) {

@@ -209,7 +209,7 @@ impl Translator<'_> {
             (Opcode::TexCrd, Some(source)) => self.selected(source).map(|x| {
                 let format = self.make.rules.format;
                 if self.make.rules.texcrd_overflow == TexcrdOverflow::PreserveWrap && format.is_fixed() {
-                    self.make.graph.node(Kind::Convert(S, Arith::Wrapped, x))
+                    self.make.convert(S, Arith::Wrapped, x)
                 } else {
                     self.main(x)
                 }

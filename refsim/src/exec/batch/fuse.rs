@@ -1,0 +1,167 @@
+//! Which nodes are computed as part of another: sums of products, and operands that are the same in all lanes. A row that
+//! is not made is neither stored nor loaded, nor is a number copied into 256 lanes to be multiplied with.
+
+use std::collections::BTreeMap;
+
+use super::graph::{Arith, Graph, Kind, Node};
+use super::ops::{Code, OPERANDS};
+
+/// An operation as it is carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fused {
+    pub(crate) arith: Arith,
+    pub(crate) code: Code,
+    /// As many as the code's arity says.
+    pub(crate) args: [Node; OPERANDS],
+}
+
+impl Fused {
+    fn new(arith: Arith, code: Code, operands: &[Node]) -> Self {
+        let mut args = [operands[0]; OPERANDS];
+        args[..operands.len()].copy_from_slice(operands);
+        Self { arith, code, args }
+    }
+
+    /// The operands.
+    pub(crate) fn operands(&self) -> &[Node] {
+        &self.args[..self.code.arity()]
+    }
+
+    /// Whether the operand is read as a number that all lanes share, and not as a row.
+    pub(crate) fn is_shared(&self, operand: usize) -> bool {
+        match self.code {
+            Code::SumBy(_) => operand.is_multiple_of(2),
+            Code::AddTo | Code::SubFrom | Code::SubOff | Code::MadBy => operand == 0,
+            _ => false,
+        }
+    }
+}
+
+/// The operations of a block.
+///
+/// A product, a sum of products or a negated product that one operation alone reads becomes part of it. Which
+/// roundings take place, and in what order, stays the same; only sums change sides, and no arithmetic here can tell.
+pub(crate) struct Fusion<'g> {
+    graph: &'g Graph,
+    /// How many operations or roots read a node.
+    readers: Vec<u32>,
+    fused: BTreeMap<Node, Fused>,
+}
+
+impl<'g> Fusion<'g> {
+    /// Decides for the nodes that `roots` need; `given` ones are not computed here and the same in all lanes.
+    pub(crate) fn new(graph: &'g Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> Self {
+        let mut readers = vec![0u32; graph.len()];
+        for root in roots {
+            // Never part of anything.
+            readers[root.0 as usize] += 2;
+        }
+        for i in (0..graph.len() as u32).rev() {
+            if readers[i as usize] > 0 && !given(Node(i)) {
+                graph.kind(Node(i)).needs(|n| readers[n.0 as usize] += 1);
+            }
+        }
+        let mut fusion = Self { graph, readers, fused: BTreeMap::new() };
+        for i in 0..graph.len() as u32 {
+            if fusion.readers[i as usize] > 0 && !given(Node(i)) {
+                fusion.decide(Node(i), &given);
+            }
+        }
+        let shared = |n: Node| given(n) || matches!(graph.kind(n), Kind::Constant(_));
+        for fused in fusion.fused.values_mut() {
+            *fused = with_shared(fused, shared);
+        }
+        fusion
+    }
+
+    /// How a node is carried out, if it is a lane operation.
+    pub(crate) fn operation(&self, node: Node) -> Option<&Fused> {
+        self.fused.get(&node)
+    }
+
+    /// Calls `visit` with every node that this one reads as it is carried out.
+    pub(crate) fn needs(&self, node: Node, visit: impl FnMut(Node)) {
+        match self.fused.get(&node) {
+            Some(fused) => fused.operands().iter().copied().for_each(visit),
+            None => self.graph.kind(node).needs(visit),
+        }
+    }
+
+    fn decide(&mut self, node: Node, given: &impl Fn(Node) -> bool) {
+        let plain = match self.graph.kind(node) {
+            Kind::Compute(arith, code, args) => Fused::new(arith, code, &args[..code.arity()]),
+            Kind::Dot(arith, terms, a, b) => {
+                let pairs: Vec<Node> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
+                Fused::new(arith, Code::Dot(terms), &pairs)
+            }
+            _ => return,
+        };
+        let fused = self.longer(&plain, given).unwrap_or(plain);
+        self.fused.insert(node, fused);
+    }
+
+    /// The operation with one of its operands made part of it.
+    fn longer(&self, plain: &Fused, given: &impl Fn(Node) -> bool) -> Option<Fused> {
+        let (k, args) = (plain.arith, plain.args);
+        match plain.code {
+            Code::Mad => {
+                if let Some(products) = self.products(k, args[2], given) {
+                    return sum(k, &products, &[args[0], args[1]]);
+                }
+                // a b - c d
+                let negated = self.part(k, args[2], given).filter(|part| part.code == Code::Neg)?;
+                let product = self.part(k, negated.args[0], given).filter(|part| part.code == Code::Mul)?;
+                Some(Fused::new(k, Code::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
+            }
+            Code::Add => {
+                let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
+                if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
+            }
+            _ => None,
+        }
+    }
+
+    /// The operation behind an operand that nothing else reads.
+    fn part(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
+        let alone = self.readers[node.0 as usize] == 1 && !given(node);
+        self.fused.get(&node).filter(|part| alone && part.arith == arith)
+    }
+
+    /// The factors of the products behind an operand that nothing else reads.
+    fn products(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<Vec<Node>> {
+        let part = self.part(arith, node, given)?;
+        matches!(part.code, Code::Mul | Code::Sum(_)).then(|| part.operands().to_vec())
+    }
+}
+
+/// Products and one more; `None` if there are too many.
+fn sum(arith: Arith, products: &[Node], last: &[Node]) -> Option<Fused> {
+    let all = [products, last].concat();
+    (last.len() == 2 && all.len() <= OPERANDS).then(|| Fused::new(arith, Code::Sum((all.len() / 2) as u8), &all))
+}
+
+/// The operation with its shared operands read as numbers, where there is one that does.
+fn with_shared(fused: &Fused, shared: impl Fn(Node) -> bool) -> Fused {
+    let (k, args) = (fused.arith, fused.args);
+    let of = |code, operands: &[Node]| Fused::new(k, code, operands);
+    match fused.code {
+        Code::Mul | Code::Sum(_) => {
+            let mut sorted = *fused;
+            for pair in sorted.args.chunks_exact_mut(2) {
+                if !shared(pair[0]) {
+                    pair.swap(0, 1);
+                }
+            }
+            let terms = fused.code.arity() / 2;
+            let all = (0..terms).all(|i| shared(sorted.args[2 * i]));
+            if all { Fused { code: Code::SumBy(terms as u8), ..sorted } } else { *fused }
+        }
+        Code::Add if shared(args[0]) => of(Code::AddTo, &args[..2]),
+        Code::Add if shared(args[1]) => of(Code::AddTo, &[args[1], args[0]]),
+        Code::Sub if shared(args[0]) => of(Code::SubFrom, &args[..2]),
+        Code::Sub if shared(args[1]) => of(Code::SubOff, &[args[1], args[0]]),
+        Code::Mad if shared(args[0]) => of(Code::MadBy, &args[..3]),
+        Code::Mad if shared(args[1]) => of(Code::MadBy, &[args[1], args[0], args[2]]),
+        _ => *fused,
+    }
+}
