@@ -27,6 +27,7 @@
 
 pub mod case;
 pub mod cli;
+pub mod compare;
 pub mod geom;
 pub mod io;
 pub mod ray_engine;

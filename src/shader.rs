@@ -7,8 +7,9 @@ use refsim::{
     asm::{self, SyntaxError},
     check::{self, Checked, Violation},
     device::Profile,
-    isa::{Program, SlotCost, Version},
+    isa::{Program, SlotCost, Span, Version},
 };
+use serde::Serialize;
 
 use crate::io::read_limited;
 
@@ -20,6 +21,19 @@ const LONGEST: u64 = asm::MAX_TEXT as u64;
 pub struct ShaderText {
     name: String,
     text: String,
+}
+
+/// A line of a shader, to be quoted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SourceLine {
+    /// What the shader is called.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column of the piece that was asked for, from 1.
+    pub column: usize,
+    /// The line without space around it.
+    pub text: String,
 }
 
 /// Why a shader cannot be used.
@@ -126,6 +140,25 @@ impl ShaderText {
     /// What the shader is called in messages.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The line on which a piece of the text starts.
+    pub fn line(&self, span: Span) -> SourceLine {
+        let start = self.text.floor_char_boundary(span.start as usize);
+        let (before, after) = self.text.split_at(start);
+        let first = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let rest = after.find(['\n', '\r']).map_or(self.text.len(), |end| start + end);
+        SourceLine {
+            file: self.name.clone(),
+            line: 1 + before.matches('\n').count(),
+            column: 1 + before[first..].chars().count(),
+            text: self.text[first..rest].trim().to_owned(),
+        }
+    }
+
+    /// The text with its name, as errors show it.
+    pub fn named_source(&self) -> Arc<NamedSource<String>> {
+        self.source_code()
     }
 
     /// Assembles the text.

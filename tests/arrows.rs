@@ -35,17 +35,21 @@ const CROSSBAR: Law = (
         ("card", &["geom", "linalg"]),
         ("report", &[]),
         ("shader", &["io"]),
-        ("case", &["io", "geom", "scene", "report", "shader"]),
+        ("compare", &[]),
+        ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
         ("study", &["ray_engine", "report", "card", "geom", "scene", "linalg", "io"]),
-        ("cli", &["study", "ray_engine", "case", "shader", "report", "card", "geom", "scene", "linalg", "io"]),
+        (
+            "cli",
+            &["study", "ray_engine", "case", "compare", "shader", "report", "card", "geom", "scene", "linalg", "io"],
+        ),
         ("lib", &[]),
         ("main", &["cli"]),
     ],
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "shader", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "ray_engine", "study", "cli"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

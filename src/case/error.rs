@@ -4,7 +4,7 @@ use std::{ops::Range, path::PathBuf, sync::Arc};
 
 use miette::{Diagnostic, NamedSource, SourceSpan};
 
-use refsim::machine::MachineError;
+use refsim::{device::DeviceError, machine::MachineError};
 
 use crate::{report::ReportError, shader::ShaderError};
 
@@ -64,6 +64,10 @@ pub enum CaseError {
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
     Draw(Box<MachineError>),
+    /// A switch that was asked for besides those of the case.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
     /// A picture of the result cannot be made.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -2,20 +2,28 @@
 //!
 //! A case passes through three hands. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
 //! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
-//! probes. Every error names the file and the place in it. docs/cases.md describes the format.
+//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and the place in it. docs/cases.md describes the format.
 
+mod device;
 mod error;
+mod loaded;
 mod probe;
 mod run;
 pub mod schema;
 mod setup;
+mod sides;
 mod state;
 mod texels;
+mod trace;
 mod value;
 mod vertices;
 
+pub use device::Overrides;
 pub use error::CaseError;
+pub use loaded::Loaded;
 pub use probe::{Found, ProbeResult};
 pub use run::{Outcome, Picture, ShaderSlots, run};
 pub use setup::Setup;
+pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
+pub use trace::{PixelTrace, trace};
 pub use value::{Number, OneOrMany};

@@ -4,19 +4,13 @@ use refsim::{
     device::Rates,
     event::DrawEvents,
     isa::SlotCost,
-    machine::{AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams},
+    machine::ExecutorKind,
     num::Format,
-    output::WriteMask,
-    raster::{ClipSpace, Cull, PixelCenter},
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
 };
 use serde::Serialize;
 
-use super::{
-    CaseError, ProbeResult, Setup, probe,
-    schema::{self, Convention},
-    setup::Vertices,
-};
+use super::{CaseError, Loaded, ProbeResult, Setup, probe};
 use crate::{
     report::{Channel, ReportError, exr, picture},
     shader,
@@ -69,35 +63,10 @@ impl Outcome {
 /// # Errors
 /// If the device cannot do what the case asks, or a picture cannot be encoded.
 pub fn run(setup: &Setup, executor: ExecutorKind) -> Result<Outcome, CaseError> {
-    let mut machine = Machine::new(setup.profile.clone(), executor);
+    let mut loaded = Loaded::new(setup, executor)?;
+    let events = loaded.draw()?;
+    let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);
     let [width, height] = setup.size;
-    let mut targets = Vec::new();
-    for &format in &setup.targets {
-        let target = machine.create_target(format, width, height)?;
-        machine.clear_target(target, setup.clear)?;
-        targets.push(target);
-    }
-    let depth_buffer = match setup.depth {
-        Some((format, clear, _)) => {
-            let buffer = machine.create_depth(format, width, height)?;
-            machine.clear_depth(buffer, clear)?;
-            Some(buffer)
-        }
-        None => None,
-    };
-    let mut samplers = Vec::new();
-    for (&slot, (image, state)) in &setup.textures {
-        samplers.push((slot, machine.create_texture(image.clone())?, *state));
-    }
-    let streams = streams(setup);
-    let mut call = draw_call(setup, &streams, targets.clone());
-    call.depth_buffer = depth_buffer;
-    for (slot, texture, state) in samplers {
-        call = call.with_texture(slot, texture, state);
-    }
-    let events = machine.draw(&call)?;
-    let surfaces = targets.iter().map(|&target| machine.read_back(target)).collect::<Result<Vec<_>, MachineError>>()?;
-    let depth = depth_buffer.map(|buffer| machine.read_depth(buffer)).transpose()?;
     let minimum = setup.profile.rules.signed_texel_minimum;
     let mut pictures = Vec::new();
     for (index, surface) in surfaces.iter().enumerate() {
@@ -133,58 +102,6 @@ fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> 
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
     let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);
     clocks(fragments.saturating_mul(fragment.max(1)), rates.pixel_pipes)
-}
-
-/// The values of each attribute register, vertex by vertex.
-fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
-    match &setup.geometry.vertices {
-        Vertices::Transformed(_) => Vec::new(),
-        Vertices::Attributes(vertices) => {
-            (0..16).map(|register| vertices.iter().map(|attributes| attributes[register]).collect()).collect()
-        }
-    }
-}
-
-fn draw_call<'a>(
-    setup: &'a Setup,
-    streams: &'a [Vec<[u32; 4]>],
-    targets: Vec<refsim::machine::TextureId>,
-) -> DrawCall<'a> {
-    let vertices = match (&setup.geometry.vertices, &setup.vertex) {
-        (Vertices::Attributes(vertices), Some(program)) => VertexSource::Program {
-            program,
-            constants: &setup.vertex_constants,
-            streams: VertexStreams {
-                vertex_count: vertices.len(),
-                instance_count: 1,
-                streams: (0..)
-                    .zip(streams)
-                    .map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data })
-                    .collect(),
-            },
-        },
-        (Vertices::Transformed(vertices), _) => VertexSource::Transformed(vertices),
-        // Attributes are made for a program only.
-        (Vertices::Attributes(_), None) => VertexSource::Transformed(&[]),
-    };
-    let opengl = setup.geometry.convention == Convention::Opengl;
-    // The set-up lets no case through without a target.
-    let first = targets[0];
-    DrawCall {
-        center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
-        clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
-        cull: match setup.geometry.cull {
-            schema::Cull::None => Cull::None,
-            schema::Cull::Clockwise => Cull::Clockwise,
-            schema::Cull::CounterClockwise => Cull::CounterClockwise,
-        },
-        alpha_test: setup.alpha,
-        depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
-        blend: setup.blend,
-        masks: [WriteMask(setup.write_mask); refsim::output::MOST_TARGETS],
-        targets,
-        ..DrawCall::new(vertices, setup.geometry.primitive, &setup.pixel, &setup.pixel_constants, first)
-    }
 }
 
 /// A target as PNG where its channels are unsigned fractions, else as EXR with the values as singles.

@@ -11,7 +11,6 @@ use refsim::{
     exec::Constants,
     isa::{Program, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
-    num::Format,
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
     raster::{Primitive, Vertex},
     texture::{Image, SamplerState, TexelFormat},
@@ -19,7 +18,7 @@ use refsim::{
 use toml::Spanned;
 
 use super::{
-    CaseError,
+    CaseError, Overrides,
     error::Place,
     schema::{self, Case},
     state, texels,
@@ -41,8 +40,12 @@ pub struct Setup {
     pub title: Option<String>,
     /// The device with the case's switches and format.
     pub profile: Profile,
+    /// Switches of the case that the device does not have, where another device was put in the case's place.
+    pub left_out: Vec<String>,
     /// The pixel program.
     pub pixel: Checked<Program>,
+    /// The pixel program's text.
+    pub pixel_text: ShaderText,
     /// The vertex program.
     pub vertex: Option<Checked<Program>>,
     /// Constants of the pixel program.
@@ -123,6 +126,14 @@ impl Setup {
     /// # Errors
     /// [`CaseError`] for the first thing in the case that is not as it should be.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
+        Self::read_with(path, &Overrides::default())
+    }
+
+    /// [`Setup::read`] with something in place of what the case says.
+    ///
+    /// # Errors
+    /// As [`Setup::read`].
+    pub fn read_with(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
         // No more than the limit is read: the name may be that of a device without an end.
@@ -130,7 +141,7 @@ impl Setup {
             return Err(CaseError::TooLong { most: LONGEST });
         };
         let folder = path.parent().unwrap_or_else(|| Path::new(""));
-        Self::from_bytes(&path.display().to_string(), &bytes, folder)
+        Self::bound(&path.display().to_string(), &bytes, folder, overrides)
     }
 
     /// A case from the bytes of a file called `name`; the paths in it are taken from `folder`.
@@ -138,6 +149,10 @@ impl Setup {
     /// # Errors
     /// As [`Setup::read`].
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
+        Self::bound(name, bytes, folder, &Overrides::default())
+    }
+
+    fn bound(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         if bytes.len() as u64 > LONGEST {
             return Err(CaseError::TooLong { most: LONGEST });
         }
@@ -147,7 +162,7 @@ impl Setup {
         })?;
         let place = Place::new(name, text);
         let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
-        Binder { place, name, folder }.bind(case)
+        Binder { place, name, folder, overrides }.bind(case)
     }
 }
 
@@ -156,19 +171,21 @@ pub(super) struct Binder<'a> {
     pub(super) place: Place,
     name: &'a str,
     folder: &'a Path,
+    pub(super) overrides: &'a Overrides,
 }
 
 impl Binder<'_> {
     fn bind(&self, case: Case) -> Result<Setup, CaseError> {
-        let (profile, model) = self.profile(&case)?;
+        let (profile, model, left_out) = self.profile(&case)?;
         // A card to try on: what it refuses is reported where it stands in the case.
         let mut card = Machine::new(profile.clone(), ExecutorKind::default());
-        let pixel = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
+        let (pixel, pixel_text) = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
         let vertex = case
             .vertex
             .as_ref()
             .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
             .transpose()?;
+        let vertex = vertex.map(|(program, _)| program);
         let mut textures = BTreeMap::new();
         for texture in &case.texture {
             let (slot, image, sampler) = texels::bind(self, texture)?;
@@ -195,7 +212,9 @@ impl Binder<'_> {
             alpha: case.alpha.as_ref().map(state::alpha),
             blend: case.blend.as_ref().map(state::blend),
             profile,
+            left_out,
             pixel,
+            pixel_text,
             vertex,
             textures,
             geometry,
@@ -212,61 +231,6 @@ impl Binder<'_> {
         answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
     }
 
-    /// The device, and the version that the pixel program must have.
-    fn profile(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
-        let (mut profile, model) = match (&case.device, &case.shader_model) {
-            (Some(device), None) => (self.named(device)?, None),
-            (None, Some(model)) => {
-                let Some(format) = &case.format else {
-                    let help = "add for example `format = \"s3.12\"`: the format of the pixel registers";
-                    return Err(self.place.wrong(model.span(), "`shader_model` without `format`", help));
-                };
-                let version = model.get_ref().parse::<Version>().map_err(|error| {
-                    self.place.wrong(
-                        model.span(),
-                        error.to_string(),
-                        "name a pixel shader version, `ps_1_4` for example",
-                    )
-                })?;
-                if version.stage() != Stage::Pixel {
-                    let message = format!("expected a pixel shader version, found `{version}`");
-                    return Err(self.place.wrong(model.span(), message, "`ps_1_4` for example"));
-                }
-                let name = format!("ideal-{}", self.format(format)?);
-                (self.named(&Spanned::new(format.span(), name))?, Some(version))
-            }
-            (Some(_), Some(model)) => {
-                let help = "keep `device`, or `shader_model` and `format`: a device knows its versions";
-                return Err(self.place.wrong(model.span(), "both `device` and `shader_model`", help));
-            }
-            (None, None) => {
-                let help = "add `device = \"r200\"`, or `shader_model = \"ps_1_4\"` and `format = \"s3.12\"`";
-                return Err(self.place.wrong(0..0, "the case names no device", help));
-            }
-        };
-        for (name, value) in &case.switches {
-            profile.set_switch(name, value.get_ref()).map_err(|error| {
-                let help = format!("`crossbar devices {}` lists the switches", profile.name);
-                self.place.wrong(value.span(), error.to_string(), help)
-            })?;
-        }
-        if let (Some(_), Some(format)) = (&case.device, &case.format) {
-            profile.set_format(self.format(format)?);
-        }
-        Ok((profile, model))
-    }
-
-    fn named(&self, device: &Spanned<String>) -> Result<Profile, CaseError> {
-        Profile::named(device.get_ref())
-            .map_err(|error| self.place.wrong(device.span(), error.to_string(), "`crossbar devices` lists the devices"))
-    }
-
-    fn format(&self, format: &Spanned<String>) -> Result<Format, CaseError> {
-        format.get_ref().parse().map_err(|error: refsim::num::FormatError| {
-            self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
-        })
-    }
-
     /// Reads, assembles and judges a program.
     fn program(
         &self,
@@ -275,7 +239,7 @@ impl Binder<'_> {
         stage: Stage,
         profile: &Profile,
         model: Option<Version>,
-    ) -> Result<Checked<Program>, CaseError> {
+    ) -> Result<(Checked<Program>, ShaderText), CaseError> {
         let text = match (&shader.get_ref().file, &shader.get_ref().source) {
             (Some(file), None) => {
                 let path = self.path(file.get_ref());
@@ -308,7 +272,7 @@ impl Binder<'_> {
         if let Some(model) = model.filter(|model| *model != program.version) {
             return wrong(&format!("a {model}"), "make `shader_model` and the program's first line agree");
         }
-        Ok(text.check(program, profile)?)
+        Ok((text.check(program, profile)?, text))
     }
 
     pub(super) fn path(&self, file: &Path) -> PathBuf {

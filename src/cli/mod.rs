@@ -6,17 +6,20 @@
 
 mod alu;
 mod check;
+mod compare;
 mod devices;
 mod error;
 mod intersect;
 mod leaky_teapot;
 mod out;
+mod pixel;
 mod progress;
 mod render;
 mod run;
 mod size;
 mod switch;
 mod view;
+mod words;
 
 use std::{io::Write as _, process::ExitCode};
 
@@ -80,6 +83,7 @@ Examples:
 enum Command {
     Alu(alu::Args),
     Check(check::Args),
+    Compare(compare::Args),
     Devices(devices::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
@@ -125,6 +129,7 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::Alu(args) => alu::run(&args, out),
         Command::Check(args) => check::run(&args, out),
+        Command::Compare(args) => compare::run(&args, out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => leaky_teapot::run(&args, out),

@@ -1,25 +1,29 @@
 //! `crossbar run`: any shader on any textures, constants and geometry.
 
+mod trace;
+
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use refsim::machine::ExecutorKind;
 use serde_json::{Value, json};
 
-use super::{Out, Problem, Verdict};
+use super::{Out, Problem, Verdict, pixel};
 use crate::{
-    case::{self, Found, Outcome, ProbeResult, Setup},
+    case::{self, Found, Outcome, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
     report::{Cell, Table},
 };
 
 const EXAMPLES: &str = "\
-Example:
+Examples:
   crossbar run fixtures/cases/modulate.toml --out out/modulate
       draws the case, writes its targets there and answers its probes
+  crossbar run fixtures/cases/transform.toml --trace 2,2
+      and shows what every instruction wrote at column 2, row 2
 
-docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \\
-EXR. The counts say how much work there was, in instruction slots and bytes; the timing model, which says how long a \\
+docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \
+EXR. The counts say how much work there was, in instruction slots and bytes; the timing model, which says how long a \
 card takes, is to come.
 
 Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case cannot be run.";
@@ -38,6 +42,10 @@ pub(super) struct Args {
     /// Who computes; the bits are the same
     #[arg(long, value_enum, default_value = "scalar")]
     executor: Executor,
+
+    /// Show what every instruction writes at a pixel: column and row from the top left, from 0
+    #[arg(long, value_name = "X,Y", value_parser = pixel::parse)]
+    trace: Option<[u32; 2]>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -60,6 +68,12 @@ impl Executor {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let setup = Setup::read(&args.case)?;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
+    let traced = args.trace.map(|place| follow(&setup, args.executor.kind(), place)).transpose()?;
+    let traced = traced.as_ref().map(|trace| trace::Traced {
+        setup: &setup,
+        trace,
+        knows_flags: args.executor.kind() == ExecutorKind::Scalar,
+    });
     // Before the work: a folder that cannot be written is found out early.
     let mut files = FileSet::new(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, args.executor.kind())?;
@@ -69,11 +83,24 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let written = files.commit().map_err(Problem::from)?;
     out.outlive_reader();
     if out.json() {
-        out.document(&document(&setup, args, &outcome, &written))?;
+        let mut document = document(&setup, args, &outcome, &written);
+        if let Some(traced) = traced {
+            document["trace"] = traced.document();
+        }
+        out.document(&document)?;
     } else {
         print(&setup, &outcome, &written, out)?;
+        if let Some(traced) = traced {
+            out.line("")?;
+            traced.print(out)?;
+        }
     }
     Ok(Verdict::held(outcome.passed()))
+}
+
+fn follow(setup: &Setup, executor: ExecutorKind, place: [u32; 2]) -> miette::Result<PixelTrace> {
+    let place = pixel::within(place, setup.size)?;
+    Ok(case::trace(setup, executor, place)?)
 }
 
 fn default_folder(case: &Path) -> PathBuf {

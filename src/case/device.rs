@@ -1,0 +1,107 @@
+//! Which device a case runs on: what the case says, or something in its place.
+
+use refsim::{
+    device::Profile,
+    isa::{Stage, Version},
+    num::Format,
+};
+use toml::Spanned;
+
+use super::{CaseError, schema::Case, setup::Binder};
+
+/// What to put in place of what a case says about its device: to run one case on two cards, in two formats, or with two
+/// answers to an open question.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    /// Instead of `device`, or of `shader_model` and `format`. Switches of the case that this device does not have are left
+    /// out.
+    pub device: Option<Profile>,
+    /// Instead of the format of the pixel registers.
+    pub format: Option<Format>,
+    /// Switches on top of those of the case, set last.
+    pub switches: Vec<(String, String)>,
+}
+
+impl Overrides {
+    /// Applies format and switches.
+    pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
+        if let Some(format) = self.format {
+            profile.set_format(format);
+        }
+        for (name, value) in &self.switches {
+            profile.set_switch(name, value).map_err(CaseError::from)?;
+        }
+        Ok(())
+    }
+}
+
+impl Binder<'_> {
+    /// The device, the version that the pixel program must have, and the switches that were left out.
+    pub(super) fn profile(&self, case: &Case) -> Result<(Profile, Option<Version>, Vec<String>), CaseError> {
+        let (mut profile, model) = match &self.overrides.device {
+            Some(profile) => (profile.clone(), None),
+            None => self.named_by(case)?,
+        };
+        let mut left_out = Vec::new();
+        for (name, value) in &case.switches {
+            if self.overrides.device.is_some() && !profile.switches().iter().any(|switch| switch.name == *name) {
+                left_out.push(name.clone());
+                continue;
+            }
+            profile.set_switch(name, value.get_ref()).map_err(|error| {
+                let help = format!("`crossbar devices {}` lists the switches", profile.name);
+                self.place.wrong(value.span(), error.to_string(), help)
+            })?;
+        }
+        if let (Some(_), Some(format), None) = (&case.device, &case.format, &self.overrides.device) {
+            profile.set_format(self.format(format)?);
+        }
+        self.overrides.apply(&mut profile)?;
+        Ok((profile, model, left_out))
+    }
+
+    /// The device that the case names, without switches.
+    fn named_by(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
+        match (&case.device, &case.shader_model) {
+            (Some(device), None) => Ok((self.named(device)?, None)),
+            (None, Some(model)) => {
+                let Some(format) = &case.format else {
+                    let help = "add for example `format = \"s3.12\"`: the format of the pixel registers";
+                    return Err(self.place.wrong(model.span(), "`shader_model` without `format`", help));
+                };
+                let version = model.get_ref().parse::<Version>().map_err(|error| {
+                    self.place.wrong(
+                        model.span(),
+                        error.to_string(),
+                        "name a pixel shader version, `ps_1_4` for example",
+                    )
+                })?;
+                if version.stage() != Stage::Pixel {
+                    let message = format!("expected a pixel shader version, found `{version}`");
+                    return Err(self.place.wrong(model.span(), message, "`ps_1_4` for example"));
+                }
+                let name = format!("ideal-{}", self.format(format)?);
+                Ok((self.named(&Spanned::new(format.span(), name))?, Some(version)))
+            }
+            (Some(_), Some(model)) => {
+                let help = "keep `device`, or `shader_model` and `format`: a device knows its versions";
+                Err(self.place.wrong(model.span(), "both `device` and `shader_model`", help))
+            }
+            (None, None) => {
+                let help = "add `device = \"r200\"`, or `shader_model = \"ps_1_4\"` and `format = \"s3.12\"`";
+                Err(self.place.wrong(0..0, "the case names no device", help))
+            }
+        }
+    }
+
+    fn named(&self, device: &Spanned<String>) -> Result<Profile, CaseError> {
+        Profile::named(device.get_ref())
+            .map_err(|error| self.place.wrong(device.span(), error.to_string(), "`crossbar devices` lists the devices"))
+    }
+
+    fn format(&self, format: &Spanned<String>) -> Result<Format, CaseError> {
+        format.get_ref().parse().map_err(|error: refsim::num::FormatError| {
+            self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
+        })
+    }
+}

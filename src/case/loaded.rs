@@ -1,0 +1,158 @@
+//! A case in the memory of a card: ready to be drawn, or followed pixel by pixel.
+
+use refsim::{
+    event::DrawEvents,
+    exec::ResolvedConstants,
+    machine::{
+        AttributeStream, DepthId, DrawCall, ExecutorKind, FragmentTrace, Machine, MachineError, StepRate, TextureId,
+        VertexSource, VertexStreams,
+    },
+    output::{DepthSurface, MOST_TARGETS, WriteMask},
+    raster::{ClipSpace, Cull, PixelCenter},
+    texture::{Image, SamplerState},
+};
+
+use super::{
+    CaseError, Setup,
+    schema::{self, Convention},
+    setup::Vertices,
+};
+
+/// A card with everything that a case puts into it.
+#[derive(Debug)]
+pub struct Loaded<'s> {
+    setup: &'s Setup,
+    machine: Machine,
+    targets: Vec<TextureId>,
+    depth: Option<DepthId>,
+    samplers: Vec<(usize, TextureId, SamplerState)>,
+    /// The values of each attribute register, vertex by vertex.
+    streams: Vec<Vec<[u32; 4]>>,
+}
+
+impl<'s> Loaded<'s> {
+    /// Uploads textures, makes and clears targets.
+    ///
+    /// # Errors
+    /// If the device cannot do what the case asks.
+    pub fn new(setup: &'s Setup, executor: ExecutorKind) -> Result<Self, CaseError> {
+        let mut machine = Machine::new(setup.profile.clone(), executor);
+        let [width, height] = setup.size;
+        let mut targets = Vec::new();
+        for &format in &setup.targets {
+            let target = machine.create_target(format, width, height)?;
+            machine.clear_target(target, setup.clear)?;
+            targets.push(target);
+        }
+        let depth = match setup.depth {
+            Some((format, clear, _)) => {
+                let buffer = machine.create_depth(format, width, height)?;
+                machine.clear_depth(buffer, clear)?;
+                Some(buffer)
+            }
+            None => None,
+        };
+        let mut samplers = Vec::new();
+        for (&slot, (image, state)) in &setup.textures {
+            samplers.push((slot, machine.create_texture(image.clone())?, *state));
+        }
+        Ok(Self { setup, machine, targets, depth, samplers, streams: streams(setup) })
+    }
+
+    /// Draws.
+    ///
+    /// # Errors
+    /// If the device cannot do what the case asks.
+    pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
+        // The machine changes, the rest is read.
+        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
+        Ok(self.machine.draw(&call)?)
+    }
+
+    /// Follows some pixels through the draw, which is not made: see [`Machine::trace_pixels`].
+    ///
+    /// # Errors
+    /// As [`Loaded::draw`], and if a pixel lies outside the targets.
+    pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
+        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
+        Ok(self.machine.trace_pixels(&call, pixels)?)
+    }
+
+    /// What the colour targets hold.
+    ///
+    /// # Errors
+    /// None that a loaded case can meet.
+    pub fn targets(&self) -> Result<Vec<&Image>, CaseError> {
+        let surfaces: Result<_, MachineError> = self.targets.iter().map(|&id| self.machine.read_back(id)).collect();
+        Ok(surfaces?)
+    }
+
+    /// What the depth buffer holds, if there is one.
+    ///
+    /// # Errors
+    /// None that a loaded case can meet.
+    pub fn depth(&self) -> Result<Option<&DepthSurface>, CaseError> {
+        Ok(self.depth.map(|id| self.machine.read_depth(id)).transpose()?)
+    }
+}
+
+/// The pixel program's constants as instructions read them.
+pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
+    ResolvedConstants::pixel(&setup.pixel, &setup.profile.rules, &setup.pixel_constants)
+}
+
+/// The values of each attribute register, vertex by vertex.
+fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
+    match &setup.geometry.vertices {
+        Vertices::Transformed(_) => Vec::new(),
+        Vertices::Attributes(vertices) => {
+            (0..16).map(|register| vertices.iter().map(|attributes| attributes[register]).collect()).collect()
+        }
+    }
+}
+
+fn draw_call<'a>(
+    setup: &'a Setup,
+    streams: &'a [Vec<[u32; 4]>],
+    targets: &[TextureId],
+    depth: Option<DepthId>,
+    samplers: &[(usize, TextureId, SamplerState)],
+) -> DrawCall<'a> {
+    let vertices = match (&setup.geometry.vertices, &setup.vertex) {
+        (Vertices::Attributes(vertices), Some(program)) => VertexSource::Program {
+            program,
+            constants: &setup.vertex_constants,
+            streams: VertexStreams {
+                vertex_count: vertices.len(),
+                instance_count: 1,
+                streams: (0..)
+                    .zip(streams)
+                    .map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data })
+                    .collect(),
+            },
+        },
+        (Vertices::Transformed(vertices), _) => VertexSource::Transformed(vertices),
+        // Attributes are made for a program only.
+        (Vertices::Attributes(_), None) => VertexSource::Transformed(&[]),
+    };
+    let opengl = setup.geometry.convention == Convention::Opengl;
+    // The set-up lets no case through without a target.
+    let first = targets[0];
+    let call = DrawCall {
+        center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
+        clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
+        cull: match setup.geometry.cull {
+            schema::Cull::None => Cull::None,
+            schema::Cull::Clockwise => Cull::Clockwise,
+            schema::Cull::CounterClockwise => Cull::CounterClockwise,
+        },
+        alpha_test: setup.alpha,
+        depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
+        blend: setup.blend,
+        masks: [WriteMask(setup.write_mask); MOST_TARGETS],
+        targets: targets.to_vec(),
+        depth_buffer: depth,
+        ..DrawCall::new(vertices, setup.geometry.primitive, &setup.pixel, &setup.pixel_constants, first)
+    };
+    samplers.iter().fold(call, |call, &(slot, texture, state)| call.with_texture(slot, texture, state))
+}

@@ -1,0 +1,208 @@
+//! One case on two sides: two executors, two formats, two devices.
+
+use refsim::{
+    event::DrawEvents,
+    exec::ResolvedConstants,
+    isa::Program,
+    machine::{ExecutorKind, FragmentTrace},
+};
+use serde::Serialize;
+
+use super::{CaseError, Loaded, Setup, loaded::constants};
+use crate::compare::{Difference, Shape, SurfaceDifference, TraceSide, depths, first_difference, images};
+
+/// Pixels that are followed at a time: the vertices are processed once for them.
+const TOGETHER: usize = 1024;
+
+/// One side: a case with its overrides, and who computes.
+#[derive(Clone, Copy, Debug)]
+pub struct Side<'s> {
+    /// The case. Both sides come from the same file.
+    pub setup: &'s Setup,
+    /// The executor.
+    pub executor: ExecutorKind,
+}
+
+/// How much is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// What the draw leaves behind: targets, depth buffer, counts.
+    Results,
+    /// And what every instruction writes at every pixel.
+    Registers,
+    /// And what every instruction writes at one pixel: column and row.
+    Pixel([u32; 2]),
+}
+
+/// What a comparison found.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Every target, then the depth buffer.
+    pub surfaces: Vec<SurfaceDifference>,
+    /// Pixels of the targets.
+    pub pixels: u64,
+    /// Pixels at which some surface differs.
+    pub different: u64,
+    /// Counts that differ.
+    pub counts: Vec<CountDifference>,
+    /// Pixels that were followed on both sides, and how many of those differ in something.
+    pub followed: [u64; 2],
+    /// The first difference; `None` if there is none.
+    pub first: Option<First>,
+}
+
+/// A count that differs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CountDifference {
+    /// What is counted.
+    pub count: &'static str,
+    /// On the left.
+    pub left: u64,
+    /// On the right.
+    pub right: u64,
+}
+
+/// The first difference.
+#[derive(Clone, Debug)]
+pub struct First {
+    /// The draw, from 0. A case has one.
+    pub draw: usize,
+    /// Column and row of the first pixel that differs, row by row from the top left.
+    pub pixel: [u32; 2],
+    /// Where on the way of its fragments the sides part; `None` if their traces are equal although what the draws left is
+    /// not: then the draw of a side differs from its own trace.
+    pub difference: Option<Difference>,
+}
+
+impl Comparison {
+    /// Whether nothing differs.
+    pub fn equal(&self) -> bool {
+        self.different == 0 && self.counts.is_empty() && self.first.is_none()
+    }
+}
+
+/// Runs a case on two sides and compares.
+///
+/// # Errors
+/// If a side cannot be drawn, or the pixel of the scope lies outside the targets.
+pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Comparison, CaseError> {
+    let mut sides = [Drawn::new(left)?, Drawn::new(right)?];
+    let events = [sides[0].draw()?, sides[1].draw()?];
+    let surfaces = surfaces(&sides[0].drawn, &sides[1].drawn)?;
+    let [width, height] = left.setup.size;
+    let differs = |i: usize| surfaces.iter().any(|surface| surface.map.get(i) == Some(&true));
+    let count = width as usize * height as usize;
+    let differing: Vec<usize> = (0..count).filter(|&i| differs(i)).collect();
+    let place = |i: usize| (i as u32 % width, i as u32 / width);
+    let mut comparison = Comparison {
+        pixels: count as u64,
+        different: differing.len() as u64,
+        counts: count_differences(&events[0], &events[1]),
+        followed: [0; 2],
+        first: None,
+        surfaces,
+    };
+    let pixels: Vec<(u32, u32)> = match scope {
+        Scope::Pixel([x, y]) => vec![(x, y)],
+        Scope::Results if !differing.is_empty() => vec![place(differing[0])],
+        // Only counts differ: no target says where.
+        Scope::Results if comparison.counts.is_empty() => Vec::new(),
+        Scope::Results | Scope::Registers => (0..count).map(place).collect(),
+    };
+    for some in pixels.chunks(TOGETHER) {
+        follow(&sides, some, &mut comparison)?;
+        if scope == Scope::Results && comparison.first.is_some() {
+            break;
+        }
+    }
+    if comparison.first.is_none()
+        && let Some(&first) = differing.first()
+        && !matches!(scope, Scope::Pixel(_))
+    {
+        let (x, y) = place(first);
+        comparison.first = Some(First { draw: 0, pixel: [x, y], difference: None });
+    }
+    Ok(comparison)
+}
+
+/// A side with two cards: one that draws, one whose memory stays as it was before the draw.
+struct Drawn<'s> {
+    drawn: Loaded<'s>,
+    before: Loaded<'s>,
+    setup: &'s Setup,
+    constants: ResolvedConstants,
+}
+
+impl<'s> Drawn<'s> {
+    fn new(side: &Side<'s>) -> Result<Self, CaseError> {
+        let load = || Loaded::new(side.setup, side.executor);
+        Ok(Self { drawn: load()?, before: load()?, setup: side.setup, constants: constants(side.setup) })
+    }
+
+    fn draw(&mut self) -> Result<DrawEvents, CaseError> {
+        self.drawn.draw()
+    }
+
+    fn trace<'t>(&'t self, fragments: &'t [FragmentTrace]) -> TraceSide<'t> {
+        let program: &Program = &self.setup.pixel;
+        TraceSide { program, format: self.setup.profile.rules.format, constants: &self.constants, fragments }
+    }
+}
+
+/// Follows pixels on both sides, counts those that differ and keeps the first.
+fn follow(sides: &[Drawn<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Comparison) -> Result<(), CaseError> {
+    let setup = sides[0].setup;
+    let shape = Shape { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
+    let traces = [sides[0].before.trace(pixels)?, sides[1].before.trace(pixels)?];
+    for (&(x, y), (left, right)) in pixels.iter().zip(traces[0].iter().zip(&traces[1])) {
+        comparison.followed[0] += 1;
+        let found = first_difference(&sides[0].trace(left), &sides[1].trace(right), &shape);
+        if let Some(difference) = found {
+            comparison.followed[1] += 1;
+            let first = || First { draw: 0, pixel: [x, y], difference: Some(difference) };
+            comparison.first.get_or_insert_with(first);
+        }
+    }
+    Ok(())
+}
+
+/// Both sides' surfaces. They have the same shapes: both are of one case.
+fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifference>, CaseError> {
+    let (a, b) = (left.targets()?, right.targets()?);
+    let targets = a.iter().zip(b).enumerate();
+    let mut found: Vec<SurfaceDifference> =
+        targets.filter_map(|(index, (a, b))| images(&format!("target {index}"), a, b)).collect();
+    if let (Some(a), Some(b)) = (left.depth()?, right.depth()?) {
+        found.extend(depths("depth", a, b));
+    }
+    Ok(found)
+}
+
+/// The counts of a draw, by name.
+fn counts(events: &DrawEvents) -> Vec<(&'static str, u64)> {
+    vec![
+        ("vertices", events.vertices),
+        ("vertex instructions", events.vertex_instructions),
+        ("triangles assembled", events.primitives.assembled),
+        ("triangles culled", events.primitives.culled),
+        ("triangles clipped", events.primitives.clipped),
+        ("triangles rasterised", events.primitives.rasterised),
+        ("fragments generated", events.fragments.generated),
+        ("fragments shaded", events.fragments.shaded),
+        ("fragments killed", events.fragments.killed),
+        ("alpha test failed", events.fragments.alpha_failed),
+        ("depth test failed", events.fragments.depth_failed),
+        ("fragments passed", events.fragments.passed),
+        ("texture reads", events.fragments.total_fetches()),
+        ("bytes read", events.bytes.read()),
+        ("bytes written", events.bytes.written()),
+    ]
+}
+
+fn count_differences(left: &DrawEvents, right: &DrawEvents) -> Vec<CountDifference> {
+    let pairs = counts(left).into_iter().zip(counts(right));
+    pairs
+        .filter(|((_, a), (_, b))| a != b)
+        .map(|((count, left), (_, right))| CountDifference { count, left, right })
+        .collect()
+}

@@ -1,0 +1,41 @@
+//! One pixel of a case, followed through the draw.
+
+use refsim::machine::{ExecutorKind, FragmentTrace};
+
+use super::{CaseError, Loaded, Setup};
+
+/// How far around a pixel that nothing covers one is looked for that something covers, in pixels.
+const AROUND: u32 = 16;
+
+/// What happened at a pixel.
+#[derive(Clone, Debug)]
+pub struct PixelTrace {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// The fragments of all triangles that cover it, in order.
+    pub fragments: Vec<FragmentTrace>,
+    /// If there are none: the nearest pixel within 16 columns and rows that has one.
+    pub nearest: Option<[u32; 2]>,
+}
+
+/// Follows a pixel through the draw of a case.
+///
+/// # Errors
+/// If the device cannot do what the case asks, or the pixel lies outside the targets.
+pub fn trace(setup: &Setup, executor: ExecutorKind, pixel: [u32; 2]) -> Result<PixelTrace, CaseError> {
+    let loaded = Loaded::new(setup, executor)?;
+    let [x, y] = pixel;
+    let fragments: Vec<FragmentTrace> = loaded.trace(&[(x, y)])?.into_iter().flatten().collect();
+    let nearest = if fragments.is_empty() { nearest(&loaded, setup.size, pixel)? } else { None };
+    Ok(PixelTrace { pixel, fragments, nearest })
+}
+
+fn nearest(loaded: &Loaded<'_>, size: [u32; 2], pixel: [u32; 2]) -> Result<Option<[u32; 2]>, CaseError> {
+    let range = |axis: usize| pixel[axis].saturating_sub(AROUND)..(pixel[axis] + AROUND + 1).min(size[axis]);
+    let mut around: Vec<(u32, u32)> = range(1).flat_map(|y| range(0).map(move |x| (x, y))).collect();
+    let square = |a: u32, b: u32| a.abs_diff(b).pow(2);
+    around.sort_by_key(|&(x, y)| (square(x, pixel[0]) + square(y, pixel[1]), y, x));
+    let traces = loaded.trace(&around)?;
+    let covered = around.iter().zip(&traces).find(|(_, fragments)| !fragments.is_empty());
+    Ok(covered.map(|(&(x, y), _)| [x, y]))
+}

@@ -1,0 +1,147 @@
+//! `crossbar compare`: one case on two sides, and where they part.
+
+mod show;
+
+use std::path::PathBuf;
+
+use miette::WrapErr as _;
+use refsim::{device::Profile, machine::ExecutorKind, num::Format};
+
+use super::{
+    Out, Problem, Verdict, pixel,
+    view::{DeviceExecutor, bad_format},
+};
+use crate::case::{self, Overrides, Scope, Setup, Side};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar compare fixtures/cases/transform.toml
+      the reference against the batch executor: the bits must be the same
+  crossbar compare fixtures/cases/transform.toml --right-format fp32
+      the device's own number format against single precision
+  crossbar compare fixtures/cases/transform.toml --right-switch rounding=rtz --pixel 2,2
+      two answers to an open question, followed at one pixel whether or not what is drawn there differs
+
+Sides are compared by what the draw leaves: every stored bit of targets and depth buffer, and the counts. Where they \
+differ, the first differing pixel is followed on both sides to the first pass, stage, instruction and component. \
+docs/compare.md says what is compared how, and what an ULP is between two formats.
+
+Exit codes: 0 the sides are equal, 1 they differ, 2 the case cannot be run.";
+
+/// Run a case on two executors, formats or devices and name the first difference, down to the instruction
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(in crate::cli) struct Args {
+    /// The case, a TOML file: see `crossbar run`
+    case: PathBuf,
+
+    /// Who computes on the left [default: scalar]
+    #[arg(long, value_enum, value_name = "EXECUTOR")]
+    left: Option<DeviceExecutor>,
+
+    /// Who computes on the right [default: batch, or as on the left where the sides differ in something else]
+    #[arg(long, value_enum, value_name = "EXECUTOR")]
+    right: Option<DeviceExecutor>,
+
+    /// Device on the left, in place of what the case says
+    #[arg(long, value_name = "D")]
+    left_device: Option<String>,
+
+    /// Device on the right
+    #[arg(long, value_name = "D")]
+    right_device: Option<String>,
+
+    /// Format of the pixel registers on the left, in place of the device's
+    #[arg(long, value_name = "F")]
+    left_format: Option<String>,
+
+    /// Format of the pixel registers on the right
+    #[arg(long, value_name = "F")]
+    right_format: Option<String>,
+
+    /// A switch of the device on the left; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = super::switch::parse)]
+    left_switch: Vec<(String, String)>,
+
+    /// A switch of the device on the right; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = super::switch::parse)]
+    right_switch: Vec<(String, String)>,
+
+    /// Compare what every instruction writes at one pixel, whether or not the targets differ there
+    #[arg(long, value_name = "X,Y", value_parser = pixel::parse, conflicts_with = "registers")]
+    pixel: Option<[u32; 2]>,
+
+    /// Compare what every instruction writes at every pixel
+    #[arg(long)]
+    registers: bool,
+}
+
+/// What was asked for on one side.
+#[derive(Debug)]
+struct Wanted {
+    name: &'static str,
+    executor: ExecutorKind,
+    overrides: Overrides,
+}
+
+impl Args {
+    /// The two sides, which must differ in something.
+    fn sides(&self) -> miette::Result<[Wanted; 2]> {
+        let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
+        let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());
+        let left_executor = self.left.map(ExecutorKind::from).unwrap_or_default();
+        let other = if left == right { ExecutorKind::Batch } else { left_executor };
+        let right_executor = self.right.map_or(other, ExecutorKind::from);
+        if left == right && left_executor == right_executor {
+            let help = "let the sides differ: `--right batch`, `--right-format fp32`, `--right-device r300` or \
+                        `--right-switch rounding=rtz` for example";
+            return Err(Problem::usage("both sides are the same", help).into());
+        }
+        Ok([wanted("left", left, left_executor)?, wanted("right", right, right_executor)?])
+    }
+
+    fn scope(&self, size: [u32; 2]) -> miette::Result<Scope> {
+        Ok(match self.pixel {
+            Some(pixel) => Scope::Pixel(pixel::within(pixel, size)?),
+            None if self.registers => Scope::Registers,
+            None => Scope::Results,
+        })
+    }
+}
+
+/// Device, format and switches as asked for.
+type Settings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
+
+fn wanted(name: &'static str, settings: Settings<'_>, executor: ExecutorKind) -> miette::Result<Wanted> {
+    let (device, format, switches) = settings;
+    let overrides = || -> miette::Result<Overrides> {
+        Ok(Overrides {
+            device: device.map(Profile::named).transpose()?,
+            format: format.map(|text| text.parse::<Format>().map_err(bad_format)).transpose()?,
+            switches: switches.to_vec(),
+        })
+    };
+    let overrides = overrides().wrap_err_with(|| format!("the {name} side cannot be set up"))?;
+    Ok(Wanted { name, executor, overrides })
+}
+
+pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let [left, right] = args.sides()?;
+    let read = |wanted: &Wanted| {
+        Setup::read_with(&args.case, &wanted.overrides)
+            .map_err(miette::Report::from)
+            .wrap_err_with(|| format!("the case cannot be set up on the {} side", wanted.name))
+    };
+    let setups = [read(&left)?, read(&right)?];
+    let sides =
+        [Side { setup: &setups[0], executor: left.executor }, Side { setup: &setups[1], executor: right.executor }];
+    let comparison = case::compare(&sides[0], &sides[1], args.scope(setups[0].size)?)?;
+    out.outlive_reader();
+    let shown = show::Shown { case: &args.case, sides: &sides, comparison: &comparison };
+    if out.json() {
+        out.document(&shown.document())?;
+    } else {
+        shown.print(out)?;
+    }
+    Ok(Verdict::held(comparison.equal()))
+}

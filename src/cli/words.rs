@@ -1,0 +1,27 @@
+//! Words for what the emulator names by types.
+
+use refsim::{isa::Mask, machine::ExecutorKind, output::FragmentFate};
+
+/// The word that `--executor` takes.
+pub(super) const fn executor(kind: ExecutorKind) -> &'static str {
+    match kind {
+        ExecutorKind::Scalar => "scalar",
+        ExecutorKind::Batch => "batch",
+    }
+}
+
+/// What became of a fragment.
+pub(super) const fn fate(fate: FragmentFate) -> &'static str {
+    match fate {
+        FragmentFate::KilledByShader => "is killed by the program",
+        FragmentFate::AlphaFailed => "fails the alpha test",
+        FragmentFate::DepthFailed => "fails the depth test",
+        FragmentFate::Passed => "passes",
+        FragmentFate::OutsideTile => "lies outside",
+    }
+}
+
+/// The components of a mask: `xz`.
+pub(super) fn letters(mask: Mask) -> String {
+    mask.components().map(|c| ['x', 'y', 'z', 'w'][c]).collect()
+}

@@ -1,0 +1,260 @@
+//! Two numbers, perhaps of two formats.
+
+use std::cmp::Ordering;
+
+use refsim::{
+    num::{Format, Kind, Unpacked, decimal, unpack},
+    texture::{Channel, ChannelClass, ChannelValue, SignedTexelMinimum, decode_channel},
+};
+use serde::Serialize;
+
+/// A pattern and its format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Number {
+    /// The format.
+    pub format: Format,
+    /// The pattern.
+    pub bits: u32,
+}
+
+/// A value by two sides, ready to be read.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Compared {
+    /// What has the value: `r0.x`, `target 0 red`.
+    pub name: String,
+    /// The left value in decimal.
+    pub left: String,
+    /// Its bits, hexadecimal.
+    pub left_bits: String,
+    /// The right value in decimal.
+    pub right: String,
+    /// Its bits, hexadecimal.
+    pub right_bits: String,
+    /// How far apart they are, in units of the last place of `unit`; `None` where one is no finite number.
+    pub ulps: Option<f64>,
+    /// The format whose last place is counted.
+    pub unit: String,
+}
+
+/// 2 to a power within the range of normal doubles.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(u64::from((exponent + 1023).clamp(1, 2046).unsigned_abs()) << 52)
+}
+
+impl Number {
+    /// The number as a double, which holds every number of every format exactly; NaN and infinities as such.
+    pub fn double(&self) -> f64 {
+        // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
+        let format = self.format.with_denormals(refsim::num::Denormals::Keep);
+        match unpack(&format, self.bits) {
+            Unpacked::Nan { .. } => f64::NAN,
+            Unpacked::Inf { sign } => {
+                if sign {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::INFINITY
+                }
+            }
+            Unpacked::Finite { sign, sig, exp } => {
+                // At most 32 significant bits.
+                let magnitude = sig as f64 * power_of_two(exp);
+                if sign { -magnitude } else { magnitude }
+            }
+        }
+    }
+
+    /// Whether two numbers are equal: with one layout (sizes of the fields), if their bits are, so that 0 and -0 differ; with
+    /// two, if they are the same number. NaN equals NaN.
+    pub fn equals(&self, other: &Self) -> bool {
+        if self.format.kind == other.format.kind {
+            let nan = self.format.is_nan(self.bits) && other.format.is_nan(other.bits);
+            return nan || self.bits == other.bits;
+        }
+        let (a, b) = (self.double(), other.double());
+        a == b || (a.is_nan() && b.is_nan())
+    }
+
+    /// The shortest decimal that reads back to the same bits.
+    pub fn decimal(&self) -> String {
+        decimal::to_decimal(&self.format, self.bits)
+    }
+
+    /// All bits of the format, hexadecimal.
+    pub fn hex(&self) -> String {
+        let digits = self.format.width().div_ceil(4) as usize;
+        format!("0x{:0digits$x}", self.bits)
+    }
+
+    /// The place of the last bit at a magnitude: the distance from one number to the next.
+    fn last_place(&self, magnitude: f64) -> f64 {
+        match self.format.kind {
+            Kind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
+            Kind::Float { exp_bits, man_bits } => {
+                let bias = (1 << (exp_bits - 1)) - 1;
+                let exponent = ((magnitude.to_bits() >> 52) & 0x7ff) as i32 - 1023;
+                power_of_two(exponent.clamp(1 - bias, bias) - i32::from(man_bits))
+            }
+        }
+    }
+
+    /// An integer that grows by one from each number of the layout to the next.
+    fn step(&self) -> i64 {
+        let bits = i64::from(self.bits & self.format.mask());
+        match self.format.kind {
+            Kind::Fixed { .. } if self.format.is_negative(self.bits) => bits - (1i64 << self.format.width()),
+            Kind::Float { .. } if self.format.is_negative(self.bits) => i64::from(self.format.sign_bit()) - bits,
+            _ => bits,
+        }
+    }
+}
+
+/// How far apart two numbers are, and the format whose last place is counted.
+///
+/// With one layout this is how many numbers of it one has to step over to get from one to the other. With two it is the
+/// exact difference divided by the last place, at the larger of the two magnitudes, of the format whose last place is
+/// the larger there. `None` if one of them is not finite, or NaN, and they are not equal.
+pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
+    let (a, b) = (left.double(), right.double());
+    if left.format.kind == right.format.kind {
+        let steps = left.step().abs_diff(right.step()) as f64;
+        let known = (a.is_finite() && b.is_finite()) || left.equals(right);
+        return (known.then_some(if left.equals(right) { 0.0 } else { steps }), left.format);
+    }
+    let magnitude = if a.abs() > b.abs() || b.is_nan() { a.abs() } else { b.abs() };
+    let (of_left, of_right) = (left.last_place(magnitude), right.last_place(magnitude));
+    let (unit, format) =
+        if of_left.total_cmp(&of_right) == Ordering::Less { (of_right, right.format) } else { (of_left, left.format) };
+    if left.equals(right) {
+        return (Some(0.0), format);
+    }
+    let known = a.is_finite() && b.is_finite();
+    (known.then(|| (a - b).abs() / unit), format)
+}
+
+/// A double as text: plain near one, with an exponent far from it.
+pub(super) fn plain(real: f64) -> String {
+    let magnitude = real.abs();
+    if real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&magnitude) {
+        format!("{real}")
+    } else {
+        format!("{real:e}")
+    }
+}
+
+impl Compared {
+    /// Two numbers of registers. In one layout they are written as short as reads back; in two, so that different numbers
+    /// differ in writing.
+    pub fn registers(name: impl Into<String>, left: &Number, right: &Number) -> Self {
+        let (ulps, unit) = ulps(left, right);
+        let same = left.format.kind == right.format.kind;
+        let text = |number: &Number| if same { number.decimal() } else { plain(number.double()) };
+        Self {
+            name: name.into(),
+            left: text(left),
+            left_bits: left.hex(),
+            right: text(right),
+            right_bits: right.hex(),
+            ulps,
+            unit: unit.to_string(),
+        }
+    }
+
+    /// Two truth values.
+    pub fn truths(name: impl Into<String>, left: bool, right: bool) -> Self {
+        let bits = |truth: bool| if truth { "0x1" } else { "0x0" }.to_owned();
+        Self {
+            name: name.into(),
+            left: left.to_string(),
+            left_bits: bits(left),
+            right: right.to_string(),
+            right_bits: bits(right),
+            ulps: None,
+            unit: "truth".to_owned(),
+        }
+    }
+
+    /// The stored bits of one channel of two texels.
+    pub(super) fn channels(name: impl Into<String>, channel: Channel, left: u32, right: u32) -> Self {
+        if let ChannelClass::Float(format) = channel.class {
+            let number = |bits| Number { format, bits };
+            return Self::registers(name, &number(left), &number(right));
+        }
+        let hex = |bits: u32| format!("0x{bits:0digits$x}", digits = usize::from(channel.bits).div_ceil(4));
+        Self {
+            name: name.into(),
+            left: plain(channel_double(channel, left)),
+            left_bits: hex(left),
+            right: plain(channel_double(channel, right)),
+            right_bits: hex(right),
+            ulps: Some(channel_steps(channel, left, right)),
+            unit: format!("{} bits", channel.bits),
+        }
+    }
+}
+
+/// The value of a channel as a double, ratios rounded once.
+pub(super) fn channel_double(channel: Channel, bits: u32) -> f64 {
+    match decode_channel(channel, bits, SignedTexelMinimum::BelowMinusOne) {
+        ChannelValue::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
+        ChannelValue::Float { format, bits } => Number { format, bits }.double(),
+    }
+}
+
+/// How many stored values lie between two of a normalised channel.
+pub(super) fn channel_steps(channel: Channel, left: u32, right: u32) -> f64 {
+    let spare = 32 - u32::from(channel.bits);
+    let whole = |bits: u32| match channel.class {
+        ChannelClass::Unorm => i64::from(bits),
+        _ => i64::from((bits << spare).cast_signed() >> spare),
+    };
+    whole(left).abs_diff(whole(right)) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(format: &str, bits: u32) -> Number {
+        Number { format: format.parse().expect("a format"), bits }
+    }
+
+    #[test]
+    fn one_layout_counts_steps() {
+        let apart = |format: &str, a, b| ulps(&number(format, a), &number(format, b)).0;
+        assert_eq!(apart("fp32", 0x3f80_0000, 0x3f80_0001), Some(1.0));
+        assert_eq!(apart("fp32", 0x8000_0001, 0x0000_0001), Some(2.0), "over both zeros");
+        assert_eq!(apart("fp32", 0x8000_0000, 0), Some(0.0));
+        assert_eq!(apart("s3.12", 0xffff, 0x0001), Some(2.0));
+        assert_eq!(apart("fp16", 0x7bff, 0x7c00), None, "infinity is no number of steps away");
+        assert_eq!(apart("fp16", 0x7c00, 0x7c00), Some(0.0));
+    }
+
+    #[test]
+    fn zeros_of_two_signs_differ_in_one_layout_only() {
+        assert!(!number("fp32", 0).equals(&number("fp32:rtz", 0x8000_0000)));
+        assert!(number("fp32", 0x8000_0000).equals(&number("s3.12", 0)));
+        assert!(number("fp32", 0x7fc0_0000).equals(&number("fp16", 0x7e00)), "NaN");
+    }
+
+    #[test]
+    fn two_layouts_count_in_the_coarser_one() {
+        // 1 + 2^-12 against 1 + 2^-11: half of fp16's last place, 2^-10, is 2^-11 and a half more.
+        let (apart, unit) = ulps(&number("fp32", 0x3f80_0800), &number("fp16", 0x3c01));
+        assert_eq!((apart, unit.to_string().as_str()), (Some(0.75), "e5m10"));
+        // Near 0.001 the last place of s3.12 is larger than that of fp16.
+        let (apart, unit) = ulps(&number("s3.12", 4), &number("fp16", 0x1400));
+        assert_eq!((apart, unit.to_string().as_str()), (Some(0.0), "s3.12"));
+        let (apart, unit) = ulps(&number("s3.12", 4), &number("fp16", 0x1401));
+        assert_eq!(unit.to_string(), "s3.12");
+        // 2^-10 (1 + 2^-10) - 2^-10 = 2^-20, in units of 2^-12.
+        assert_eq!(apart, Some(1.0 / 256.0));
+    }
+
+    #[test]
+    fn doubles_are_exact() {
+        assert_eq!(number("fp32", 1).double(), f64::from(f32::from_bits(1)));
+        assert_eq!(number("s15.16", 0x8000_0000).double(), -32768.0);
+        assert_eq!(number("s3.12", 0x0555).double(), 1365.0 / 4096.0);
+        assert_eq!(number("fp16:ftz", 1).double(), f64::from(f32::from_bits(0x3380_0000)), "as stored");
+    }
+}

@@ -1,0 +1,204 @@
+//! Two surfaces, bit by bit, and how far apart they are.
+
+use refsim::{
+    num::Format,
+    output::{DepthFormat, DepthSurface},
+    texture::{Channel, ChannelClass, Image},
+};
+use serde::Serialize;
+
+use super::number::{Compared, channel_double};
+
+/// How two surfaces differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceDifference {
+    /// `target 0`, `depth`.
+    pub surface: String,
+    /// Pixels of the surface.
+    pub pixels: u64,
+    /// Pixels of which a stored bit differs.
+    pub different: u64,
+    /// The largest difference between two numbers, of the first pixel that has it. A difference from something that is not
+    /// finite is larger than all others.
+    pub largest: Option<Largest>,
+    /// For each pixel, row by row, whether it differs.
+    #[serde(skip)]
+    pub map: Vec<bool>,
+}
+
+/// The largest difference of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Largest {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// The difference as a number; infinite where one side is not finite.
+    #[serde(serialize_with = "finite_or_text")]
+    pub difference: f64,
+    /// Both values.
+    #[serde(flatten)]
+    pub values: Compared,
+}
+
+/// JSON has no infinity and no NaN.
+fn finite_or_text<S: serde::Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if number.is_finite() { serializer.serialize_f64(*number) } else { serializer.serialize_str(&number.to_string()) }
+}
+
+const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];
+
+/// The channels of two texels that differ: what to call them, and their bits.
+pub(super) fn differing_channels(
+    channels: &[Channel],
+    left: u128,
+    right: u128,
+) -> impl Iterator<Item = (&'static str, Channel, u32, u32)> {
+    channels.iter().filter_map(move |&channel| {
+        let mask = u32::MAX >> (32 - u32::from(channel.bits.clamp(1, 32)));
+        let [left, right] = [left, right].map(|raw| (raw >> channel.shift) as u32 & mask);
+        let name = CHANNELS[usize::from(channel.stored_from & 3)];
+        (left != right).then_some((name, channel, left, right))
+    })
+}
+
+/// A distance between numbers; NaN is infinitely far from all but NaN.
+fn distance(left: f64, right: f64) -> f64 {
+    if left == right || (left.is_nan() && right.is_nan()) {
+        return 0.0;
+    }
+    let distance = (left - right).abs();
+    if distance.is_nan() { f64::INFINITY } else { distance }
+}
+
+/// Compares the stored bits of two images of one size and format, level 0. `None` if size or format differ.
+pub fn images(name: &str, left: &Image, right: &Image) -> Option<SurfaceDifference> {
+    let (width, height) = (left.width(), left.height());
+    if (right.width(), right.height(), right.format()) != (width, height, left.format()) {
+        return None;
+    }
+    let channels = left.format().record().stored();
+    Some(surface(name, [width, height], |x, y| {
+        let (a, b) = (left.raw(0, 0, y, x), right.raw(0, 0, y, x));
+        let farther = |name: &str, channel: Channel, l, r| {
+            let apart = distance(channel_double(channel, l), channel_double(channel, r));
+            (apart, Compared::channels(name, channel, l, r))
+        };
+        let all = differing_channels(channels, a, b).map(|(name, channel, l, r)| farther(name, channel, l, r));
+        let largest = all.reduce(|most, next| if next.0 > most.0 { next } else { most });
+        (a != b, largest)
+    }))
+}
+
+/// Compares the patterns of two depth buffers of one size and format. `None` if size or format differ.
+pub fn depths(name: &str, left: &DepthSurface, right: &DepthSurface) -> Option<SurfaceDifference> {
+    let (width, height) = (left.width(), left.height());
+    if (right.width(), right.height(), right.format()) != (width, height, left.format()) {
+        return None;
+    }
+    let number = |bits| depth_number(left.format(), bits);
+    Some(surface(name, [width, height], |x, y| {
+        let (a, b) = (left.get(x, y).unwrap_or_default(), right.get(x, y).unwrap_or_default());
+        let apart = || (distance(number(a), number(b)), compared_depths("depth", left.format(), a, b));
+        (a != b, (a != b).then(apart))
+    }))
+}
+
+/// A depth buffer's pattern read as a channel of a texel; the 24-bit float reads as the single that it is equal to.
+fn depth_channel(format: DepthFormat) -> Channel {
+    let (bits, class) = match format {
+        DepthFormat::Unorm16 => (16, ChannelClass::Unorm),
+        DepthFormat::Unorm24 => (24, ChannelClass::Unorm),
+        DepthFormat::Unorm32 => (32, ChannelClass::Unorm),
+        DepthFormat::Float32 | DepthFormat::Float24 => (32, ChannelClass::Float(Format::FP32)),
+    };
+    Channel { shift: 0, bits, class, stored_from: 0 }
+}
+
+/// The bits of [`depth_channel`] for a stored pattern.
+fn depth_bits(format: DepthFormat, stored: u32) -> u32 {
+    if format == DepthFormat::Float24 { format.to_format(stored, Format::FP32) } else { stored }
+}
+
+fn depth_number(format: DepthFormat, stored: u32) -> f64 {
+    channel_double(depth_channel(format), depth_bits(format, stored))
+}
+
+/// Two patterns of a depth buffer.
+pub(super) fn compared_depths(name: &str, format: DepthFormat, left: u32, right: u32) -> Compared {
+    let bits = |stored| depth_bits(format, stored);
+    let mut compared = Compared::channels(name, depth_channel(format), bits(left), bits(right));
+    compared.unit = format.name().to_owned();
+    // Patterns of one depth format follow each other as depths do.
+    compared.ulps = Some(f64::from(left.abs_diff(right)));
+    if format == DepthFormat::Float24 {
+        (compared.left_bits, compared.right_bits) = (format!("0x{left:06x}"), format!("0x{right:06x}"));
+    }
+    compared
+}
+
+/// Walks a surface; `look` says of a pixel whether it differs, and its largest difference.
+fn surface(
+    name: &str,
+    [width, height]: [u32; 2],
+    look: impl Fn(u32, u32) -> (bool, Option<(f64, Compared)>),
+) -> SurfaceDifference {
+    let mut map = Vec::with_capacity(width as usize * height as usize);
+    let mut largest: Option<Largest> = None;
+    for y in 0..height {
+        for x in 0..width {
+            let (differs, apart) = look(x, y);
+            map.push(differs);
+            if let Some((difference, values)) = apart
+                && largest.as_ref().is_none_or(|most| difference > most.difference)
+            {
+                largest = Some(Largest { pixel: [x, y], difference, values });
+            }
+        }
+    }
+    SurfaceDifference {
+        surface: name.to_owned(),
+        pixels: map.len() as u64,
+        different: map.iter().filter(|&&differs| differs).count() as u64,
+        largest,
+        map,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use refsim::texture::{TargetRounding, TexelFormat};
+
+    fn image(format: TexelFormat, values: [f32; 4]) -> Image {
+        let mut image = Image::new_2d(format, 2, 1).expect("a small image");
+        image.store([0, 0, 0, 1], Format::FP32, values.map(f32::to_bits), TargetRounding::Nearest).expect("inside");
+        image
+    }
+
+    #[test]
+    fn one_code_of_eight_bits() {
+        let [a, b] = [1.0, 254.0 / 255.0].map(|red| image(TexelFormat::Rgba8, [red, 0.5, 0.0, 1.0]));
+        let found = images("target 0", &a, &b).expect("one format");
+        assert_eq!((found.pixels, found.different, found.map.as_slice()), (2, 1, &[false, true][..]));
+        let largest = found.largest.expect("a difference");
+        assert_eq!((largest.pixel, largest.values.name.as_str(), largest.values.ulps), ([1, 0], "red", Some(1.0)));
+        assert_eq!((largest.values.left_bits.as_str(), largest.values.right_bits.as_str()), ("0xff", "0xfe"));
+        assert!((largest.difference - 1.0 / 255.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nan_is_farthest() {
+        let a = image(TexelFormat::Rgba32f, [1.0, f32::NAN, 0.0, 1.0]);
+        let b = image(TexelFormat::Rgba32f, [1e30, 1.0, 0.0, 1.0]);
+        let largest = images("target 0", &a, &b).and_then(|found| found.largest).expect("a difference");
+        assert_eq!(
+            (largest.values.name.as_str(), largest.difference, largest.values.ulps),
+            ("green", f64::INFINITY, None)
+        );
+    }
+
+    #[test]
+    fn shapes_that_differ_have_no_difference() {
+        let a = image(TexelFormat::Rgba8, [0.0; 4]);
+        assert!(images("target 0", &a, &image(TexelFormat::Rgba32f, [0.0; 4])).is_none());
+    }
+}

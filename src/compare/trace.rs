@@ -1,0 +1,310 @@
+//! Where two traces of one pixel part.
+
+use refsim::{
+    exec::{ResolvedConstants, Step},
+    isa::{Mask, Opcode, Program, Register, RegisterFile},
+    machine::{FragmentTrace, PixelState},
+    num::Format,
+    output::{DepthFormat, FragmentFate},
+    texture::TexelFormat,
+};
+
+use super::{
+    number::{Compared, Number},
+    operands::{Operand, operands},
+    surface::{compared_depths, differing_channels},
+};
+
+/// One side's trace of a pixel, and what is needed to read it.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceSide<'a> {
+    /// The pixel program; both sides run the same text.
+    pub program: &'a Program,
+    /// The format of its registers.
+    pub format: Format,
+    /// Its constants as this side's instructions read them.
+    pub constants: &'a ResolvedConstants,
+    /// The fragments of the pixel in order.
+    pub fragments: &'a [FragmentTrace],
+}
+
+/// The formats of what is drawn on, the same on both sides.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape<'a> {
+    /// The colour targets.
+    pub targets: &'a [TexelFormat],
+    /// The depth buffer.
+    pub depth: Option<DepthFormat>,
+}
+
+/// Which of the fragments at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// Its number at the pixel, from 0.
+    pub index: usize,
+    /// The instance that it belongs to, from 0.
+    pub instance: usize,
+    /// The triangle within the instance, from 0.
+    pub triangle: usize,
+    /// The part of the triangle that clipping made, from 0.
+    pub part: usize,
+}
+
+/// Where on the way of a fragment the sides part.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stage {
+    /// The triangle covers the pixel on one side only, or the order differs: what the vertex stage or the set-up of
+    /// triangles computes. Which pass each side has there.
+    Coverage {
+        /// On the left.
+        left: Option<Pass>,
+        /// On the right.
+        right: Option<Pass>,
+    },
+    /// What the rasteriser interpolates.
+    Input,
+    /// An input register: the interpolated value brought to the register format.
+    Delivered,
+    /// What an instruction writes.
+    Instruction {
+        /// Its index in the program.
+        index: usize,
+    },
+    /// Which components an instruction writes: its predicate.
+    Mask {
+        /// Its index in the program.
+        index: usize,
+        /// Components written on the left.
+        left: Mask,
+        /// Components written on the right.
+        right: Mask,
+    },
+    /// Which instruction comes next: a branch. `None` where the program has ended.
+    Flow {
+        /// On the left.
+        left: Option<usize>,
+        /// On the right.
+        right: Option<usize>,
+    },
+    /// What the program leaves behind that no register shows: kill, depth, clamped colour. With the instruction, if there is
+    /// only one that can have done it.
+    Output {
+        /// Its index in the program.
+        instruction: Option<usize>,
+    },
+    /// The alpha test or the depth test.
+    Test {
+        /// What became of the fragment on the left.
+        left: FragmentFate,
+        /// What became of it on the right.
+        right: FragmentFate,
+    },
+    /// What is stored: quantising, blending, masking; or the executor's own draw, which computes less than its trace.
+    Merge,
+}
+
+/// The first difference of two traces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The pass.
+    pub pass: Pass,
+    /// How many passes the pixel has on the left and on the right.
+    pub passes: [usize; 2],
+    /// Where.
+    pub stage: Stage,
+    /// What differs there, the first component first.
+    pub values: Vec<Compared>,
+    /// What the instruction read, where [`Self::stage`] is one.
+    pub operands: Vec<Operand>,
+    /// The first instruction of the same pass that writes something different, where the stage is an earlier one.
+    pub instruction: Option<Box<Difference>>,
+}
+
+fn pass(index: usize, fragment: &FragmentTrace) -> Pass {
+    Pass { index, instance: fragment.instance, triangle: fragment.triangle, part: fragment.part }
+}
+
+/// Finds the first difference between two traces of one pixel: in the first pass that differs, the first stage, and there
+/// the first step. `None` if they are equal; flags are not compared, since only the scalar executor knows them.
+pub fn first_difference(left: &TraceSide<'_>, right: &TraceSide<'_>, shape: &Shape<'_>) -> Option<Difference> {
+    let count = left.fragments.len().max(right.fragments.len());
+    (0..count).find_map(|index| {
+        let sides = (left.fragments.get(index), right.fragments.get(index));
+        let places = (sides.0.map(|f| pass(index, f)), sides.1.map(|f| pass(index, f)));
+        let passes = [left.fragments.len(), right.fragments.len()];
+        let found = |stage, values| Difference {
+            pass: places.0.or(places.1).unwrap_or(Pass { index, instance: 0, triangle: 0, part: 0 }),
+            passes,
+            stage,
+            values,
+            operands: Vec::new(),
+            instruction: None,
+        };
+        let (Some(a), Some(b)) = sides else {
+            return Some(found(Stage::Coverage { left: places.0, right: places.1 }, Vec::new()));
+        };
+        if places.0 != places.1 {
+            return Some(found(Stage::Coverage { left: places.0, right: places.1 }, Vec::new()));
+        }
+        let pair = Pair { left, right, a, b };
+        let in_steps = || pair.steps().map(|(stage, values, operands)| Difference { operands, ..found(stage, values) });
+        if let Some((stage, values)) = pair.inputs() {
+            return Some(Difference { instruction: in_steps().map(Box::new), ..found(stage, values) });
+        }
+        in_steps().or_else(|| {
+            let (stage, values) = pair.outputs().or_else(|| pair.stored(shape))?;
+            Some(found(stage, values))
+        })
+    })
+}
+
+/// The name of a component of a register as programs write it.
+pub fn component(register: &Register, component: usize) -> String {
+    if register.file.is_unnumbered() {
+        return register.to_string();
+    }
+    format!("{register}.{}", ['x', 'y', 'z', 'w'][component & 3])
+}
+
+/// One fragment by both sides.
+struct Pair<'a> {
+    left: &'a TraceSide<'a>,
+    right: &'a TraceSide<'a>,
+    a: &'a FragmentTrace,
+    b: &'a FragmentTrace,
+}
+
+impl Pair<'_> {
+    fn numbers(&self, a: u32, b: u32) -> (Number, Number) {
+        (Number { format: self.left.format, bits: a }, Number { format: self.right.format, bits: b })
+    }
+
+    /// The components of `names` in which two vectors of register values differ.
+    fn registers(&self, name: impl Fn(usize) -> String, a: [u32; 4], b: [u32; 4], mask: Mask) -> Vec<Compared> {
+        let pairs = mask.components().map(|c| (c, self.numbers(a[c], b[c])));
+        pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
+    }
+
+    fn inputs(&self) -> Option<(Stage, Vec<Compared>)> {
+        let single = |bits| Number { format: Format::FP32, bits };
+        let (a, b) = (&self.a.shading.input, &self.b.shading.input);
+        let vectors = a.t.iter().zip(&b.t).enumerate().map(|(n, v)| (RegisterFile::Texture, n, v));
+        let vectors = vectors.chain(a.v.iter().zip(&b.v).enumerate().map(|(n, v)| (RegisterFile::Input, n, v)));
+        let mut values: Vec<Compared> = vectors
+            .flat_map(|(file, n, (a, b))| {
+                let register = Register::new(file, n as u16);
+                (0..4).map(move |c| (component(&register, c), single(a[c]), single(b[c])))
+            })
+            .chain([("fog".to_owned(), single(a.fog), single(b.fog))])
+            .chain([("depth".to_owned(), single(a.depth), single(b.depth))])
+            .filter(|(_, a, b)| !a.equals(b))
+            .map(|(name, a, b)| Compared::registers(name, &a, &b))
+            .collect();
+        if !values.is_empty() {
+            return Some((Stage::Input, values));
+        }
+        for ((register, a), (_, b)) in self.a.shading.delivered.iter().zip(&self.b.shading.delivered) {
+            values.extend(self.registers(|c| component(register, c), *a, *b, Mask::ALL));
+        }
+        (!values.is_empty()).then_some((Stage::Delivered, values))
+    }
+
+    fn steps(&self) -> Option<(Stage, Vec<Compared>, Vec<Operand>)> {
+        let (a, b) = (&self.a.shading.steps, &self.b.shading.steps);
+        (0..a.len().max(b.len())).find_map(|k| {
+            let (x, y) = match (a.get(k), b.get(k)) {
+                (Some(x), Some(y)) if x.instruction == y.instruction => (x, y),
+                (x, y) => {
+                    let [left, right] = [x, y].map(|step| step.map(|step| step.instruction));
+                    return Some((Stage::Flow { left, right }, Vec::new(), Vec::new()));
+                }
+            };
+            let index = x.instruction;
+            if x.mask != y.mask {
+                return Some((Stage::Mask { index, left: x.mask, right: y.mask }, Vec::new(), Vec::new()));
+            }
+            let values = self.written(x, y);
+            let read = || operands((self.left, self.a), (self.right, self.b), k);
+            (!values.is_empty()).then(|| (Stage::Instruction { index }, values, read()))
+        })
+    }
+
+    /// The components in which two steps of one instruction differ.
+    fn written(&self, x: &Step, y: &Step) -> Vec<Compared> {
+        let Some(destination) = self.left.program.instructions.get(x.instruction).and_then(|i| i.destination) else {
+            return Vec::new();
+        };
+        let register = &destination.register;
+        if register.file == RegisterFile::Predicate {
+            let differing = x.mask.components().filter(|&c| x.value[c] != y.value[c]);
+            return differing
+                .map(|c| Compared::truths(component(register, c), x.value[c] != 0, y.value[c] != 0))
+                .collect();
+        }
+        self.registers(|c| component(register, c), x.value, y.value, x.mask)
+    }
+
+    fn outputs(&self) -> Option<(Stage, Vec<Compared>)> {
+        let (a, b) = (&self.a.shading.output, &self.b.shading.output);
+        if a.killed != b.killed {
+            let instruction = self.only(&[Opcode::TexKill]);
+            return Some((Stage::Output { instruction }, vec![Compared::truths("killed", a.killed, b.killed)]));
+        }
+        let depths = [a.depth, b.depth].map(|d| d.map(|d| Number { format: d.format, bits: d.bits }));
+        match depths {
+            [Some(x), Some(y)] if !x.equals(&y) => {
+                let instruction = self.only(&[Opcode::TexDepth, Opcode::TexM3x2Depth]);
+                return Some((Stage::Output { instruction }, vec![Compared::registers("depth", &x, &y)]));
+            }
+            [Some(_), None] | [None, Some(_)] => {
+                let has = depths.map(|d| d.is_some());
+                let values = vec![Compared::truths("decides its depth", has[0], has[1])];
+                return Some((Stage::Output { instruction: None }, values));
+            }
+            _ => {}
+        }
+        let colors = a.colors.iter().zip(&b.colors).enumerate();
+        let values: Vec<Compared> = colors
+            .flat_map(|(n, (a, b))| {
+                let register = Register::new(RegisterFile::ColorOut, n as u16);
+                self.registers(|c| component(&register, c), *a, *b, Mask::ALL)
+            })
+            .collect();
+        (!values.is_empty()).then_some((Stage::Output { instruction: None }, values))
+    }
+
+    /// The one instruction of some operations that the fragment ran.
+    fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
+        let instructions = &self.left.program.instructions;
+        let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);
+        let mut found = ran.by_ref().filter(|&i| instructions.get(i).is_some_and(|i| opcodes.contains(&i.opcode)));
+        let first = found.next()?;
+        found.all(|i| i == first).then_some(first)
+    }
+
+    fn stored(&self, shape: &Shape<'_>) -> Option<(Stage, Vec<Compared>)> {
+        let (left, right) = (self.a.shading.fate, self.b.shading.fate);
+        let values = differing_states(&self.a.after, &self.b.after, shape);
+        if left != right {
+            return Some((Stage::Test { left, right }, values));
+        }
+        (!values.is_empty()).then_some((Stage::Merge, values))
+    }
+}
+
+/// What differs between two states of a pixel's targets.
+fn differing_states(a: &PixelState, b: &PixelState, shape: &Shape<'_>) -> Vec<Compared> {
+    let mut values = Vec::new();
+    for (n, (format, (a, b))) in shape.targets.iter().zip(a.colors.iter().zip(&b.colors)).enumerate() {
+        let channels = differing_channels(format.record().stored(), a.unwrap_or_default(), b.unwrap_or_default());
+        values.extend(
+            channels.map(|(name, channel, a, b)| Compared::channels(format!("target {n} {name}"), channel, a, b)),
+        );
+    }
+    if let (Some(format), Some(a), Some(b)) = (shape.depth, a.depth, b.depth)
+        && a != b
+    {
+        values.push(compared_depths("depth", format, a, b));
+    }
+    values
+}
