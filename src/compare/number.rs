@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use refsim::{
-    num::{Format, Kind, Unpacked, decimal, unpack},
+    num::{Format, Kind, Unpacked, unpack},
     texture::{Channel, ChannelClass, ChannelValue, SignedTexelMinimum, decode_channel},
 };
 use serde::Serialize;
@@ -74,9 +74,9 @@ impl Number {
         a == b || (a.is_nan() && b.is_nan())
     }
 
-    /// The shortest decimal that reads back to the same bits.
+    /// The number in decimal: enough digits that no other number of any format is written so.
     pub fn decimal(&self) -> String {
-        decimal::to_decimal(&self.format, self.bits)
+        plain(self.double())
     }
 
     /// All bits of the format, hexadecimal.
@@ -142,17 +142,14 @@ pub(super) fn plain(real: f64) -> String {
 }
 
 impl Compared {
-    /// Two numbers of registers. In one layout they are written as short as reads back; in two, so that different numbers
-    /// differ in writing.
+    /// Two numbers of registers.
     pub fn registers(name: impl Into<String>, left: &Number, right: &Number) -> Self {
         let (ulps, unit) = ulps(left, right);
-        let same = left.format.kind == right.format.kind;
-        let text = |number: &Number| if same { number.decimal() } else { plain(number.double()) };
         Self {
             name: name.into(),
-            left: text(left),
+            left: left.decimal(),
             left_bits: left.hex(),
-            right: text(right),
+            right: right.decimal(),
             right_bits: right.hex(),
             ulps,
             unit: unit.to_string(),

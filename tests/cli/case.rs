@@ -7,9 +7,9 @@ use serde_json::Value;
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
-const CASES: &[&str] = &["modulate", "transform", "two_triangles"];
+pub(crate) const CASES: &[&str] = &["modulate", "transform", "two_triangles"];
 
-fn example(name: &str) -> String {
+pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 

@@ -4,6 +4,7 @@ mod alu;
 mod bad_input;
 mod case;
 mod check;
+mod compare;
 mod devices;
 mod help;
 mod tracing;

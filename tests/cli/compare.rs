@@ -1,0 +1,317 @@
+//! `crossbar compare` and `crossbar run --trace`: equal sides, differences worked out by hand, and bad input.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::{Ran, case::CASES, case::example, crossbar_in};
+
+/// Runs the program on `text` as `case.toml` in a folder of its own.
+fn on(text: &str, arguments: &[&str]) -> Ran {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::write(folder.path().join("case.toml"), text).expect("a file");
+    crossbar_in(folder.path(), arguments, "")
+}
+
+/// The report for machines of a comparison that differs.
+fn difference(text: &str, arguments: &[&str]) -> Value {
+    let ran = on(text, &[&["compare", "case.toml", "--json"], arguments].concat());
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""), "{}", ran.stdout);
+    let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(report["equal"], false);
+    report["first"].clone()
+}
+
+#[test]
+fn both_executors_are_equal_on_every_example() {
+    for name in CASES {
+        for scope in [&[][..], &["--registers"], &["--pixel", "1,1"]] {
+            let folder = tempfile::tempdir().expect("a folder for the test");
+            let ran = crossbar_in(folder.path(), &[&["compare", &example(name)], scope].concat(), "");
+            assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{name}: {}", ran.stdout);
+            assert!(ran.stdout.contains("\nequal: every stored bit of "), "{name}: {}", ran.stdout);
+        }
+    }
+}
+
+#[test]
+fn two_formats_of_an_example() {
+    let ran = crossbar_in(&fixtures(), &["compare", "transform.toml", "--right-format", "fp32"], "");
+    assert_eq!(ran.code, Some(1));
+    insta::assert_snapshot!(ran.transcript());
+}
+
+fn fixtures() -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases")
+}
+
+/// A pixel program on a 4x4 target of singles, of which tests replace parts.
+const PLAIN: &str = r#"title = "plain"
+shader_model = "ps_2_a"
+format = "fp32"
+[pixel]
+source = """
+ps_2_a
+dcl t0
+PROGRAM
+"""
+[constants]
+c0 = [0.1, 0.1, 0.1, 0.1]
+[geometry]
+full_screen = true
+attributes = { }
+[target]
+size = [4, 4]
+format = "rgba32f"
+"#;
+
+/// Half of three units in the last place of s3.12 lies between two and one: ties go to the even one, or toward zero.
+#[test]
+fn two_roundings() {
+    let text = r#"shader_model = "ps_1_4"
+format = "s3.12"
+[pixel]
+source = """
+ps_1_4
+mov r1, c0
+mul r0, r1, c1
+"""
+[constants]
+c0 = [0.25, 0.000732421875, 0.000732421875, 1]
+c1 = [0.5, 0.5, 1, 1]
+[geometry]
+full_screen = true
+[target]
+size = [2, 2]
+format = "rgba16f"
+"#;
+    let first = difference(text, &["--right-format", "s3.12:rtz"]);
+    assert_eq!(first["draw"], json!({ "index": 0, "name": "case" }));
+    assert_eq!(first["pixel"], json!([0, 0]));
+    let found = &first["difference"];
+    assert_eq!(found["stage"], "instruction");
+    assert_eq!(found["pass"], json!({ "index": 0, "instance": 0, "triangle": 0, "part": 0 }));
+    assert_eq!(found["instruction"]["index"], 1);
+    assert_eq!(found["instruction"]["source"]["line"], 3);
+    assert_eq!(found["instruction"]["source"]["text"], "mul r0, r1, c1");
+    assert_eq!(
+        found["values"],
+        json!([{ "name": "r0.y", "left": "0.00048828125", "left_bits": "0x0002", "right": "0.000244140625", "right_bits": "0x0001",
+            "ulps": 1.0, "unit": "s3.12" }])
+    );
+    assert!(
+        found["operands"].as_array().is_some_and(|all| all.len() == 2 && all.iter().all(|o| o["differs"] == false))
+    );
+}
+
+/// 0.1 is another number in each format, so the instruction that reads it is the first to differ, and its operand does.
+#[test]
+fn an_operand_that_differs_already() {
+    let text = PLAIN.replace("PROGRAM", "mov r0, t0\nadd r0, r0, c0\nmov oC0, r0");
+    let first = difference(&text, &["--left-format", "fp16", "--right-format", "s3.12"]);
+    let found = &first["difference"];
+    // t0 runs from 1/8 in steps of 1/4: both formats hold it.
+    assert_eq!((&found["stage"], &found["instruction"]["index"]), (&json!("instruction"), &json!(1)));
+    assert_eq!((&found["operands"][0]["differs"], &found["operands"][1]["differs"]), (&json!(false), &json!(true)));
+    let constant = &found["operands"][1]["values"][0];
+    assert_eq!((&constant["name"], &constant["left"]), (&json!("c0.x"), &json!("0.0999755859375")));
+    // 0.1 * 4096 = 409.6: 410 units.
+    assert_eq!((&constant["right"], &constant["right_bits"]), (&json!("0.10009765625"), &json!("0x019a")));
+    // The difference, 2^-13, is half of the last place of s3.12.
+    assert_eq!((&constant["ulps"], &constant["unit"]), (&json!(0.5), &json!("s3.12")));
+}
+
+/// The coordinate is the number that fp16 takes 0.1 for: there it is not below the constant, in fp32 it is.
+#[test]
+fn a_branch() {
+    let text = PLAIN
+        .replace("PROGRAM", "mov r0, t0\nif_lt r0.x, c0.x\nmov r0, -r0\nendif\nmov oC0, r0")
+        .replace("full_screen = true\nattributes = { }", QUAD);
+    let found = difference(&text, &["--left-format", "fp16"])["difference"].clone();
+    assert_eq!(found["stage"], "flow");
+    assert_eq!((&found["left"]["index"], &found["right"]["index"]), (&json!(4), &json!(2)));
+    assert_eq!(found["left"]["source"]["text"], "mov oC0, r0");
+}
+
+/// A quad over the whole target whose `t0` is what fp16 takes 0.1 for.
+const QUAD: &str = r#"primitive = "quads"
+convention = "opengl"
+attributes = { t0 = [0.0999755859375, 0.0999755859375, 0.0999755859375, 0.0999755859375] }
+vertices = [{ position = [-1, -1] }, { position = [1, -1] }, { position = [1, 1] }, { position = [-1, 1] }]"#;
+
+#[test]
+fn a_predicate() {
+    let text = PLAIN
+        .replace("PROGRAM", "mov r0, t0\nsetp_lt p0, r0, c0\n(p0) mov r0, -r0\nmov oC0, r0")
+        .replace("full_screen = true\nattributes = { }", QUAD);
+    let found = difference(&text, &["--left-format", "fp16"])["difference"].clone();
+    assert_eq!((&found["stage"], &found["instruction"]["index"]), (&json!("instruction"), &json!(1)));
+    let value = &found["values"][0];
+    assert_eq!((&value["name"], &value["left"], &value["right"]), (&json!("p0.x"), &json!("false"), &json!("true")));
+}
+
+#[test]
+fn the_alpha_test() {
+    let text =
+        PLAIN.replace("PROGRAM", "mov r0, t0\nmov oC0, r0").replace("full_screen = true\nattributes = { }", QUAD)
+            + "[alpha]\ntest = \"greater-equal\"\nreference = 0.1\n";
+    let found = difference(&text, &["--left-format", "fp16"])["difference"].clone();
+    assert_eq!(found["stage"], "test");
+    assert_eq!((&found["left"], &found["right"]), (&json!("passes"), &json!("fails the alpha test")));
+    assert_eq!(found["values"][0]["name"], "target 0 red");
+}
+
+/// The coordinate is rounded on its way into a register: the stage is that, and the instruction that reads it is named too.
+#[test]
+fn an_input_register() {
+    let text =
+        PLAIN.replace("PROGRAM", "mov r0, t0\nadd r1, r0, r0\nmov oC0, r1").replace("size = [4, 4]", "size = [3, 3]");
+    let found = difference(&text, &["--left-format", "fp16"])["difference"].clone();
+    assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("input"), &json!("t0.x")));
+    assert_eq!(found["instruction"], Value::Null);
+    let later = &found["later"];
+    assert_eq!((&later["stage"], &later["instruction"]["index"]), (&json!("instruction"), &json!(0)));
+    assert_eq!(later["operands"][0]["differs"], true);
+}
+
+/// Half of full red lies between two codes, a quarter of full depth between two others.
+#[test]
+fn the_output_merge() {
+    let folder = fixtures();
+    let json = |arguments: &[&str]| -> Value {
+        let ran = crossbar_in(&folder, &[&["compare", "--json"], arguments].concat(), "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""), "{}", ran.stdout);
+        serde_json::from_str(&ran.stdout).expect("one JSON document")
+    };
+    let red = json(&["modulate.toml", "--right-switch", "target-rounding=truncate"]);
+    let found = &red["first"]["difference"];
+    assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("target 0 red")));
+    assert_eq!((&found["values"][0]["left_bits"], &found["values"][0]["right_bits"]), (&json!("0x80"), &json!("0x7f")));
+    assert_eq!(red["surfaces"][0]["largest"]["ulps"], 1.0);
+    let depth = json(&[
+        "two_triangles.toml",
+        "--left-device",
+        "r300",
+        "--right-device",
+        "r300",
+        "--right-switch",
+        "depth-rounding=truncate",
+    ]);
+    let found = &depth["first"]["difference"];
+    assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("depth")));
+    assert_eq!(found["values"][0]["left_bits"], "0x400000");
+    assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
+}
+
+/// An edge at column 3.02: on a grid of sixteenths that is 3, and the centre of column 3 lies on it, to the right of the
+/// quad; on one of 256ths it lies inside.
+#[test]
+fn the_coverage() {
+    let text = r#"device = "r300"
+[pixel]
+source = "ps_2_0\nmov r0, c0\nmov oC0, r0"
+[constants]
+c0 = [1, 1, 1, 1]
+[geometry]
+primitive = "quads"
+vertices = [{ position = [-1, 1] }, { position = [-0.245, 1] }, { position = [-0.245, -1] }, { position = [-1, -1] }]
+[target]
+size = [8, 8]
+format = "rgba8"
+"#;
+    let first = difference(text, &["--left-switch", "subpixel-bits=4", "--right-switch", "subpixel-bits=8"]);
+    assert_eq!(first["pixel"], json!([3, 0]));
+    let found = &first["difference"];
+    assert_eq!((&found["stage"], &found["left"]), (&json!("coverage"), &Value::Null));
+    assert_eq!(found["right"]["instance"], 0);
+}
+
+#[test]
+fn a_device_without_a_switch_of_the_case() {
+    let ran = crossbar_in(&fixtures(), &["compare", "modulate.toml", "--right-device", "r300"], "");
+    insta::assert_snapshot!(ran.transcript());
+}
+
+#[test]
+fn bad_sides() {
+    let plain = PLAIN.replace("PROGRAM", "mov r0, c0\nmov oC0, r0");
+    for (name, arguments) in [
+        ("the_same", &["--left", "batch", "--right", "batch"][..]),
+        ("unknown_device", &["--right-device", "r2000"]),
+        ("unknown_format", &["--left-format", "fp17"]),
+        ("unknown_switch", &["--right-switch", "sparkle=on"]),
+        ("switch_without_value", &["--right-switch", "rounding"]),
+        ("version_of_another_device", &["--right-device", "r200"]),
+        ("unknown_executor", &["--right", "abacus"]),
+        ("pixel_outside", &["--pixel", "4,0"]),
+        ("no_pixel", &["--pixel", "4"]),
+        ("pixel_and_registers", &["--pixel", "1,1", "--registers"]),
+    ] {
+        let ran = on(&plain, &[&["compare", "case.toml"], arguments].concat());
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        insta::assert_snapshot!(format!("bad_{name}"), ran.stderr);
+    }
+}
+
+#[test]
+fn a_trace() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let arguments = ["run", &example("two_triangles"), "--trace", "7,4", "--out", "out"];
+    let ran = crossbar_in(folder.path(), &arguments, "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let (_, trace) = ran.stdout.split_once("failed\n\n").expect("the trace comes last");
+    insta::assert_snapshot!(trace);
+}
+
+/// 2 * 0.7 in s3.12: 0.7 is 2867 of 4096 parts, its double 5734; c1 is an eighth, its product 716.75 parts rounds to 717.
+#[test]
+fn a_trace_for_machines() {
+    let text = r#"shader_model = "ps_1_4"
+format = "s3.12"
+[pixel]
+source = "ps_1_4\nmov_x2 r0.rgb, c0\n+mov r0.a, c1\nmul r0, r0, c1"
+[constants]
+c0 = [0.7, 0.7, 0.7, 1]
+c1 = [0.125, 0.125, 0.125, 0.125]
+[geometry]
+full_screen = true
+[target]
+size = [2, 2]
+format = "rgba16f"
+"#;
+    let trace = |executor: &str| {
+        let ran = on(text, &["run", "case.toml", "--trace", "1,0", "--json", "--executor", executor]);
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+        let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+        report["trace"].clone()
+    };
+    let scalar = trace("scalar");
+    let steps = scalar["passes"][0]["steps"].as_array().cloned().unwrap_or_default();
+    assert_eq!(steps.len(), 3);
+    assert_eq!((&steps[0]["mask"], &steps[0]["register"]), (&json!("xyz"), &json!("r0")));
+    assert_eq!(steps[0]["written"][0], json!({ "name": "r0.x", "value": "1.39990234375", "bits": "0x1666" }));
+    assert_eq!(
+        steps[1]["source"],
+        json!({ "file": "case.toml [pixel]", "line": 3, "column": 1, "text": "+mov r0.a, c1" })
+    );
+    assert_eq!((&steps[2]["written"][0]["bits"], &steps[2]["flags"]), (&json!("0x02cd"), &json!(["inexact"])));
+    // The batch executor writes the same; of exceptions it knows nothing.
+    let mut batch = trace("batch");
+    for (mine, theirs) in batch["passes"][0]["steps"].as_array_mut().expect("steps").iter_mut().zip(&steps) {
+        assert_eq!(mine["flags"], Value::Null);
+        mine["flags"] = theirs["flags"].clone();
+    }
+    assert_eq!(batch, scalar);
+}
+
+#[test]
+fn nothing_to_trace() {
+    let text = PLAIN.replace("PROGRAM", "mov r0, c0\nmov oC0, r0").replace("size = [4, 4]", "size = [64, 64]");
+    let corner = "vertices = [{ position = [-1, 1] }, { position = [-0.9, 1] }, { position = [-1, 0.9] }]";
+    let text = text.replace("full_screen = true\nattributes = { }", corner);
+    for (name, pixel) in [("near", "5,4"), ("far", "60,60"), ("outside", "64,0")] {
+        let ran = on(&text, &["run", "case.toml", "--trace", pixel]);
+        assert_eq!(ran.code, Some(if name == "outside" { 2 } else { 0 }), "{}", ran.stderr);
+        insta::assert_snapshot!(format!("nothing_{name}"), ran.transcript());
+    }
+}
