@@ -49,8 +49,14 @@ pub(crate) struct Fusion<'g> {
 }
 
 impl<'g> Fusion<'g> {
-    /// Decides for the nodes that `roots` need; `given` ones are not computed here and the same in all lanes.
-    pub(crate) fn new(graph: &'g Graph, roots: &[Node], given: impl Fn(Node) -> bool) -> Self {
+    /// Decides for the nodes that `roots` need. Those that are `given` are not computed here; those that are `shared`, and
+    /// constants, are the same in all lanes.
+    pub(crate) fn new(
+        graph: &'g Graph,
+        roots: &[Node],
+        given: impl Fn(Node) -> bool,
+        shared: impl Fn(Node) -> bool,
+    ) -> Self {
         let mut readers = vec![0u32; graph.len()];
         for root in roots {
             // Never part of anything.
@@ -67,7 +73,7 @@ impl<'g> Fusion<'g> {
                 fusion.decide(Node(i), &given);
             }
         }
-        let shared = |n: Node| given(n) || matches!(graph.kind(n), Kind::Constant(_));
+        let shared = |n: Node| shared(n) || matches!(graph.kind(n), Kind::Constant(_));
         for fused in fusion.fused.values_mut() {
             *fused = with_shared(fused, shared);
         }

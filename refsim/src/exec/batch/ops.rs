@@ -170,8 +170,8 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
 #[inline(always)]
 fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
     let Slots { rows, scratch, .. } = slots;
-    let a: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k])]);
-    let b: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k + 1])]);
+    let a: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k])]);
+    let b: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
     pairs::<L, N>(a, b, scratch, f);
     slots.commit(op.to);
 }
@@ -192,7 +192,7 @@ fn pairs<L: Lane, const N: usize>(a: [&Row; N], b: [&Row; N], out: &mut Row, f: 
 fn dot_by<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
     let Slots { rows, scratch, values, .. } = slots;
     let a: [L::T; N] = std::array::from_fn(|k| L::load(values[usize::from(op.args[2 * k])]));
-    let b: [&Row; N] = std::array::from_fn(|k| &*rows[usize::from(op.args[2 * k + 1])]);
+    let b: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
     pairs_by::<L, N>(a, b, scratch, f);
     slots.commit(op.to);
 }
@@ -287,7 +287,7 @@ fn address(x: f64) -> u32 {
 fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
     let Slots { rows, scratch, values, wide, .. } = slots;
     let (out, wide): (&mut Row, &mut [f64; LANES]) = (scratch, wide);
-    let [a, b, c] = [0, 1, 2].map(|k| &*rows[usize::from(op.args[k])]);
+    let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
     let uniform = L::load(values[usize::from(op.args[0])]);
     match op.code {
         Code::Add => two::<L>(

@@ -66,8 +66,8 @@ pub(crate) struct Block {
     pub(crate) roots: Vec<Slot>,
     /// Slots used.
     pub(crate) slots: usize,
-    /// For each slot whether it is read as a row; the rest are constants and given values of which only the number is read.
-    pub(crate) as_rows: Vec<bool>,
+    /// Slots of constants and given values of which no step reads the row, only the number.
+    pub(crate) without_row: Vec<Slot>,
 }
 
 /// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
@@ -81,7 +81,7 @@ pub(crate) fn schedule(
     placed: &BTreeMap<Node, Slot>,
     first_slot: usize,
 ) -> Block {
-    let fusion = Fusion::new(graph, roots, &given);
+    let fusion = Fusion::new(graph, roots, &given, |n| given(n) && !placed.contains_key(&n));
     let (last_use, needed) = uses(graph, &fusion, roots, &given);
     let mut maker = Scheduler {
         graph,
@@ -112,11 +112,8 @@ pub(crate) fn schedule(
     maker.block.roots = roots.iter().map(|root| maker.place[root]).collect();
     maker.block.slots = maker.next;
     let leaves = maker.block.constants.iter().map(|c| c.0).chain(maker.block.given.iter().map(|g| g.1));
-    let mut as_rows = vec![true; maker.next];
-    for slot in leaves {
-        as_rows[usize::from(slot)] = maker.read.contains(&slot) || maker.block.roots.contains(&slot);
-    }
-    maker.block.as_rows = as_rows;
+    let unread = leaves.filter(|slot| !maker.read.contains(slot) && !maker.block.roots.contains(slot));
+    maker.block.without_row = unread.collect();
     maker.block
 }
 

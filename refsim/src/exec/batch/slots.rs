@@ -10,17 +10,40 @@ pub(crate) type Slot = u16;
 /// arithmetic's numbers, a mask (0 or all ones), an integer.
 pub(crate) type Row = [u32; LANES];
 
+/// A row where vectors of 64 bytes don't straddle cache lines.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct Aligned(Row);
+
+impl Aligned {
+    fn zeros() -> Box<Self> {
+        Box::new(Self([0; LANES]))
+    }
+}
+
+impl std::ops::Deref for Aligned {
+    type Target = Row;
+
+    fn deref(&self) -> &Row {
+        &self.0
+    }
+}
+
+impl std::ops::DerefMut for Aligned {
+    fn deref_mut(&mut self) -> &mut Row {
+        &mut self.0
+    }
+}
+
 /// The value of a mask where it holds.
 pub(crate) const TRUE: u32 = u32::MAX;
 
 /// The slots of one batch, and a spare row that results are made in before they change places with what they replace.
-///
-/// They may be used for one block after another ([`Slots::prepare`]); rows are allocated once.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots {
     #[expect(clippy::vec_box, reason = "a row changes places with the spare one by its pointer, not by its 1 KiB")]
-    pub(crate) rows: Vec<Box<Row>>,
-    pub(crate) scratch: Box<Row>,
+    pub(crate) rows: Vec<Box<Aligned>>,
+    pub(crate) scratch: Box<Aligned>,
     /// What slots of constants and given values hold in every lane.
     pub(crate) values: Vec<u32>,
     /// Slots whose value is wanted as a row too.
@@ -30,40 +53,20 @@ pub(crate) struct Slots {
 }
 
 impl Slots {
-    /// So many slots, all zero, every one with a row.
+    /// So many slots, all zero.
     pub(crate) fn new(count: usize) -> Self {
-        let zeros = Box::new([0; LANES]);
-        let mut slots = Self {
-            rows: Vec::new(),
-            scratch: zeros,
-            values: Vec::new(),
-            as_rows: Vec::new(),
+        Self {
+            rows: std::iter::repeat_with(Aligned::zeros).take(count).collect(),
+            scratch: Aligned::zeros(),
+            values: vec![0; count],
+            as_rows: vec![true; count],
             wide: Box::new([0.0; LANES]),
-        };
-        slots.resize(count);
-        slots
-    }
-
-    /// Makes the slots those of another block: all that are given a value are zero, the others hold anything.
-    /// `as_rows` says of each slot whether anybody reads it as a row.
-    pub(crate) fn prepare(&mut self, count: usize, as_rows: &[bool]) {
-        self.resize(count);
-        for (slot, &wanted) in as_rows.iter().enumerate().take(count) {
-            self.as_rows[slot] = wanted;
-            if wanted {
-                self.rows[slot].fill(0);
-            }
         }
     }
 
-    fn resize(&mut self, count: usize) {
-        while self.rows.len() < count {
-            self.rows.push(Box::new([0; LANES]));
-        }
-        self.values.clear();
-        self.values.resize(count, 0);
-        self.as_rows.clear();
-        self.as_rows.resize(count, true);
+    /// Says that nobody reads a slot as a row.
+    pub(crate) fn without_row(&mut self, slot: Slot) {
+        self.as_rows[usize::from(slot)] = false;
     }
 
     pub(crate) fn row(&self, slot: Slot) -> &Row {
@@ -85,8 +88,8 @@ impl Slots {
         self.row_mut(slot).fill(raw);
     }
 
-    /// As [`Slots::fill`], for a slot that nothing else writes: cheap where it holds the value already or where nobody reads
-    /// the row.
+    /// As [`Slots::fill`], for a slot of a given value, which nothing else writes: cheap where it holds the value already, and
+    /// where nobody reads the row.
     pub(crate) fn give(&mut self, slot: Slot, raw: u32) {
         let i = usize::from(slot);
         if self.values[i] != raw {

@@ -19,17 +19,14 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) constants: &'a [[u32; 4]],
 }
 
-/// Makes slots those of a block and fills its constants.
-pub(crate) fn prepare(block: &Block, slots: &mut Slots) {
-    slots.prepare(block.slots, &block.as_rows);
-    for &(slot, raw) in &block.constants {
-        slots.give(slot, raw);
-    }
-}
-
-/// As [`prepare`], for new slots.
+/// Fills the constants of a block.
 pub(crate) fn fill_constants(block: &Block, slots: &mut Slots) {
-    prepare(block, slots);
+    for &slot in &block.without_row {
+        slots.without_row(slot);
+    }
+    for &(slot, raw) in &block.constants {
+        slots.fill(slot, raw);
+    }
 }
 
 /// Runs steps. Reads that can't be made in rows are made for the lanes that `run` names.
