@@ -23,8 +23,8 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 pub(crate) struct IeeeLane<const PATH: u8> {
     /// The same arithmetic the long way: conversions, and whatever is rare.
     general: FloatLane<DOUBLE, 0>,
-    /// The smallest normal number.
-    lowest: (f32, f64),
+    /// Host bits of the smallest normal number; as integers they compare faster than as floats.
+    lowest: (u32, u64),
     /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last place is the
     /// format's there.
     pivot: (u32, u64),
@@ -62,7 +62,7 @@ impl<const PATH: u8> IeeeLane<PATH> {
         let stretch = (power(127 - emax) as f32, power(1023 - emax));
         Some(Self {
             general: FloatLane::new(format)?,
-            lowest: (lowest as f32, lowest),
+            lowest: ((lowest as f32).to_bits(), lowest.to_bits()),
             pivot: ((23 - m) << 23 | 1 << 22, u64::from(52 - m) << 52 | 1 << 51),
             stretch,
             shrink: (1.0 / stretch.0, 1.0 / stretch.1),
@@ -77,9 +77,8 @@ impl<const PATH: u8> IeeeLane<PATH> {
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {
         let bits = x.to_bits();
-        let binade = f32::from_bits(bits & 0x7f80_0000);
-        let binade = if binade > self.lowest.0 { binade } else { self.lowest.0 };
-        let pivot = f32::from_bits(binade.to_bits().wrapping_add(self.pivot.0));
+        let exponent = (bits & 0x7f80_0000).max(self.lowest.0);
+        let pivot = f32::from_bits(exponent.wrapping_add(self.pivot.0));
         let near = (x + pivot) - pivot;
         let signed = f32::from_bits(near.to_bits() | bits & 0x8000_0000);
         (signed * self.stretch.0) * self.shrink.0
@@ -89,9 +88,8 @@ impl<const PATH: u8> IeeeLane<PATH> {
     #[inline(always)]
     fn narrow_double(&self, x: f64) -> f64 {
         let bits = x.to_bits();
-        let binade = f64::from_bits(bits & 0x7ff0_0000_0000_0000);
-        let binade = if binade > self.lowest.1 { binade } else { self.lowest.1 };
-        let pivot = f64::from_bits(binade.to_bits().wrapping_add(self.pivot.1));
+        let exponent = (bits & 0x7ff0_0000_0000_0000).max(self.lowest.1);
+        let pivot = f64::from_bits(exponent.wrapping_add(self.pivot.1));
         let near = (x + pivot) - pivot;
         let signed = f64::from_bits(near.to_bits() | bits & odd::SIGN);
         (signed * self.stretch.1) * self.shrink.1
