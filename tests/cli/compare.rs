@@ -110,7 +110,7 @@ fn an_operand_that_differs_already() {
     let text = PLAIN.replace("PROGRAM", "mov r0, t0\nadd r0, r0, c0\nmov oC0, r0");
     let first = difference(&text, &["--left-format", "fp16", "--right-format", "s3.12"]);
     let found = &first["difference"];
-    // t0 runs from 1/8 in steps of 1/4: both formats hold it.
+    // t0 goes in steps of 1/4: both formats hold it.
     assert_eq!((&found["stage"], &found["instruction"]["index"]), (&json!("instruction"), &json!(1)));
     assert_eq!((&found["operands"][0]["differs"], &found["operands"][1]["differs"]), (&json!(false), &json!(true)));
     let constant = &found["operands"][1]["values"][0];

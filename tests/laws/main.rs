@@ -1,6 +1,7 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
 mod cases;
+mod comparing;
 mod geometry;
 mod ground_truth;
 mod models;
