@@ -14,6 +14,7 @@ pub mod scalar;
 mod tile;
 mod trace;
 mod usage;
+pub mod wgsl;
 
 pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, SamplerBinding};
 pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
