@@ -23,7 +23,7 @@ pub use error::CaseError;
 pub use loaded::Loaded;
 pub use probe::{Found, ProbeResult};
 pub use run::{Outcome, Picture, ShaderSlots, run};
-pub use setup::Setup;
+pub use setup::{Setup, Vertices};
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use trace::{PixelTrace, trace};
 pub use value::{Number, OneOrMany};

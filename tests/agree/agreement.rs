@@ -1,0 +1,98 @@
+//! One body for all cases: draw it with every executor, compare, cut down what differs, say how to see it again.
+
+use crate::executors::{EXECUTORS, Executor, REFERENCE};
+use crate::scene::{Case, Outcome, Programs};
+use crate::shrink;
+use crate::suite::Suite;
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A difference between the reference and another executor.
+#[derive(Clone, Debug)]
+pub(crate) struct Difference {
+    /// Place in the list of executors.
+    pub(crate) executor: usize,
+    /// The first thing that differs.
+    pub(crate) what: String,
+}
+
+/// Draws; a panic is an outcome like any other, and an error too.
+fn draw(case: &Case, programs: &Programs, executor: &Executor) -> Result<Outcome, String> {
+    match catch_unwind(AssertUnwindSafe(|| case.scene.draw(executor, programs))) {
+        Ok(drawn) => drawn.map_err(|e| e.to_string()),
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().map(String::as_str);
+            Err(format!("panic: {}", text.or(panic.downcast_ref::<&str>().copied()).unwrap_or_default()))
+        }
+    }
+}
+
+/// What the reference draws, and every executor that draws something else.
+pub(crate) fn compare(case: &Case, seed: u64) -> Result<(Outcome, Vec<Difference>), String> {
+    let programs = case.build()?;
+    let expected = draw(case, &programs, &REFERENCE)?;
+    let mut differences = Vec::new();
+    for (executor, other) in EXECUTORS.iter().enumerate() {
+        if other.draws(&case.scene.profile, seed)
+            && let Some(what) = differs(&expected, draw(case, &programs, other), other)
+        {
+            differences.push(Difference { executor, what });
+        }
+    }
+    Ok((expected, differences))
+}
+
+fn differs(expected: &Outcome, found: Result<Outcome, String>, executor: &Executor) -> Option<String> {
+    match found {
+        Ok(found) => expected.difference(&found, &executor.name),
+        Err(error) => Some(format!("scalar draws, {}: {error}", executor.name)),
+    }
+}
+
+/// How one executor differs from the reference on a case, if it does; `None` too if the case is not legal.
+pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
+    let programs = case.build().ok()?;
+    let expected = draw(case, &programs, &REFERENCE).ok()?;
+    differs(&expected, draw(case, &programs, executor), executor)
+}
+
+/// The seeds of a run: the suite's, one that was asked for, or many more.
+fn seeds(suite: &Suite) -> std::ops::Range<u64> {
+    if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
+        return seed..seed + 1;
+    }
+    0..if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * suite.seeds } else { suite.seeds }
+}
+
+/// Runs a suite in its short form.
+pub(crate) fn run(suite: &Suite) {
+    let mut fragments = 0;
+    for seed in seeds(suite) {
+        match compare(&suite.case(seed), seed) {
+            Ok((drawn, differences)) if differences.is_empty() => fragments += drawn.fragments(),
+            Ok((_, differences)) => panic!("{}", report(suite, seed, &differences[0])),
+            Err(error) => panic!("seed {seed} of {} is no legal case: {error}", suite.name),
+        }
+    }
+    let one = std::env::var_os("CROSSBAR_SEED").is_some();
+    assert!(one || fragments > 0, "the scenes of {} cover nothing", suite.name);
+}
+
+/// Everything that is to be known about a difference: how to see it again, and the smallest case that shows it.
+pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> String {
+    let case = suite.case(seed);
+    let executor = &EXECUTORS[difference.executor];
+    let small = shrink::shrink(&case, executor);
+    let mut text = format!(
+        "scalar and {} differ; to see it again:\n  CROSSBAR_SEED={seed} cargo test --test agree -- --exact {}\n",
+        executor.name, suite.name
+    );
+    let _ = writeln!(text, "first difference: {}", difference.what);
+    let _ = writeln!(text, "cut down: {}", self::difference(&small, executor).unwrap_or_default());
+    let _ = writeln!(text, "{}", small.pixel.join("\n"));
+    if let Some(vertex) = &small.vertex {
+        let _ = writeln!(text, "{}", vertex.join("\n"));
+    }
+    let _ = write!(text, "{}", shrink::describe(&small.scene));
+    text
+}

@@ -1,0 +1,288 @@
+//! Random scenes: textures, state, constants. The geometry is in `shapes`.
+
+use crate::generate::Layout;
+use crate::random::Random;
+use crate::scene::Scene;
+use crate::shapes::{self, Shape};
+use refsim::device::Profile;
+use refsim::exec::{BumpStage, Constants};
+use refsim::isa::{Stage, Version};
+use refsim::output::{
+    AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
+};
+use refsim::raster::{ClipSpace, Cull, PixelCenter, Viewport};
+use refsim::texture::{AddressMode, Filter, Image, MipFilter, Region, SamplerState, TexelFormat, TextureKind};
+
+/// What a suite fixes; the dice decide the rest.
+#[derive(Clone, Debug)]
+pub(crate) struct Options {
+    pub(crate) version: Version,
+    pub(crate) shape: Option<Shape>,
+    pub(crate) texture: Option<TexelFormat>,
+    pub(crate) kind: Option<TextureKind>,
+    pub(crate) address: Option<AddressMode>,
+    pub(crate) target: Option<TexelFormat>,
+    pub(crate) depth: Option<DepthFormat>,
+    pub(crate) compare: Option<CompareFunction>,
+    pub(crate) blend: Option<BlendOp>,
+    /// Most of the program reads textures.
+    pub(crate) sampling: bool,
+}
+
+impl Options {
+    pub(crate) fn new(version: Version) -> Self {
+        Self {
+            version,
+            shape: None,
+            texture: None,
+            kind: None,
+            address: None,
+            target: None,
+            depth: None,
+            compare: None,
+            blend: None,
+            sampling: false,
+        }
+    }
+
+    fn is_ps_1(&self) -> bool {
+        self.version.is_ps_1_x()
+    }
+}
+
+fn texture_formats(profile: &Profile) -> Vec<TexelFormat> {
+    let names = &profile.limits.texture_formats;
+    TexelFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
+}
+
+fn target_formats(profile: &Profile) -> Vec<TexelFormat> {
+    let names = &profile.limits.target_formats;
+    TexelFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
+}
+
+fn depth_formats(profile: &Profile) -> Vec<DepthFormat> {
+    let names = &profile.limits.depth_formats;
+    DepthFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
+}
+
+/// A texture of random bytes, or of bytes that are codes at the ends of their range.
+fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Random) -> Image {
+    let size = |r: &mut Random| 1 + r.below(9) as u32;
+    let (w, h) = (size(r), size(r));
+    let extents = match kind {
+        TextureKind::D1 => [w, 1, 1],
+        TextureKind::Cube => [w, w, 1],
+        TextureKind::Volume => [w, h, size(r)],
+        TextureKind::D2 | TextureKind::Rectangle => [w, h, 1],
+    };
+    let most = extents.iter().copied().max().unwrap_or(1).ilog2() + 1;
+    let flat = kind == TextureKind::Rectangle || format.record().is_float() && !profile.limits.float_mipmaps;
+    let levels = if flat || r.one_in(2) { 1 } else { most };
+    let mut image = Image::new(format, kind, extents, levels).unwrap_or_else(|e| panic!("{e}"));
+    let edges = r.one_in(4);
+    let values: Vec<u8> = (0..image.bytes().len())
+        .map(|_| if edges { r.choose(&[0, 0, 0xff, 0xff, 0x7f, 0x80, 0x7c]) } else { r.next() as u8 })
+        .collect();
+    image.bytes_mut().copy_from_slice(&values);
+    image
+}
+
+fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) -> SamplerState {
+    let modes = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
+    let mode = |r: &mut Random| options.address.unwrap_or_else(|| r.choose(&modes));
+    let filtered = profile.limits.float_filtering || !image.format().record().is_float();
+    let filter = |r: &mut Random| {
+        let linear = filtered && r.one_in(if options.sampling { 2 } else { 4 });
+        if linear { Filter::Linear } else { Filter::Nearest }
+    };
+    if options.address.is_none() && r.one_in(3) {
+        return SamplerState::NEAREST_CLAMP;
+    }
+    let mip = r.choose(&[MipFilter::None, MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
+    SamplerState {
+        min: filter(r),
+        mag: filter(r),
+        mip: if filtered || mip != MipFilter::Linear { mip } else { MipFilter::Nearest },
+        address_u: mode(r),
+        address_v: mode(r),
+        address_w: mode(r),
+        border: r.vector(),
+        lod_bias: if r.one_in(3) { r.number() } else { 0 },
+        max_mip_level: r.below(3) as u8,
+    }
+}
+
+pub(crate) fn constants(r: &mut Random) -> Constants {
+    let mut float: Vec<[u32; 4]> = (0..12).map(|_| r.vector()).collect();
+    // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so do the rows c8 to c11 of a mild matrix.
+    float[5] = [0x3a00_0000, 0x3a80_0000, 0, 0];
+    let one = 0x3f80_0000;
+    for (row, place) in (0..4).zip(8..) {
+        float[place] = [0; 4];
+        float[place][row] = one;
+    }
+    float[8][1] = 0x3e00_0000;
+    Constants {
+        float,
+        int: (0..3)
+            .map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0])
+            .collect(),
+        boolean: (0..3).map(|_| r.one_in(2)).collect(),
+    }
+}
+
+/// Which sampler has what kind of texture.
+fn kinds(options: &Options, r: &mut Random) -> Vec<(usize, TextureKind)> {
+    use TextureKind::{Cube, D1, D2, Rectangle, Volume};
+    let mut all = if options.is_ps_1() {
+        vec![(0, D2), (1, D2), (2, Cube), (3, D2), (4, Rectangle), (5, D1)]
+    } else {
+        let flat = r.choose(&[D2, D2, D1, Rectangle]);
+        let step = r.choose(&[1, 1, 1, 2, 3]);
+        [D2, flat, D2, Cube, Volume].into_iter().enumerate().map(|(i, kind)| (i * step, kind)).collect()
+    };
+    if options.is_ps_1() && r.one_in(3) {
+        for (_, kind) in &mut all {
+            *kind = r.choose(&[D1, D2, Rectangle, Cube, Volume]);
+        }
+    }
+    if let Some(kind) = options.kind {
+        for (_, entry) in &mut all {
+            *entry = kind;
+        }
+    }
+    all
+}
+
+pub(crate) fn textures(
+    kinds: &[(usize, TextureKind)],
+    options: &Options,
+    profile: &Profile,
+    r: &mut Random,
+) -> Vec<(usize, Image, SamplerState)> {
+    let formats = texture_formats(profile);
+    let mut out = Vec::new();
+    for &(slot, kind) in kinds {
+        if options.texture.is_none() && r.one_in(8) {
+            continue;
+        }
+        let format = options.texture.unwrap_or_else(|| r.choose(&formats));
+        let image = image(format, kind, profile, r);
+        let state = sampler(&image, options, profile, r);
+        out.push((slot, image, state));
+    }
+    out
+}
+
+fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFormat> {
+    let formats = target_formats(profile);
+    let most = profile.limits.render_targets.unwrap_or(4).clamp(1, 4) as usize;
+    let count = if options.is_ps_1() { 1 } else { 1 + r.below(most) };
+    let wide = [TexelFormat::Rgba32f, TexelFormat::Rgba16f];
+    (0..count)
+        .map(|i| match options.target {
+            Some(format) => format,
+            // The first target shows what the program computed, if it can.
+            None if i == 0 && !r.one_in(4) => wide.into_iter().find(|f| formats.contains(f)).unwrap_or(formats[0]),
+            None => r.choose(&formats),
+        })
+        .collect()
+}
+
+fn blend(options: &Options, r: &mut Random) -> BlendState {
+    let all = [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
+    let equation = |r: &mut Random| BlendEquation {
+        source: r.choose(BlendFactor::ALL),
+        destination: r.choose(BlendFactor::ALL),
+        op: options.blend.unwrap_or_else(|| r.choose(&all)),
+    };
+    BlendState { color: equation(r), alpha: equation(r) }
+}
+
+fn viewport([width, height]: [u32; 2], r: &mut Random) -> Viewport {
+    let offset = |r: &mut Random| r.below(9) as i32 - 4;
+    let mut viewport = Viewport::new(1 + r.below(2 * width as usize) as u32, 1 + r.below(2 * height as usize) as u32);
+    (viewport.x, viewport.y) = (offset(r), offset(r));
+    if r.one_in(2) {
+        viewport.min_depth = (r.below(65) as f32 / 64.0).to_bits();
+        viewport.max_depth = (r.below(65) as f32 / 64.0).to_bits();
+    }
+    viewport
+}
+
+/// A scene for a device, and what a pixel program may count on in it.
+pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Scene, Layout) {
+    // Two scenes in three show what the program computes: nothing special goes in, nothing is tested away.
+    r.tame = !r.one_in(3);
+    r.wide = r.one_in(3);
+    let plain = !r.one_in(3);
+    let kinds = kinds(options, r);
+    let textures = textures(&kinds, options, &profile, r);
+    let targets = targets(options, &profile, r);
+    let layout = Layout {
+        samplers: kinds,
+        targets: targets.len(),
+        limited: profile.limits.version_limits,
+        sampling: options.sampling,
+    };
+    let blends = profile.limits.float_blending || targets.iter().all(|t| !t.record().is_float());
+    let shape = options.shape.unwrap_or_else(|| shapes::ordinary(r));
+    let size = shapes::size(shape, r);
+    let geometry = shapes::geometry(shape, size, r);
+    let depths = depth_formats(&profile);
+    let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.choose(&depths)));
+    let second = targets[0].record();
+    let readable = texture_formats(&profile).contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
+    let vertex_stage = options.version.stage() == Stage::Vertex;
+    let mut scene = Scene {
+        size,
+        pixel_constants: constants(r),
+        vertex_constants: constants(r),
+        textures,
+        bump: std::array::from_fn(|_| BumpStage {
+            matrix: r.vector(),
+            luminance_scale: r.number(),
+            luminance_offset: r.number(),
+        }),
+        vertex_count: geometry.vertices.len(),
+        vertices: geometry.vertices,
+        streams: Vec::new(),
+        instances: 1,
+        indices: geometry.indices,
+        primitive: geometry.primitive,
+        targets,
+        clear: if r.one_in(4) { r.vector() } else { [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, 0x3f80_0000] },
+        depth: depth.map(|format| (format, r.choose(&[0x3f40_0000, 0x3f80_0000, 0, 0x3f00_0000]))),
+        depth_state: depth_state(options, plain, r),
+        alpha: (!plain && r.one_in(2))
+            .then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
+        blend: (blends && (options.blend.is_some() || !plain && r.one_in(2))).then(|| blend(options, r)),
+        masks: std::array::from_fn(|_| {
+            if !plain && r.one_in(3) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }
+        }),
+        center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+        clip_space: r.choose(&[ClipSpace::Direct3d, ClipSpace::Direct3d, ClipSpace::OpenGl]),
+        cull: r.choose(&[Cull::None, Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
+        viewport: r.one_in(6).then(|| viewport(size, r)),
+        scissor: r.one_in(6).then(|| {
+            let (x, y) = (r.below(size[0] as usize) as u32, r.below(size[1] as usize) as u32);
+            Region { x, y, width: 1 + r.below(40) as u32, height: 1 + r.below(40) as u32 }
+        }),
+        draws: if r.one_in(8) { 2 } else { 1 },
+        second_pass: readable && !vertex_stage && r.one_in(10),
+        profile,
+    };
+    if vertex_stage {
+        shapes::streams(&mut scene, r);
+    }
+    (scene, layout)
+}
+
+fn depth_state(options: &Options, plain: bool, r: &mut Random) -> DepthState {
+    let test = match options.compare {
+        Some(compare) => Some(compare),
+        None if plain => Some(CompareFunction::Always),
+        None => (!r.one_in(4)).then(|| r.choose(CompareFunction::ALL)),
+    };
+    DepthState { test, write: plain || r.one_in(2) }
+}

@@ -1,0 +1,55 @@
+//! THE list of executors that must agree. A new one is added here and nowhere else.
+
+use refsim::device::Profile;
+use refsim::exec::batch::SimdLevel;
+use refsim::machine::{ExecutorKind, Machine, MachineError};
+use std::sync::LazyLock;
+
+/// One way to draw.
+#[derive(Clone, Debug)]
+pub(crate) struct Executor {
+    /// Its name in messages and counts.
+    pub(crate) name: String,
+    kind: ExecutorKind,
+    threads: usize,
+    simd: Option<SimdLevel>,
+    /// It draws one case in so many: slow ones needn't see all.
+    pub(crate) every: u64,
+}
+
+impl Executor {
+    /// A machine of its own.
+    pub(crate) fn machine(&self, profile: &Profile) -> Result<Machine, MachineError> {
+        let mut machine = Machine::with_threads(profile.clone(), self.kind, self.threads)?;
+        machine.set_simd_level(self.simd);
+        Ok(machine)
+    }
+
+    /// Whether the executor is to draw this seed of a suite for this device. A native float mode, for example, serves
+    /// one format only.
+    pub(crate) fn draws(&self, _profile: &Profile, seed: u64) -> bool {
+        seed.is_multiple_of(self.every)
+    }
+}
+
+/// The reference: what it draws is right.
+pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
+    name: "scalar".to_owned(),
+    kind: ExecutorKind::Scalar,
+    threads: 1,
+    simd: None,
+    every: 1,
+});
+
+/// Everything that is compared with the reference.
+pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
+    let mut all = Vec::new();
+    for level in SimdLevel::available() {
+        for threads in [1, 3] {
+            let name = format!("batch/{}/{threads}", level.name());
+            all.push(Executor { name, kind: ExecutorKind::Batch, threads, simd: Some(level), every: 1 });
+        }
+    }
+    // Number modes of a GPU belong here, one entry each, with `every` above 1.
+    all
+});

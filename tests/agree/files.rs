@@ -1,0 +1,211 @@
+//! Cases from files: the project's kernels, the shaders and the run cases among the fixtures.
+
+use crate::dice::{self, Options};
+use crate::random::Random;
+use crate::rules;
+use crate::scene::{Case, Scene, build};
+use crate::shapes::{self, Shape};
+use crate::suite::{pass_through, shows_all};
+use crossbar::case::schema::{Convention, Cull as CaseCull};
+use crossbar::case::{Setup, Vertices};
+use refsim::asm;
+use refsim::device::Profile;
+use refsim::exec::{BumpStage, CheckedProgram};
+use refsim::isa::{Stage, Usage};
+use refsim::machine::StepRate;
+use refsim::output::WriteMask;
+use refsim::raster::{ClipSpace, Cull, PixelCenter};
+use refsim::texture::TextureKind;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// Ideal devices that programs are tried on, beside the cards.
+const IDEALS: [&str; 6] = ["ideal-s3.12", "ideal-fp16", "ideal-fp24", "ideal-fp32", "ideal-s7.16", "ideal-e8m10"];
+
+/// A program of a file and the devices that accept it.
+pub(crate) struct Program {
+    pub(crate) file: String,
+    lines: Vec<String>,
+    devices: Vec<String>,
+    stage: Stage,
+}
+
+/// Programs of some folders.
+pub(crate) struct Programs(pub(crate) Vec<Program>);
+
+/// All kernels of the project, walked from their folders.
+pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
+    let rooms = walk(&root().join("src"), &["psa", "vsa"]);
+    Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))))
+});
+
+/// The legal shaders among the fixtures.
+pub(crate) static SHADERS: LazyLock<Programs> =
+    LazyLock::new(|| Programs::read(walk(&root().join("fixtures/shaders"), &["psa", "vsa"])));
+
+/// The run cases among the fixtures.
+pub(crate) static CASES: LazyLock<Vec<(String, Setup)>> = LazyLock::new(|| {
+    let files = walk(&root().join("fixtures"), &["toml"]);
+    let read = |path: PathBuf| Setup::read(&path).ok().map(|setup| (path.display().to_string(), setup));
+    files.into_iter().filter_map(read).collect()
+});
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The files below a folder that end in one of `endings`, sorted.
+fn walk(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut out = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.unwrap_or_else(|e| panic!("{e}")).path();
+        if path.is_dir() {
+            out.extend(walk(&path, endings));
+        } else if path.extension().and_then(|e| e.to_str()).is_some_and(|e| endings.contains(&e)) {
+            out.push(path);
+        }
+    }
+    out.sort();
+    out
+}
+
+impl Programs {
+    fn read(files: impl IntoIterator<Item = PathBuf>) -> Self {
+        let devices: Vec<&str> = Profile::card_names().into_iter().chain(IDEALS).collect();
+        let mut out = Vec::new();
+        for path in files {
+            // Fixtures that are wrong on purpose are no business of executors.
+            let Ok(text) = std::fs::read_to_string(&path) else { continue };
+            let Ok(program) = asm::assemble(&text) else { continue };
+            let lines: Vec<String> = asm::print(&program).lines().map(str::to_owned).collect();
+            let accepts = |device: &&&str| build(&lines, &rules::profile(device)).is_ok();
+            let devices: Vec<String> = devices.iter().filter(accepts).map(|d| (*d).to_owned()).collect();
+            if !devices.is_empty() {
+                let file = path.strip_prefix(root()).unwrap_or(&path).display().to_string();
+                out.push(Program { file, lines, devices, stage: program.version.stage() });
+            }
+        }
+        Self(out)
+    }
+
+    /// Pairs of a program and a device that accepts it.
+    pub(crate) fn pairs(&self) -> u64 {
+        self.0.iter().map(|p| p.devices.len() as u64).sum()
+    }
+
+    /// Pair number `seed`, over and over.
+    fn pair(&self, seed: u64) -> (&Program, &str) {
+        let mut left = seed % self.pairs().max(1);
+        for program in &self.0 {
+            if left < program.devices.len() as u64 {
+                return (program, &program.devices[left as usize]);
+            }
+            left -= program.devices.len() as u64;
+        }
+        panic!("there are programs")
+    }
+}
+
+/// The kinds of texture that a program's samplers want.
+fn kinds(program: &CheckedProgram, r: &mut Random) -> Vec<(usize, TextureKind)> {
+    let facts = program.facts();
+    let bound = (0..16).filter(|n| facts.samplers >> n & 1 == 1);
+    bound
+        .map(|n| {
+            let kind = match facts.sampler_usage[n] {
+                Some(Usage::SamplerCube) => TextureKind::Cube,
+                Some(Usage::SamplerVolume) => TextureKind::Volume,
+                None if r.one_in(8) => TextureKind::Cube,
+                _ => TextureKind::D2,
+            };
+            (n, kind)
+        })
+        .collect()
+}
+
+/// A program of a folder on a device that accepts it, with random legal inputs.
+pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Case {
+    let (program, device) = programs.pair(seed);
+    let profile = if device.starts_with("ideal") { rules::profile(device) } else { rules::card(device, r) };
+    // A switch can take back what the default allows.
+    let fits = build(&program.lines, &profile).is_ok();
+    let profile = if fits { profile } else { rules::profile(device) };
+    let checked = build(&program.lines, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", program.file));
+    let shape = r.choose(&[Shape::Flat, Shape::Layers, Shape::Ordinary, Shape::Clipped]);
+    let options = Options { shape: Some(shape), ..Options::new(checked.version) };
+    let (mut scene, layout) = dice::scene(profile, &options, r);
+    if program.stage == Stage::Vertex {
+        let pixel = shows_all(&scene.profile, layout.targets);
+        return Case { scene, pixel, vertex: Some(program.lines.clone()) };
+    }
+    let kinds = kinds(&checked, r);
+    scene.textures = dice::textures(&kinds, &options, &scene.profile, r);
+    let setups: Vec<&Program> =
+        programs.0.iter().filter(|p| p.stage == Stage::Vertex && p.devices.iter().any(|d| d == device)).collect();
+    let vertex = match r.below(3) {
+        0 => None,
+        1 => Some(pass_through(&mut scene, r)),
+        _ if setups.is_empty() => None,
+        _ => {
+            shapes::streams(&mut scene, r);
+            Some(setups[r.below(setups.len())].lines.clone())
+        }
+    };
+    let vertex = vertex.filter(|lines| build(lines, &scene.profile).is_ok());
+    Case { scene, pixel: program.lines.clone(), vertex }
+}
+
+/// A run case; beyond the last, again with other constants.
+pub(crate) fn run_case(seed: u64, r: &mut Random) -> Case {
+    let count = CASES.len() as u64;
+    assert!(count > 0, "no run case among the fixtures can be read");
+    let setup = &CASES[(seed % count) as usize].1;
+    let mut case = from_setup(setup);
+    if seed >= count {
+        case.scene.pixel_constants = dice::constants(r);
+    }
+    case
+}
+
+fn from_setup(setup: &Setup) -> Case {
+    let opengl = setup.geometry.convention == Convention::Opengl;
+    let (vertices, attributes) = match &setup.geometry.vertices {
+        Vertices::Transformed(vertices) => (vertices.clone(), Vec::new()),
+        Vertices::Attributes(attributes) => (Vec::new(), attributes.clone()),
+    };
+    let stream = |register: usize| (register, StepRate::Vertex, attributes.iter().map(|a| a[register]).collect());
+    let lines = |program: &CheckedProgram| asm::print(program).lines().map(str::to_owned).collect();
+    let scene = Scene {
+        profile: setup.profile.clone(),
+        size: setup.size,
+        pixel_constants: setup.pixel_constants.clone(),
+        vertex_constants: setup.vertex_constants.clone(),
+        textures: setup.textures.iter().map(|(slot, (image, state))| (*slot, image.clone(), *state)).collect(),
+        bump: [BumpStage::default(); 8],
+        vertex_count: attributes.len(),
+        streams: if attributes.is_empty() { Vec::new() } else { (0..16).map(stream).collect() },
+        vertices,
+        instances: 1,
+        indices: None,
+        primitive: setup.geometry.primitive,
+        targets: setup.targets.clone(),
+        clear: setup.clear,
+        depth: setup.depth.map(|(format, clear, _)| (format, clear)),
+        depth_state: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
+        alpha: setup.alpha,
+        blend: setup.blend,
+        masks: [WriteMask(setup.write_mask); 4],
+        center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
+        clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
+        cull: match setup.geometry.cull {
+            CaseCull::None => Cull::None,
+            CaseCull::Clockwise => Cull::Clockwise,
+            CaseCull::CounterClockwise => Cull::CounterClockwise,
+        },
+        viewport: None,
+        scissor: None,
+        draws: 1,
+        second_pass: false,
+    };
+    Case { scene, pixel: lines(&setup.pixel), vertex: setup.vertex.as_ref().map(lines) }
+}

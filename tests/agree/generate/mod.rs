@@ -1,0 +1,80 @@
+//! Random programs of every version, legal by construction as far as that is easy; the checker says no to the rest.
+
+mod flow;
+mod ps_1;
+mod ps_1_4;
+mod ps_2;
+mod vs;
+
+use crate::random::Random;
+use refsim::isa::Version;
+use refsim::texture::TextureKind;
+use std::fmt::Write as _;
+
+/// What a program may count on.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    /// Which sampler (in ps_1_x: stage) has what kind of texture.
+    pub(crate) samplers: Vec<(usize, TextureKind)>,
+    /// Colour targets.
+    pub(crate) targets: usize,
+    /// Whether the limits of the version hold, and not those of the emulator alone.
+    pub(crate) limited: bool,
+    /// Whether most of the program reads textures.
+    pub(crate) sampling: bool,
+}
+
+/// A program's text, one line an instruction, the version first. `size` 0 is the shortest, 3 the longest kind.
+pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random) -> Vec<String> {
+    let mut lines = vec![version.token().to_owned()];
+    match version {
+        Version::Ps1_1 | Version::Ps1_2 | Version::Ps1_3 => ps_1::program(version, layout, size, r, &mut lines),
+        Version::Ps1_4 => ps_1_4::program(layout, size, r, &mut lines),
+        Version::Ps2_0 | Version::Ps2A | Version::Ps2B => ps_2::program(version, layout, size, r, &mut lines),
+        Version::Vs1_1 | Version::Vs2_0 => vs::program(version, layout, size, r, &mut lines),
+    }
+    lines
+}
+
+/// Four values of a `def`, up to `range` either way; beyond 1 also special ones, by their bits.
+fn values(r: &mut Random, range: f32) -> String {
+    let mut text = String::new();
+    for i in 0..4 {
+        let comma = if i == 0 { "" } else { ", " };
+        let _ = if range > 1.0 && r.one_in(24) {
+            write!(text, "{comma}{:#010x}", r.number())
+        } else {
+            write!(text, "{comma}{}", (r.below(4097) as f32 / 2048.0 - 1.0) * range)
+        };
+    }
+    text
+}
+
+fn comparison(r: &mut Random) -> &'static str {
+    r.pick(&["gt", "lt", "ge", "le", "eq", "ne"])
+}
+
+fn component(r: &mut Random) -> &'static str {
+    r.pick(&["x", "y", "z", "w"])
+}
+
+/// A swizzle with its point, or nothing; `any` of the 256, or only those that ps_2_0 has.
+fn swizzle(r: &mut Random, any: bool) -> String {
+    match r.below(8) {
+        0 | 1 => format!(".{}", component(r)),
+        2 => format!(".{}", r.pick(&["yzxw", "zxyw", "wzyx"])),
+        3 | 4 if any => format!(".{}{}{}{}", component(r), component(r), component(r), component(r)),
+        _ => String::new(),
+    }
+}
+
+/// A write mask with its point, or nothing: any of the fifteen.
+fn mask(r: &mut Random) -> String {
+    if r.one_in(3) {
+        return String::new();
+    }
+    let bits = 1 + r.below(15);
+    let letters: String =
+        ['x', 'y', 'z', 'w'].into_iter().enumerate().filter(|(i, _)| bits >> i & 1 == 1).map(|(_, c)| c).collect();
+    if bits == 15 { String::new() } else { format!(".{letters}") }
+}

@@ -1,0 +1,159 @@
+//! Random rules: families of number formats, groups of switches.
+
+use crate::random::Random;
+use refsim::device::{
+    ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
+    TexdepthDenominator, TexkillComponents,
+};
+use refsim::num::{DotOrder, Format};
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+/// Formats that are computed in the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Family {
+    S3_12,
+    ShortFixed,
+    LongFixed,
+    Fp16,
+    Fp24,
+    Fp32,
+    OddFloat,
+}
+
+impl Family {
+    pub(crate) const ALL: [Self; 7] =
+        [Self::S3_12, Self::ShortFixed, Self::LongFixed, Self::Fp16, Self::Fp24, Self::Fp32, Self::OddFloat];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::S3_12 => "s3_12",
+            Self::ShortFixed => "short_fixed",
+            Self::LongFixed => "long_fixed",
+            Self::Fp16 => "fp16",
+            Self::Fp24 => "fp24",
+            Self::Fp32 => "fp32",
+            Self::OddFloat => "odd_float",
+        }
+    }
+
+    pub(crate) fn formats(self) -> &'static [&'static str] {
+        match self {
+            Self::S3_12 => {
+                &["s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:wrap", "s3.12:rdn:wrap", "s3.12:rna:wrap"]
+            }
+            Self::ShortFixed => &["s1.10", "s0.8", "s7.8", "s1.10:rtz", "s0.15:wrap", "s2.5:rna", "s1.6:rdn:wrap"],
+            Self::LongFixed => &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap"],
+            Self::Fp16 => &["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "fp16:sat", "fp16:rna", "fp16:rdn:ftz"],
+            Self::Fp24 => &["fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp24:rna", "fp24:nvovf:nv"],
+            Self::Fp32 => &["fp32", "fp32:ftz", "fp32:rtz", "fp32:nv:nvovf", "fp32:sat", "fp32:rna:ftz", "fp32:rdn"],
+            Self::OddFloat => &["bf16", "e3m4", "e8m10", "e8m10:rna", "e5m2", "e6m9:rtz", "e4m3:sat", "e7m10:ftz"],
+        }
+    }
+}
+
+/// Rules that are varied together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Group {
+    /// What instructions compute.
+    Arithmetic,
+    /// What texture instructions read.
+    Sampling,
+    /// What comes before and after the program.
+    Pipeline,
+    /// All of them.
+    Together,
+}
+
+impl Group {
+    pub(crate) const ALL: [Self; 4] = [Self::Arithmetic, Self::Sampling, Self::Pipeline, Self::Together];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Arithmetic => "arithmetic",
+            Self::Sampling => "sampling",
+            Self::Pipeline => "pipeline",
+            Self::Together => "together",
+        }
+    }
+
+    fn has(self, part: Self) -> bool {
+        self == part || self == Self::Together
+    }
+}
+
+/// A profile by name, read once.
+pub(crate) fn profile(name: &str) -> Profile {
+    static READ: LazyLock<Mutex<BTreeMap<String, Profile>>> = LazyLock::new(Mutex::default);
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = read.get(name) {
+        return known.clone();
+    }
+    let fresh = Profile::named(name).unwrap_or_else(|e| panic!("{name}: {e}"));
+    read.insert(name.to_owned(), fresh.clone());
+    fresh
+}
+
+fn format(text: &str) -> Format {
+    text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+/// An ideal device in some format of a family, with the rules of a group at random.
+pub(crate) fn ideal(family: Family, group: Group, r: &mut Random) -> Profile {
+    let mut profile = profile("ideal-fp32");
+    let name = r.pick(family.formats());
+    profile.set_format(format(name));
+    profile.name = format!("ideal-{name}");
+    let rules = &mut profile.rules;
+    if group.has(Group::Arithmetic) {
+        rules.partial = r.choose(&[None, Some("fp16"), Some("fp16:rtz:nv"), Some("s1.10"), Some("fp32")]).map(format);
+        if r.one_in(4) {
+            rules.vertex_format = format(r.pick(&["fp32:rtz", "fp24", "s7.16", "fp32:ftz"]));
+        }
+        rules.constant_storage = r.choose(ConstantStorage::ALL);
+        rules.mad = r.choose(MadMode::ALL);
+        rules.dot = r.choose(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
+        rules.lrp = r.choose(LrpMode::ALL);
+        rules.zero_times_anything = r.one_in(3);
+    }
+    if group.has(Group::Sampling) {
+        rules.texcrd_overflow = r.choose(TexcrdOverflow::ALL);
+        rules.texdepth_denominator = r.choose(TexdepthDenominator::ALL);
+        rules.signed_texel_minimum = r.choose(SignedTexelMinimum::ALL);
+        rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
+        rules.lod_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
+    }
+    if group.has(Group::Pipeline) {
+        if r.one_in(4) {
+            rules.iterator_format = format(r.pick(&["fp24", "s7.16", "fp16", "fp32:rtz"]));
+        }
+        let bits = r.choose(&[8, 12, 1, 16]);
+        rules.color_iterator = r.choose(&[ColorIterator::Full, ColorIterator::Unorm(bits)]);
+        rules.texkill_components = r.choose(TexkillComponents::ALL);
+        rules.target_rounding = r.choose(TargetRounding::ALL);
+        rules.depth_rounding = r.choose(TargetRounding::ALL);
+        rules.subpixel_bits = r.choose(&[0, 4, 8]);
+    }
+    profile
+}
+
+/// Vertex programs in a format of the family, fp32 for the pixels.
+pub(crate) fn vertex_ideal(family: Family, group: Group, r: &mut Random) -> Profile {
+    let mut profile = ideal(Family::Fp32, group, r);
+    profile.rules.vertex_format = format(r.pick(family.formats()));
+    profile
+}
+
+/// A card with every switch at random.
+pub(crate) fn card(name: &str, r: &mut Random) -> Profile {
+    let mut profile = profile(name);
+    let switches: Vec<(String, String)> = profile
+        .switches()
+        .iter()
+        .map(|s| (s.name.clone(), s.values[r.below(s.values.len())].clone()))
+        .collect();
+    for (name, value) in switches {
+        profile.set_switch(&name, &value).unwrap_or_else(|e| panic!("{name} = {value}: {e}"));
+    }
+    profile
+}

@@ -1,0 +1,196 @@
+//! Random geometry: what rasterisers meet, and what they would rather not.
+
+use crate::random::Random;
+use crate::scene::Scene;
+use refsim::machine::StepRate;
+use refsim::raster::{Primitive, Vertex};
+
+/// A kind of geometry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// A few triangles in view.
+    Ordinary,
+    /// Quads over the whole target, everything but the position constant.
+    Flat,
+    /// Many quads over one another, most of them over the whole target.
+    Layers,
+    /// Triangles that leave the view through every plane.
+    Clipped,
+    /// Coordinates far beyond the view.
+    Huge,
+    /// No area, next to none, or edges through pixel centres.
+    Degenerate,
+    /// Positions and values that are no numbers.
+    Special,
+}
+
+impl Shape {
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Ordinary, Self::Flat, Self::Layers, Self::Clipped, Self::Huge, Self::Degenerate, Self::Special];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Ordinary => "ordinary",
+            Self::Flat => "flat",
+            Self::Layers => "layers",
+            Self::Clipped => "clipped",
+            Self::Huge => "huge",
+            Self::Degenerate => "degenerate",
+            Self::Special => "special",
+        }
+    }
+}
+
+/// Vertices and how they make triangles.
+pub(crate) struct Geometry {
+    pub(crate) vertices: Vec<Vertex>,
+    pub(crate) indices: Option<Vec<u32>>,
+    pub(crate) primitive: Primitive,
+}
+
+/// A shape for programs that are to be seen: mostly ordinary ones.
+pub(crate) fn ordinary(r: &mut Random) -> Shape {
+    if r.one_in(3) { r.choose(&Shape::ALL) } else { Shape::Ordinary }
+}
+
+/// Width and height of the targets: some within a tile, some over several.
+pub(crate) fn size(shape: Shape, r: &mut Random) -> [u32; 2] {
+    let (w, h) = if shape == Shape::Layers { (20, 18) } else { (34, 30) };
+    [1 + r.below(w) as u32, 1 + r.below(h) as u32]
+}
+
+pub(crate) const PRIMITIVES: [Primitive; 5] = [
+    Primitive::TriangleList,
+    Primitive::TriangleStrip,
+    Primitive::TriangleFan,
+    Primitive::QuadList,
+    Primitive::QuadStrip,
+];
+
+const CORNERS: [(f32, f32); 4] = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+
+/// Geometry of a shape for a target of `size`.
+pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry {
+    let primitive = match shape {
+        Shape::Flat | Shape::Layers => Primitive::QuadList,
+        _ => r.choose(&PRIMITIVES),
+    };
+    let each = match primitive {
+        Primitive::TriangleList => 3,
+        Primitive::TriangleStrip | Primitive::TriangleFan => 3 + r.below(2),
+        _ => 4,
+    };
+    let groups = match shape {
+        Shape::Layers => 3 + r.below(10),
+        Shape::Flat => 1 + r.below(2),
+        _ => 1 + r.below(3),
+    };
+    let mut vertices = Vec::new();
+    for _ in 0..groups {
+        group(shape, size, each, r, &mut vertices);
+    }
+    let count = vertices.len();
+    let indices = r.one_in(6).then(|| (0..count + r.below(4)).map(|i| ((i * 7 + r.below(2)) % count) as u32).collect());
+    Geometry { vertices, indices, primitive }
+}
+
+/// One primitive's vertices: they share what they do not vary.
+fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Vec<Vertex>) {
+    let whole = matches!(shape, Shape::Flat | Shape::Layers);
+    let flat = if whole { !r.one_in(4) } else { r.one_in(3) };
+    let plane = if whole { !r.one_in(6) } else { r.one_in(2) };
+    let full = if whole { !r.one_in(4) } else { r.one_in(2) && plane };
+    let shared = Vertex {
+        texcoords: std::array::from_fn(|_| r.vector()),
+        colors: [r.vector(), r.vector()],
+        fog: r.number(),
+        ..Vertex::default()
+    };
+    let start = out.len();
+    for corner in 0..each {
+        let mut v = shared;
+        if !flat {
+            for set in &mut v.texcoords {
+                if !r.one_in(3) {
+                    *set = r.vector();
+                }
+            }
+            v.colors = [r.vector(), r.vector()];
+        } else if whole && r.one_in(2) {
+            // What a crossbar has: one set that says which pixel, all others constant.
+            let (x, y) = CORNERS[corner % 4];
+            v.texcoords[0] = [(x * 0.5 + 0.5).to_bits(), (y * -0.5 + 0.5).to_bits(), 0, 0x3f80_0000];
+        }
+        v.position = if full && matches!(shape, Shape::Ordinary | Shape::Flat | Shape::Layers) {
+            let (x, y) = CORNERS[corner % 4];
+            let z = if r.one_in(3) { r.below(1000) as f32 / 1000.0 } else { 0.5 };
+            [x.to_bits(), y.to_bits(), z.to_bits(), 0x3f80_0000]
+        } else {
+            position(shape, size, plane, r)
+        };
+        if shape == Shape::Degenerate && out.len() > start && r.one_in(3) {
+            v.position = out[start].position;
+        }
+        out.push(v);
+    }
+}
+
+fn position(shape: Shape, size: [u32; 2], plane: bool, r: &mut Random) -> [u32; 4] {
+    let thousandth = |r: &mut Random, range: usize| (r.below(2 * range + 1) as f32 - range as f32) / 1000.0;
+    let w = if plane { 1.0f32 } else { 0.5 + r.below(100) as f32 / 50.0 };
+    match shape {
+        Shape::Clipped => {
+            let w = if r.one_in(3) { thousandth(r, 2000) } else { w };
+            [thousandth(r, 12_000), thousandth(r, 12_000), thousandth(r, 2000), w].map(f32::to_bits)
+        }
+        Shape::Huge => {
+            let scale = |r: &mut Random| {
+                let far = if r.one_in(4) { 120 } else { 24 };
+                f32::from_bits((127 + r.below(far) as u32) << 23)
+            };
+            let (x, y) = (thousandth(r, 1500) * scale(r), thousandth(r, 1500) * scale(r));
+            let w = if r.one_in(3) { scale(r) } else { w };
+            [x, y, r.below(1000) as f32 / 1000.0 * w, w].map(f32::to_bits)
+        }
+        Shape::Degenerate => {
+            // On the grid of half pixels, or within a tiny place.
+            let tiny = r.one_in(4);
+            let place = |r: &mut Random, n: u32| match tiny {
+                true => thousandth(r, 10) * 0.01,
+                false => (r.below(4 * n as usize + 1) as f32) / (2.0 * n as f32) - 1.0,
+            };
+            [place(r, size[0]), place(r, size[1]), 0.5, 1.0].map(f32::to_bits)
+        }
+        Shape::Special => {
+            let ordinary = |r: &mut Random| thousandth(r, 1500).to_bits();
+            let mut out = [ordinary(r), ordinary(r), r.number(), w.to_bits()];
+            if r.one_in(4) {
+                let place = r.below(4);
+                out[place] = r.special();
+            }
+            out
+        }
+        _ => {
+            let scaled = |x: f32| (x * w).to_bits();
+            let z = (r.below(1000) as f32 / 1000.0 * w).to_bits();
+            [scaled(thousandth(r, 1500)), scaled(thousandth(r, 1500)), z, w.to_bits()]
+        }
+    }
+}
+
+/// Attributes `v0` to `v7` for a vertex program: some a vertex, some an instance, some not fed at all.
+pub(crate) fn streams(scene: &mut Scene, r: &mut Random) {
+    let count = scene.vertices.len();
+    scene.vertex_count = count;
+    let most = if r.one_in(4) { 60 } else { 6 };
+    scene.instances = 1 + r.below(most);
+    scene.streams.push((0, StepRate::Vertex, scene.vertices.iter().map(|v| v.position).collect()));
+    for register in 1..8 {
+        if r.one_in(5) {
+            continue;
+        }
+        let step = r.choose(&[StepRate::Vertex, StepRate::Vertex, StepRate::Instance]);
+        let entries = if step == StepRate::Vertex { count } else { scene.instances };
+        scene.streams.push((register, step, (0..entries).map(|_| r.vector()).collect()));
+    }
+}

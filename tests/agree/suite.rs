@@ -1,0 +1,277 @@
+//! Suites: a name, what it draws from, how many seeds it goes through in the short form.
+
+use crate::dice::{self, Options};
+use crate::files;
+use crate::generate::{self, Layout};
+use crate::random::Random;
+use crate::rules::{self, Family, Group};
+use crate::scene::{Case, Scene, build};
+use crate::shapes::Shape;
+use refsim::device::Profile;
+use refsim::isa::{Stage, Version};
+use refsim::machine::StepRate;
+use refsim::output::{BlendOp, CompareFunction, DepthFormat};
+use refsim::texture::{AddressMode, TexelFormat, TextureKind};
+
+/// What a suite fixes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    /// Random programs of a version, in a family of formats, with the rules of a group at random.
+    Program(Version, Family, Group),
+    /// Random programs of a version on a card, every switch at random.
+    Card(&'static str, Version),
+    /// Textures of a format.
+    Texture(TexelFormat),
+    /// Textures of a kind, addressed in a way.
+    Address(TextureKind, AddressMode),
+    /// Targets of a format.
+    Target(TexelFormat),
+    /// Depth buffers of a format.
+    Depth(DepthFormat),
+    /// A depth comparison.
+    Compare(CompareFunction),
+    /// A blend operation.
+    Blend(BlendOp),
+    /// A kind of geometry.
+    Geometry(Shape),
+    /// The project's kernels.
+    Kernels,
+    /// The shaders among the fixtures.
+    Shaders,
+    /// The cases of `crossbar run` among the fixtures.
+    Cases,
+}
+
+/// A suite.
+#[derive(Clone, Debug)]
+pub(crate) struct Suite {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    /// Seeds of the short form: 0 and up.
+    pub(crate) seeds: u64,
+}
+
+pub(crate) const PIXEL: [Version; 7] =
+    [Version::Ps1_1, Version::Ps1_2, Version::Ps1_3, Version::Ps1_4, Version::Ps2_0, Version::Ps2A, Version::Ps2B];
+
+impl Suite {
+    pub(crate) fn new(name: impl Into<String>, kind: Kind, seeds: u64) -> Self {
+        Self { name: name.into(), kind, seeds }
+    }
+
+    /// The case of a seed.
+    pub(crate) fn case(&self, seed: u64) -> Case {
+        let mut random = Random::named(&self.name, seed);
+        let r = &mut random;
+        let options = |version: Version| Options::new(version);
+        // Small programs, so that what the suite fixes is what is seen.
+        let version = r.choose(&PIXEL[3..]);
+        let family = Family::ALL[seed as usize % Family::ALL.len()];
+        let together = Group::Together;
+        match self.kind {
+            Kind::Program(version, family, group) if version.stage() == Stage::Vertex => {
+                vertex_case(rules::vertex_ideal(family, group, r), version, r)
+            }
+            Kind::Program(version, family, group) => {
+                let sampling = group == Group::Sampling && r.one_in(2);
+                let options = Options { sampling, ..options(version) };
+                pixel_case(rules::ideal(family, group, r), &options, 4, r)
+            }
+            Kind::Card(card, version) if version.stage() == Stage::Vertex => {
+                vertex_case(rules::card(card, r), version, r)
+            }
+            Kind::Card(card, version) => pixel_case(rules::card(card, r), &options(version), 4, r),
+            Kind::Texture(format) => {
+                let version = if r.one_in(3) { PIXEL[r.below(3)] } else { version };
+                let options = Options { texture: Some(format), sampling: true, ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Address(kind, address) => {
+                let options = Options { kind: Some(kind), address: Some(address), sampling: true, ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Target(format) => {
+                let options = Options { target: Some(format), ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Depth(format) => {
+                let options = Options { depth: Some(format), ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Compare(compare) => {
+                let options = Options { compare: Some(compare), ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Blend(blend) => {
+                let options = Options { blend: Some(blend), ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Geometry(shape) => {
+                let options = Options { shape: Some(shape), ..options(version) };
+                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+            }
+            Kind::Kernels => files::program_case(&files::KERNELS, seed, r),
+            Kind::Shaders => files::program_case(&files::SHADERS, seed, r),
+            Kind::Cases => files::run_case(seed, r),
+        }
+    }
+}
+
+/// A random legal program.
+fn legal(version: Version, layout: &Layout, sizes: usize, profile: &Profile, r: &mut Random) -> Vec<String> {
+    let start = r.below(sizes.max(1));
+    let mut last = String::new();
+    for attempt in 0..1000 {
+        let size = start.saturating_sub(attempt / 8);
+        let lines = generate::program(version, layout, size, r);
+        match build(&lines, profile) {
+            Ok(_) => return lines,
+            Err(why) => last = format!("{}\n{why}", lines.join("\n")),
+        }
+    }
+    panic!("no legal {version} program for {} in 1000 tries; the last is\n{last}", profile.name)
+}
+
+/// A random pixel program in a random scene; some scenes draw instances behind a vertex program that passes all on.
+fn pixel_case(profile: Profile, options: &Options, sizes: usize, r: &mut Random) -> Case {
+    let (mut scene, layout) = dice::scene(profile, options, r);
+    let pixel = legal(options.version, &layout, sizes, &scene.profile, r);
+    let crossbar = matches!(options.shape, Some(Shape::Flat | Shape::Layers)) || r.one_in(6);
+    let vertex = crossbar.then(|| pass_through(&mut scene, r));
+    Case { scene, pixel, vertex }
+}
+
+/// Instances of the scene's vertices: positions a vertex, everything else an instance.
+pub(crate) fn pass_through(scene: &mut Scene, r: &mut Random) -> Vec<String> {
+    scene.instances = 1 + r.below(6);
+    scene.streams = vec![(0, StepRate::Vertex, scene.vertices.iter().map(|v| v.position).collect())];
+    let mut lines = vec!["vs_1_1".to_owned()];
+    let usages = ["position", "texcoord0", "texcoord1", "texcoord2", "texcoord3", "texcoord4", "color0"];
+    lines.extend(usages.iter().enumerate().map(|(n, usage)| format!("dcl_{usage} v{n}")));
+    lines.push("mov oPos, v0".to_owned());
+    for register in 1..7 {
+        let by_vertex = register == 1 && r.one_in(2);
+        let (step, data) = if by_vertex {
+            (StepRate::Vertex, scene.vertices.iter().map(|v| v.texcoords[0]).collect())
+        } else {
+            (StepRate::Instance, (0..scene.instances).map(|_| r.vector()).collect())
+        };
+        scene.streams.push((register, step, data));
+        lines.push(match register {
+            6 => "mov oD0, v6".to_owned(),
+            _ => format!("mov oT{}, v{register}", register - 1),
+        });
+    }
+    lines
+}
+
+/// A random vertex program before a pixel program that shows all its outputs.
+fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
+    let options = Options::new(version);
+    let (scene, layout) = dice::scene(profile, &options, r);
+    let vertex = legal(version, &layout, 4, &scene.profile, r);
+    let pixel = shows_all(&scene.profile, layout.targets);
+    Case { scene, pixel, vertex: Some(vertex) }
+}
+
+/// A pixel program whose result depends on every coordinate set and colour.
+pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
+    let mut lines;
+    if profile.supports(Version::Ps2_0) {
+        lines = vec!["ps_2_0".to_owned()];
+        lines.extend((0..8).map(|t| format!("dcl t{t}")));
+        lines.extend((0..2).map(|v| format!("dcl v{v}")));
+        lines.extend(["mov r0, t0".to_owned(), "mov r1, v0".to_owned()]);
+        lines.extend((1..8).map(|t| format!("mad r{}, r{}, c0, t{t}", t % 2, t % 2)));
+        lines.push("mad r1, r1, r0, v1".to_owned());
+        lines.extend((0..targets).map(|i| format!("mov oC{i}, r{}", i % 2)));
+    } else {
+        lines = vec!["ps_1_1".to_owned()];
+        lines.extend((0..4).map(|t| format!("texcoord t{t}")));
+        lines.extend(["mad r0, t0, v0, t1", "mad r1, t2, v1, t3", "add_d2 r0, r0, r1"].map(str::to_owned));
+    }
+    lines
+}
+
+/// Every suite, in the order of their modules in `main`.
+pub(crate) fn all() -> Vec<Suite> {
+    let mut out = Vec::new();
+    for version in Version::ALL {
+        let vertex = version.stage() == Stage::Vertex;
+        for family in Family::ALL {
+            for group in Group::ALL {
+                if vertex && matches!(group, Group::Sampling | Group::Pipeline) {
+                    continue;
+                }
+                let name = format!("programs::{}::{}::{}", version.token(), family.name(), group.name());
+                out.push(Suite::new(name, Kind::Program(version, family, group), 16));
+            }
+        }
+    }
+    for card in Profile::card_names() {
+        for version in &rules::profile(card).limits.versions {
+            out.push(Suite::new(format!("cards::{card}::{}", version.token()), Kind::Card(card, *version), 8));
+        }
+    }
+    for &format in TexelFormat::ALL {
+        out.push(Suite::new(format!("textures::{}", format.name()), Kind::Texture(format), 7));
+    }
+    for (kind, name) in KINDS {
+        for (address, way) in ADDRESSES {
+            out.push(Suite::new(format!("addressing::{name}::{way}"), Kind::Address(kind, address), 7));
+        }
+    }
+    for &format in TexelFormat::ALL {
+        out.push(Suite::new(format!("targets::{}", format.name()), Kind::Target(format), 7));
+    }
+    for &format in DepthFormat::ALL {
+        out.push(Suite::new(format!("depth::{}", format.name()), Kind::Depth(format), 14));
+    }
+    for (compare, name) in COMPARES {
+        out.push(Suite::new(format!("depth::{name}"), Kind::Compare(compare), 7));
+    }
+    for (blend, name) in BLENDS {
+        out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 14));
+    }
+    for shape in Shape::ALL {
+        out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), 21));
+    }
+    out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.pairs()));
+    out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.pairs()));
+    out.push(Suite::new("project::cases", Kind::Cases, files::CASES.len() as u64));
+    out
+}
+
+const KINDS: [(TextureKind, &str); 5] = [
+    (TextureKind::D1, "d1"),
+    (TextureKind::D2, "d2"),
+    (TextureKind::Rectangle, "rectangle"),
+    (TextureKind::Cube, "cube"),
+    (TextureKind::Volume, "volume"),
+];
+
+const ADDRESSES: [(AddressMode, &str); 4] = [
+    (AddressMode::Wrap, "wrap"),
+    (AddressMode::Mirror, "mirror"),
+    (AddressMode::Clamp, "clamp"),
+    (AddressMode::Border, "border"),
+];
+
+const COMPARES: [(CompareFunction, &str); 8] = [
+    (CompareFunction::Never, "never"),
+    (CompareFunction::Less, "less"),
+    (CompareFunction::Equal, "equal"),
+    (CompareFunction::LessEqual, "less_equal"),
+    (CompareFunction::Greater, "greater"),
+    (CompareFunction::NotEqual, "not_equal"),
+    (CompareFunction::GreaterEqual, "greater_equal"),
+    (CompareFunction::Always, "always"),
+];
+
+const BLENDS: [(BlendOp, &str); 5] = [
+    (BlendOp::Add, "add"),
+    (BlendOp::Subtract, "subtract"),
+    (BlendOp::ReverseSubtract, "reverse_subtract"),
+    (BlendOp::Min, "min"),
+    (BlendOp::Max, "max"),
+];
