@@ -1,1 +1,287 @@
-//! What the dice reach.
+//! What the dice reach: everything that a program, a device or a scene can say turns up in the seeds of the short form.
+
+use crate::generate::{self, Layout};
+use crate::random::Random;
+use crate::rules;
+use crate::scene::{Case, build};
+use crate::shapes::PRIMITIVES;
+use crate::suite::{self, Kind};
+use refsim::device::Profile;
+use refsim::isa::{
+    Comparison, Instruction, Modifier, Opcode, Program, RegisterFile, Relative, Source, Stage, Usage, Version,
+};
+use refsim::output::{BlendFactor, BlendOp, CompareFunction, DepthFormat};
+use refsim::raster::{ClipSpace, Cull, PixelCenter};
+use refsim::texture::{AddressMode, Filter, MipFilter, TexelFormat, TextureKind};
+use std::collections::BTreeSet;
+use std::fmt::Debug;
+
+/// What was seen, by words.
+#[derive(Default)]
+struct Seen(BTreeSet<String>);
+
+impl Seen {
+    fn add(&mut self, what: &str, value: impl Debug) {
+        self.0.insert(format!("{what} {value:?}"));
+    }
+
+    /// Panics with everything that is missing.
+    fn require(&self, wanted: impl IntoIterator<Item = String>) {
+        let missing: Vec<String> = wanted.into_iter().filter(|w| !self.0.contains(w)).collect();
+        assert!(missing.is_empty(), "the dice never throw:\n{}", missing.join("\n"));
+    }
+}
+
+fn each<T: Debug>(what: &str, all: impl IntoIterator<Item = T>) -> Vec<String> {
+    all.into_iter().map(|value| format!("{what} {value:?}")).collect()
+}
+
+/// Programs of a version, on the device without limits.
+fn programs(version: Version, count: u64) -> Vec<Program> {
+    let layout = |sampling, targets| Layout {
+        samplers: vec![(0, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::Volume)],
+        targets,
+        limited: false,
+        sampling,
+    };
+    let profile = rules::profile("ideal-fp32");
+    let mut out = Vec::new();
+    for seed in 0..count {
+        let mut r = Random::new(seed);
+        let layout = layout(seed % 4 == 0, 1 + seed as usize % 4);
+        let lines = generate::program(version, &layout, seed as usize % 4, &mut r);
+        if let Ok(program) = build(&lines, &profile) {
+            out.push(program.into_inner());
+        }
+    }
+    out
+}
+
+fn note_source(seen: &mut Seen, version: Version, source: &Source) {
+    seen.add(&format!("{version} modifier"), source.modifier);
+    seen.add(&format!("{version} file"), source.register.file);
+    let swizzle: String = source.swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w'][usize::from(*c)]).collect();
+    seen.add(&format!("{version} swizzle"), swizzle);
+    match source.register.relative {
+        Some(Relative::Address(component)) => seen.add(&format!("{version} relative a0"), component),
+        Some(Relative::Loop) => seen.add(&format!("{version} relative"), "aL"),
+        None => {}
+    }
+}
+
+fn note(seen: &mut Seen, version: Version, instruction: &Instruction) {
+    let name = format!("{version} {:?}", instruction.opcode);
+    seen.add(&format!("{version} opcode"), instruction.opcode);
+    if let Some(comparison) = instruction.comparison {
+        seen.add(&name, comparison);
+    }
+    for source in &instruction.sources {
+        note_source(seen, version, source);
+    }
+    if let Some(d) = instruction.destination {
+        seen.add(&format!("{version} mask"), d.mask.0);
+        seen.add(&format!("{version} shift"), d.shift);
+        seen.add(&format!("{version} saturate"), d.saturate);
+        seen.add(&format!("{version} partial"), d.partial_precision);
+        seen.add(&format!("{version} writes"), d.register.file);
+    }
+    seen.add(&format!("{version} co-issued"), instruction.coissue);
+    if let Some(predicate) = instruction.predicate {
+        seen.add(&format!("{version} predicate"), (predicate.not, predicate.swizzle.0));
+    }
+}
+
+/// What of a version must turn up beside its opcodes.
+fn wanted(version: Version) -> Vec<String> {
+    use Modifier as M;
+    let named = |what: &str| format!("{version} {what}");
+    let opcodes: Vec<Opcode> = Opcode::ALL.iter().copied().filter(|o| o.info().available(version)).collect();
+    let mut out = Vec::new();
+    for &opcode in opcodes.iter().filter(|o| o.info().comparison) {
+        out.extend(each(&named(&format!("{opcode:?}")), Comparison::ALL));
+    }
+    out.extend(each(&named("opcode"), opcodes));
+    let modifiers: &[Modifier] = match version {
+        Version::Ps1_4 => {
+            &[M::Negate, M::Invert, M::Bias, M::BiasNegate, M::Bx2, M::Bx2Negate, M::X2, M::X2Negate, M::Dz, M::Dw]
+        }
+        v if v.is_ps_1_x() => &[M::Negate, M::Invert, M::Bias, M::BiasNegate, M::Bx2, M::Bx2Negate],
+        Version::Ps2A | Version::Vs2_0 => &[M::Negate, M::Not],
+        _ => &[M::Negate],
+    };
+    out.extend(each(&named("modifier"), modifiers));
+    let shifts: &[i8] = match version {
+        Version::Ps1_4 => &[-3, -2, -1, 0, 1, 2, 3],
+        v if v.is_ps_1_x() => &[-1, 0, 1, 2],
+        _ => &[0],
+    };
+    out.extend(each(&named("shift"), shifts));
+    let masks: Vec<u8> = if version.is_ps_1_1_to_1_3() { vec![7, 8, 15] } else { (1..16).collect() };
+    let masks = masks.into_iter().filter(|m| version != Version::Ps1_4 || [1, 2, 3, 4, 5, 6, 7, 8, 15].contains(m));
+    out.extend(each(&named("mask"), masks));
+    if version.stage() == Stage::Pixel {
+        out.extend(each(&named("saturate"), [false, true]));
+    }
+    if version.is_ps_2() {
+        out.extend(each(&named("partial"), [false, true]));
+        out.extend(each(&named("writes"), [RegisterFile::ColorOut, RegisterFile::DepthOut]));
+        out.extend(each(&named("swizzle"), ["xxxx", "yyyy", "zzzz", "wwww", "yzxw", "zxyw", "wzyx"]));
+    } else if version.is_ps_1_x() {
+        out.extend(each(&named("co-issued"), [false, true]));
+    } else {
+        let outputs = [
+            RegisterFile::PositionOut,
+            RegisterFile::FogOut,
+            RegisterFile::PointSizeOut,
+            RegisterFile::DiffuseOut,
+            RegisterFile::TexCoordOut,
+        ];
+        out.extend(each(&named("writes"), outputs));
+        let components = if version == Version::Vs1_1 { 0..1_u8 } else { 0..4 };
+        out.extend(each(&named("relative a0"), components));
+    }
+    if version == Version::Vs2_0 {
+        out.extend(each(&named("relative"), ["aL"]));
+    }
+    if version == Version::Ps2A {
+        let plain = [[0, 1, 2, 3], [0; 4], [1; 4], [2; 4], [3; 4]];
+        out.extend(each(&named("predicate"), plain.into_iter().flat_map(|s| [(false, s), (true, s)])));
+    }
+    if matches!(version, Version::Ps2A | Version::Vs1_1 | Version::Vs2_0) {
+        let swizzles = (0..256).map(|n: usize| {
+            [n & 3, n >> 2 & 3, n >> 4 & 3, n >> 6].map(|c| ['x', 'y', 'z', 'w'][c]).iter().collect::<String>()
+        });
+        out.extend(each(&named("swizzle"), swizzles));
+    }
+    out
+}
+
+#[test]
+fn programs_reach_every_opcode_modifier_and_swizzle() {
+    for version in Version::ALL {
+        let mut seen = Seen::default();
+        let all = programs(version, 1500);
+        assert!(all.len() > 500, "{version}: only {} of 1500 programs are legal", all.len());
+        for program in &all {
+            for instruction in &program.instructions {
+                note(&mut seen, version, instruction);
+            }
+            for declaration in &program.declarations {
+                seen.add("usage", declaration.usage);
+            }
+        }
+        seen.require(wanted(version));
+        if version.is_ps_2() {
+            seen.require(each("usage", [Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume]));
+        }
+    }
+}
+
+fn note_scene(seen: &mut Seen, case: &Case) {
+    let scene = &case.scene;
+    for (_, image, state) in &scene.textures {
+        seen.add("texture", image.format());
+        seen.add("levels", image.levels().len() > 1);
+        seen.add("address", (image.kind(), state.address_u));
+        seen.add("filter", (image.kind(), state.min, state.mag, state.mip));
+    }
+    for &target in &scene.targets {
+        seen.add("target", target);
+    }
+    seen.add("targets", scene.targets.len());
+    seen.add("depth", scene.depth.map(|(format, _)| format));
+    seen.add("depth test", scene.depth_state.test);
+    seen.add("depth write", scene.depth_state.write);
+    seen.add("alpha", scene.alpha.map(|a| a.function));
+    for equation in scene.blend.iter().flat_map(|b| [b.color, b.alpha]) {
+        seen.add("source", equation.source);
+        seen.add("destination", equation.destination);
+        seen.add("blend", equation.op);
+    }
+    for mask in scene.masks {
+        seen.add("write mask", mask.0);
+    }
+    seen.add("primitive", scene.primitive);
+    seen.add("indices", scene.indices.is_some());
+    seen.add("instances", scene.instances > 1);
+    seen.add("center", scene.center);
+    seen.add("clip space", scene.clip_space);
+    seen.add("cull", scene.cull);
+    seen.add("viewport", scene.viewport.is_some());
+    seen.add("scissor", scene.scissor.is_some());
+    seen.add("draws", scene.draws);
+    seen.add("second pass", scene.second_pass);
+}
+
+#[test]
+fn scenes_reach_every_state() {
+    let mut seen = Seen::default();
+    for suite in suite::all() {
+        let quick = matches!(suite.kind, Kind::Texture(_) | Kind::Address(..) | Kind::Target(_) | Kind::Geometry(_));
+        let quick = quick || matches!(suite.kind, Kind::Depth(_) | Kind::Compare(_) | Kind::Blend(_));
+        for seed in 0..if quick { suite.seeds } else { 0 } {
+            note_scene(&mut seen, &suite.case(seed));
+        }
+    }
+    let kinds = [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
+    let modes = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
+    seen.require(each("texture", TexelFormat::ALL));
+    seen.require(each("target", TexelFormat::ALL));
+    seen.require(each("address", kinds.into_iter().flat_map(|k| modes.map(|m| (k, m)))));
+    let filters = [Filter::Nearest, Filter::Linear];
+    let mips = [MipFilter::None, MipFilter::Nearest, MipFilter::Linear];
+    let all = filters.into_iter().flat_map(|a| filters.into_iter().flat_map(move |b| mips.map(|m| (a, b, m))));
+    seen.require(each("filter", all.flat_map(|(a, b, m)| kinds.map(|k| (k, a, b, m)))));
+    seen.require(each("depth", DepthFormat::ALL.iter().map(|f| Some(*f)).chain([None])));
+    seen.require(each("depth test", CompareFunction::ALL.iter().map(|f| Some(*f)).chain([None])));
+    seen.require(each("alpha", CompareFunction::ALL.iter().map(|f| Some(*f)).chain([None])));
+    seen.require(each("source", BlendFactor::ALL));
+    seen.require(each("destination", BlendFactor::ALL));
+    let ops = [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
+    seen.require(each("blend", ops));
+    seen.require(each("write mask", 0..16_u8));
+    seen.require(each("targets", 1..5_usize));
+    seen.require(each("primitive", PRIMITIVES));
+    seen.require(each("center", [PixelCenter::Direct3d, PixelCenter::OpenGl]));
+    seen.require(each("clip space", [ClipSpace::Direct3d, ClipSpace::OpenGl]));
+    seen.require(each("cull", [Cull::None, Cull::Clockwise, Cull::CounterClockwise]));
+    seen.require(each("draws", [1, 2]));
+    let switches = ["levels", "depth write", "indices", "instances", "viewport", "scissor", "second pass"];
+    seen.require(switches.iter().flat_map(|s| each(s, [false, true])));
+}
+
+#[test]
+fn devices_reach_every_switch_value() {
+    let mut seen = Seen::default();
+    for suite in suite::all() {
+        let Kind::Card(card, _) = suite.kind else { continue };
+        for seed in 0..suite.seeds {
+            // The dice of `Suite::case`, up to the device.
+            let mut r = Random::named(&suite.name, seed);
+            suite::first_throws(&mut r);
+            for switch in rules::card(card, &mut r).switches() {
+                seen.add(card, (&switch.name, &switch.current));
+            }
+        }
+    }
+    for card in Profile::card_names() {
+        let switches = rules::profile(card);
+        let all = switches.switches().iter().flat_map(|s| s.values.iter().map(|v| (s.name.clone(), v.clone())));
+        seen.require(each(card, all));
+    }
+}
+
+#[test]
+fn every_suite_is_a_test_and_the_other_way_round() {
+    let program = std::env::current_exe().unwrap_or_else(|e| panic!("{e}"));
+    let listed = std::process::Command::new(program).arg("--list").output().unwrap_or_else(|e| panic!("{e}"));
+    let text = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let tests: BTreeSet<&str> = text.lines().filter_map(|l| l.strip_suffix(": test")).collect();
+    let suites = suite::all();
+    let names: BTreeSet<&str> = suites.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names.len(), suites.len(), "two suites have one name");
+    assert!(names.len() >= 150, "{} suites", names.len());
+    let own = ["coverage::", "fuzz::", "traces::"];
+    let suites_of_tests: BTreeSet<&str> = tests.into_iter().filter(|t| !own.iter().any(|o| t.starts_with(o))).collect();
+    assert_eq!(suites_of_tests, names);
+}

@@ -124,9 +124,7 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
     float[8][1] = 0x3e00_0000;
     Constants {
         float,
-        int: (0..3)
-            .map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0])
-            .collect(),
+        int: (0..3).map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0]).collect(),
         boolean: (0..3).map(|_| r.one_in(2)).collect(),
     }
 }
@@ -200,7 +198,7 @@ fn blend(options: &Options, r: &mut Random) -> BlendState {
 }
 
 fn viewport([width, height]: [u32; 2], r: &mut Random) -> Viewport {
-    let offset = |r: &mut Random| r.below(9) as i32 - 4;
+    let offset = |r: &mut Random| (r.below(9) as u32).cast_signed() - 4;
     let mut viewport = Viewport::new(1 + r.below(2 * width as usize) as u32, 1 + r.below(2 * height as usize) as u32);
     (viewport.x, viewport.y) = (offset(r), offset(r));
     if r.one_in(2) {
@@ -232,46 +230,48 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     let depths = depth_formats(&profile);
     let depth = options.depth.or_else(|| (options.compare.is_some() || !r.one_in(3)).then(|| r.choose(&depths)));
     let second = targets[0].record();
-    let readable = texture_formats(&profile).contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
+    let readable =
+        texture_formats(&profile).contains(&targets[0]) && (profile.limits.float_mipmaps || !second.is_float());
     let vertex_stage = options.version.stage() == Stage::Vertex;
-    let mut scene = Scene {
-        size,
-        pixel_constants: constants(r),
-        vertex_constants: constants(r),
-        textures,
-        bump: std::array::from_fn(|_| BumpStage {
-            matrix: r.vector(),
-            luminance_scale: r.number(),
-            luminance_offset: r.number(),
-        }),
-        vertex_count: geometry.vertices.len(),
-        vertices: geometry.vertices,
-        streams: Vec::new(),
-        instances: 1,
-        indices: geometry.indices,
-        primitive: geometry.primitive,
-        targets,
-        clear: if r.one_in(4) { r.vector() } else { [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, 0x3f80_0000] },
-        depth: depth.map(|format| (format, r.choose(&[0x3f40_0000, 0x3f80_0000, 0, 0x3f00_0000]))),
-        depth_state: depth_state(options, plain, r),
-        alpha: (!plain && r.one_in(2))
-            .then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
-        blend: (blends && (options.blend.is_some() || !plain && r.one_in(2))).then(|| blend(options, r)),
-        masks: std::array::from_fn(|_| {
-            if !plain && r.one_in(3) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }
-        }),
-        center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
-        clip_space: r.choose(&[ClipSpace::Direct3d, ClipSpace::Direct3d, ClipSpace::OpenGl]),
-        cull: r.choose(&[Cull::None, Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
-        viewport: r.one_in(6).then(|| viewport(size, r)),
-        scissor: r.one_in(6).then(|| {
-            let (x, y) = (r.below(size[0] as usize) as u32, r.below(size[1] as usize) as u32);
-            Region { x, y, width: 1 + r.below(40) as u32, height: 1 + r.below(40) as u32 }
-        }),
-        draws: if r.one_in(8) { 2 } else { 1 },
-        second_pass: readable && !vertex_stage && r.one_in(10),
-        profile,
-    };
+    let mut scene =
+        Scene {
+            size,
+            pixel_constants: constants(r),
+            vertex_constants: constants(r),
+            textures,
+            bump: std::array::from_fn(|_| BumpStage {
+                matrix: r.vector(),
+                luminance_scale: r.number(),
+                luminance_offset: r.number(),
+            }),
+            vertex_count: geometry.vertices.len(),
+            vertices: geometry.vertices,
+            streams: Vec::new(),
+            instances: 1,
+            indices: geometry.indices,
+            primitive: geometry.primitive,
+            targets,
+            clear: if r.one_in(4) { r.vector() } else { [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, 0x3f80_0000] },
+            depth: depth.map(|format| (format, r.choose(&[0x3f40_0000, 0x3f80_0000, 0, 0x3f00_0000]))),
+            depth_state: depth_state(options, plain, r),
+            alpha: (!plain && r.one_in(2))
+                .then(|| AlphaTest { function: r.choose(CompareFunction::ALL), reference: r.number() }),
+            blend: (blends && (options.blend.is_some() || !plain && r.one_in(2))).then(|| blend(options, r)),
+            masks: std::array::from_fn(|_| {
+                if !plain && r.one_in(3) { WriteMask(r.below(16) as u8) } else { WriteMask::ALL }
+            }),
+            center: r.choose(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+            clip_space: r.choose(&[ClipSpace::Direct3d, ClipSpace::Direct3d, ClipSpace::OpenGl]),
+            cull: r.choose(&[Cull::None, Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
+            viewport: r.one_in(6).then(|| viewport(size, r)),
+            scissor: r.one_in(6).then(|| {
+                let (x, y) = (r.below(size[0] as usize) as u32, r.below(size[1] as usize) as u32);
+                Region { x, y, width: 1 + r.below(40) as u32, height: 1 + r.below(40) as u32 }
+            }),
+            draws: if r.one_in(8) { 2 } else { 1 },
+            second_pass: readable && !vertex_stage && r.one_in(10),
+            profile,
+        };
     if vertex_stage {
         shapes::streams(&mut scene, r);
     }

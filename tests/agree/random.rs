@@ -20,7 +20,8 @@ impl Random {
 
     /// The stream of a seed within a suite.
     pub(crate) fn named(name: &str, seed: u64) -> Self {
-        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+        let hash =
+            name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
         let mut random = Self::new(hash ^ seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         random.next();
         random

@@ -98,10 +98,11 @@ fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
-/// An ideal device in some format of a family, with the rules of a group at random.
-pub(crate) fn ideal(family: Family, group: Group, r: &mut Random) -> Profile {
+/// An ideal device in a format of a family, the seed says which, with the rules of a group at random.
+pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> Profile {
     let mut profile = profile("ideal-fp32");
-    let name = r.pick(family.formats());
+    let formats = family.formats();
+    let name = formats[(seed % formats.len() as u64) as usize];
     profile.set_format(format(name));
     profile.name = format!("ideal-{name}");
     let rules = &mut profile.rules;
@@ -138,20 +139,18 @@ pub(crate) fn ideal(family: Family, group: Group, r: &mut Random) -> Profile {
 }
 
 /// Vertex programs in a format of the family, fp32 for the pixels.
-pub(crate) fn vertex_ideal(family: Family, group: Group, r: &mut Random) -> Profile {
-    let mut profile = ideal(Family::Fp32, group, r);
-    profile.rules.vertex_format = format(r.pick(family.formats()));
+pub(crate) fn vertex_ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> Profile {
+    let mut profile = ideal(Family::Fp32, group, seed, r);
+    let formats = family.formats();
+    profile.rules.vertex_format = format(formats[(seed % formats.len() as u64) as usize]);
     profile
 }
 
 /// A card with every switch at random.
 pub(crate) fn card(name: &str, r: &mut Random) -> Profile {
     let mut profile = profile(name);
-    let switches: Vec<(String, String)> = profile
-        .switches()
-        .iter()
-        .map(|s| (s.name.clone(), s.values[r.below(s.values.len())].clone()))
-        .collect();
+    let switches: Vec<(String, String)> =
+        profile.switches().iter().map(|s| (s.name.clone(), s.values[r.below(s.values.len())].clone())).collect();
     for (name, value) in switches {
         profile.set_switch(&name, &value).unwrap_or_else(|e| panic!("{name} = {value}: {e}"));
     }

@@ -6,7 +6,8 @@ use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::{BumpStage, CheckedProgram, Constants};
 use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, FragmentTrace, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
+    AttributeStream, DepthId, DrawCall, FragmentTrace, Machine, MachineError, StepRate, TextureId, VertexSource,
+    VertexStreams,
 };
 use refsim::output::{AlphaTest, BlendState, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
@@ -229,10 +230,7 @@ impl Outcome {
         if let Some(at) = self.depth.iter().zip(&other.depth).position(|(a, b)| a != b) {
             let width = self.targets.first().map_or(1, |(_, width, _)| *width);
             let (x, y) = (at as u32 % width, at as u32 / width);
-            return Some(format!(
-                "depth at ({x}, {y}): scalar {:#x}, {name} {:#x}",
-                self.depth[at], other.depth[at]
-            ));
+            return Some(format!("depth at ({x}, {y}): scalar {:#x}, {name} {:#x}", self.depth[at], other.depth[at]));
         }
         (self != other).then(|| format!("events: scalar {:?}, {name} {:?}", self.events, other.events))
     }

@@ -182,7 +182,7 @@ fn position(shape: Shape, size: [u32; 2], plane: bool, r: &mut Random) -> [u32; 
 pub(crate) fn streams(scene: &mut Scene, r: &mut Random) {
     let count = scene.vertices.len();
     scene.vertex_count = count;
-    let most = if r.one_in(4) { 60 } else { 6 };
+    let most = if r.one_in(8) { 40 } else { 5 };
     scene.instances = 1 + r.below(most);
     scene.streams.push((0, StepRate::Vertex, scene.vertices.iter().map(|v| v.position).collect()));
     for register in 1..8 {

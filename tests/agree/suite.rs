@@ -65,17 +65,18 @@ impl Suite {
         let r = &mut random;
         let options = |version: Version| Options::new(version);
         // Small programs, so that what the suite fixes is what is seen.
-        let version = r.choose(&PIXEL[3..]);
+        let version = first_throws(r);
+        let any = r.next();
         let family = Family::ALL[seed as usize % Family::ALL.len()];
         let together = Group::Together;
         match self.kind {
             Kind::Program(version, family, group) if version.stage() == Stage::Vertex => {
-                vertex_case(rules::vertex_ideal(family, group, r), version, r)
+                vertex_case(rules::vertex_ideal(family, group, seed, r), version, r)
             }
             Kind::Program(version, family, group) => {
                 let sampling = group == Group::Sampling && r.one_in(2);
                 let options = Options { sampling, ..options(version) };
-                pixel_case(rules::ideal(family, group, r), &options, 4, r)
+                pixel_case(rules::ideal(family, group, seed, r), &options, 4, r)
             }
             Kind::Card(card, version) if version.stage() == Stage::Vertex => {
                 vertex_case(rules::card(card, r), version, r)
@@ -84,37 +85,42 @@ impl Suite {
             Kind::Texture(format) => {
                 let version = if r.one_in(3) { PIXEL[r.below(3)] } else { version };
                 let options = Options { texture: Some(format), sampling: true, ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Address(kind, address) => {
                 let options = Options { kind: Some(kind), address: Some(address), sampling: true, ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Target(format) => {
                 let options = Options { target: Some(format), ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Depth(format) => {
                 let options = Options { depth: Some(format), ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Compare(compare) => {
                 let options = Options { compare: Some(compare), ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Blend(blend) => {
                 let options = Options { blend: Some(blend), ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Geometry(shape) => {
                 let options = Options { shape: Some(shape), ..options(version) };
-                pixel_case(rules::ideal(family, together, r), &options, 2, r)
+                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
             }
             Kind::Kernels => files::program_case(&files::KERNELS, seed, r),
             Kind::Shaders => files::program_case(&files::SHADERS, seed, r),
             Kind::Cases => files::run_case(seed, r),
         }
     }
+}
+
+/// What is thrown first for every suite: a version for those that fix none.
+pub(crate) fn first_throws(r: &mut Random) -> Version {
+    r.choose(&PIXEL[3..])
 }
 
 /// A random legal program.
@@ -168,7 +174,9 @@ pub(crate) fn pass_through(scene: &mut Scene, r: &mut Random) -> Vec<String> {
 /// A random vertex program before a pixel program that shows all its outputs.
 fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     let options = Options::new(version);
-    let (scene, layout) = dice::scene(profile, &options, r);
+    let (mut scene, layout) = dice::scene(profile, &options, r);
+    // It is the vertices that are to be seen.
+    scene.size = scene.size.map(|side| 1 + side % 12);
     let vertex = legal(version, &layout, 4, &scene.profile, r);
     let pixel = shows_all(&scene.profile, layout.targets);
     Case { scene, pixel, vertex: Some(vertex) }
@@ -204,13 +212,14 @@ pub(crate) fn all() -> Vec<Suite> {
                     continue;
                 }
                 let name = format!("programs::{}::{}::{}", version.token(), family.name(), group.name());
-                out.push(Suite::new(name, Kind::Program(version, family, group), 16));
+                let seeds = if vertex { 16 } else { 21 };
+                out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
         }
     }
     for card in Profile::card_names() {
         for version in &rules::profile(card).limits.versions {
-            out.push(Suite::new(format!("cards::{card}::{}", version.token()), Kind::Card(card, *version), 8));
+            out.push(Suite::new(format!("cards::{card}::{}", version.token()), Kind::Card(card, *version), 10));
         }
     }
     for &format in TexelFormat::ALL {

@@ -261,13 +261,8 @@ impl Writer<'_> {
                 format!("sincos{pp} {to}{mask}, {}{from}.{}, {a}, {b}", self.r.pick(&["", "-"]), component(self.r))
             }
             k => {
-                let (op, mask) = [
-                    ("m3x2", ".xy"),
-                    ("m3x3", ".xyz"),
-                    ("m3x4", ""),
-                    ("m4x3", ".xyz"),
-                    ("m4x4", ""),
-                ][if k == 7 { self.r.below(5) } else { k - 4 }];
+                let (op, mask) = [("m3x2", ".xy"), ("m3x3", ".xyz"), ("m3x4", ""), ("m4x3", ".xyz"), ("m4x4", "")]
+                    [if k == 7 { self.r.below(5) } else { k - 4 }];
                 let rows = format!("c{}", self.r.below(5));
                 format!("{op}{pp}{sat} {to}{mask}, {}{from}, {rows}", self.r.pick(&["", "-"]))
             }

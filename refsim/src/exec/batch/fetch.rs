@@ -211,7 +211,7 @@ fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
         ChannelValue::Ratio { numerator, denominator }
             if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 =>
         {
-            let x = odd::div_odd(numerator as f64, f64::from(denominator));
+            let x = odd::div_odd_long(numerator as f64, f64::from(denominator));
             with_any_lane!(lane, |lane| { rounded(lane, x) })
         }
         _ => lane.decode(channel.to_format(format)),

@@ -63,6 +63,19 @@ pub(crate) fn div_odd(a: f64, b: f64) -> f64 {
     if finite { odd(q, e) } else { quotient }
 }
 
+/// `a / b` rounded to odd to all 53 bits, for finite `a`, `b` of at most 24 significant bits, `b` not 0: what fixed-point
+/// formats of more than 24 bits need.
+///
+/// The quotient is split into 26 and 27 bits, whose products with `b` are exact. What is left of `a` is a multiple of the
+/// unit of the smaller product and less than `b` of them, so both differences are exact too.
+#[inline(always)]
+pub(crate) fn div_odd_long(a: f64, b: f64) -> f64 {
+    let q = a / b;
+    let high = head(q);
+    let rest = (a - high * b) - (q - high) * b;
+    odd(q, if b > 0.0 { rest } else { -rest })
+}
+
 /// The square root of `a >= 0` rounded to odd, for `a` of at most 24 significant bits.
 #[inline(always)]
 pub(crate) fn sqrt_odd(a: f64) -> f64 {

@@ -62,7 +62,7 @@ fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
         let low = if x > 0.0 { x } else { 0.0 };
         let clamped = if low < 1.0 { low } else { 1.0 };
         // 24 and 16 bits: the product is exact, and so is the sum where it comes near an integer.
-        slots.wide[i] = odd::div_odd((clamped * count + 0.5).floor(), count);
+        slots.wide[i] = odd::div_odd_long((clamped * count + 0.5).floor(), count);
     }
 }
 
