@@ -26,7 +26,7 @@ use crate::device::Profile;
 use crate::event::DrawEvents;
 use crate::exec::batch::{BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
-use crate::exec::{PixelBindings, SamplerBinding, TileDraw, TileExecutor};
+use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use memory::Memory;
 
 /// Which executor shades fragments. The bits are the same.
@@ -92,7 +92,7 @@ impl Machine {
         let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
-            walk::draw(memory, profile, call, &plan, kind, executor.as_ref())
+            walk::draw(memory, profile, call, &plan, kind, &executor)
         };
         let drawn = match &self.pool {
             Some(pool) => pool.install(work),
@@ -105,13 +105,19 @@ impl Machine {
     }
 }
 
+/// Who shades the tiles of a draw.
+enum Tiles<'a> {
+    Scalar(ScalarTiles<'a>),
+    Batch(Box<BatchTiles<'a>>),
+}
+
 /// The tile executor of a draw.
-fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Box<dyn TileExecutor + 'a> {
+fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Tiles<'a> {
     match kind {
-        ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
+        ExecutorKind::Scalar => Tiles::Scalar(ScalarTiles::new(draw)),
         ExecutorKind::Batch => match BatchTiles::new(draw) {
-            Some(tiles) => Box::new(tiles.with_simd_level(simd)),
-            None => Box::new(ScalarTiles::new(draw)),
+            Some(tiles) => Tiles::Batch(Box::new(tiles.with_simd_level(simd))),
+            None => Tiles::Scalar(ScalarTiles::new(draw)),
         },
     }
 }

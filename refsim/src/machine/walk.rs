@@ -3,10 +3,10 @@
 use super::memory::Memory;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
-use super::{DrawCall, ExecutorKind, MachineError};
+use super::{DrawCall, ExecutorKind, MachineError, Tiles};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
-use crate::exec::batch::SimdLevel;
+use crate::exec::batch::{SimdLevel, Surfaces};
 use crate::exec::{TILE, TileExecutor};
 use crate::output::TargetTile;
 use crate::raster::TriangleSetup;
@@ -38,7 +38,7 @@ pub(super) fn draw(
     call: &DrawCall<'_>,
     plan: &Plan,
     kind: (ExecutorKind, Option<SimdLevel>),
-    executor: &dyn TileExecutor,
+    executor: &Tiles<'_>,
 ) -> Result<Drawn, MachineError> {
     let stage = VertexStage::new(call, &profile.rules, kind);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
@@ -53,7 +53,18 @@ pub(super) fn draw(
         let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
         events.primitives += primitives;
         for part in setups.chunks(ROUND) {
-            shade(memory, call, part, executor, &mut work)?;
+            match executor {
+                Tiles::Scalar(tiles) => {
+                    let run = |order: &[u32], tile: &mut TargetTile| tiles.run_tile(part, order, tile);
+                    shade(memory, call, &|i| part.get(i), part.len(), &run, &mut work)?;
+                }
+                Tiles::Batch(tiles) => {
+                    let surfaces = Surfaces::from_setups(part, tiles.inputs());
+                    let round = tiles.round(&surfaces);
+                    let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile);
+                    shade(memory, call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
+                }
+            }
         }
         first += count;
     }
@@ -81,20 +92,21 @@ fn tiles(region: Region) -> Vec<Work> {
     out
 }
 
-/// Draws some triangles into all tiles.
-fn shade(
+/// Draws some triangles, whose set-ups `geometry` gives, into all tiles.
+fn shade<'s>(
     memory: &Memory,
     call: &DrawCall<'_>,
-    setups: &[TriangleSetup],
-    executor: &dyn TileExecutor,
+    geometry: &(impl Fn(usize) -> Option<&'s TriangleSetup> + Sync),
+    count: usize,
+    run: &(impl Fn(&[u32], &mut TargetTile) -> FragmentCounts + Sync),
     work: &mut [Work],
 ) -> Result<(), MachineError> {
-    let rows = row_bins(setups, work);
+    let rows = row_bins(geometry, count, work);
     work.par_iter_mut().try_for_each(|work| {
         let Some(row) = rows.get((work.region.y / TILE) as usize) else {
             return Ok(());
         };
-        let touches = |i: &u32| setups.get(*i as usize).is_some_and(|s| !s.misses(work.region));
+        let touches = |i: &u32| geometry(*i as usize).is_some_and(|s| !s.misses(work.region));
         let order: Vec<u32> = row.iter().copied().filter(touches).collect();
         if order.is_empty() {
             return Ok(());
@@ -103,20 +115,25 @@ fn shade(
             Some(tile) => tile,
             empty => empty.insert(load(memory, call, work.region)?),
         };
-        work.counts += executor.run_tile(setups, &order, tile);
+        work.counts += run(&order, tile);
         Ok(())
     })
 }
 
 /// For each row of tiles the triangles whose bounding box meets it, in order.
-fn row_bins(setups: &[TriangleSetup], work: &[Work]) -> Vec<Vec<u32>> {
+fn row_bins<'s>(
+    geometry: &impl Fn(usize) -> Option<&'s TriangleSetup>,
+    triangles: usize,
+    work: &[Work],
+) -> Vec<Vec<u32>> {
     let count = work.last().map_or(0, |w| w.region.y / TILE + 1);
     let mut rows = vec![Vec::new(); count as usize];
-    for (index, setup) in (0u32..).zip(setups) {
+    for index in 0..triangles {
+        let Some(setup) = geometry(index) else { continue };
         let first = setup.bounds.y / TILE;
         let last = (setup.bounds.y + setup.bounds.height.max(1) - 1) / TILE;
         for row in rows.iter_mut().take(last as usize + 1).skip(first as usize) {
-            row.push(index);
+            row.push(index as u32);
         }
     }
     rows

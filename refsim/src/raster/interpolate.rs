@@ -96,8 +96,7 @@ impl TriangleSetup {
         if format == Format::FP32 {
             return along(plane, weights.perspective, format);
         }
-        let converted = weights.perspective.map(|w| num::ops::convert(&Format::FP32, format, w).bits);
-        num::ops::convert(&format, Format::FP32, along(plane, converted, format)).bits
+        interpolated(plane, weights.perspective, format)
     }
 
     /// The inputs of the fragment at pixel (x, y): depth and the components asked for; the others are 0.
@@ -117,6 +116,12 @@ impl TriangleSetup {
         }
         input
     }
+}
+
+/// A component that varies, at FP32 weights, in an iterator format other than FP32. FP32 bits.
+pub(crate) fn interpolated(plane: &Plane, weights: [u32; 2], format: Format) -> u32 {
+    let converted = weights.map(|w| num::ops::convert(&Format::FP32, format, w).bits);
+    num::ops::convert(&format, Format::FP32, along(plane, converted, format)).bits
 }
 
 /// `(base + l1 * d1) + l2 * d2`

@@ -16,6 +16,7 @@ mod vertex;
 pub use assembly::{Primitive, assemble};
 pub use cover::{PixelQuad, QuadIterator};
 pub use error::RasterError;
+pub(crate) use interpolate::interpolated;
 pub use interpolate::{ComponentMask, FragmentInput, Weights};
 pub use setup::{
     ClipSpace, Cull, Dropped, Edge, PixelCenter, Plane, RasterRules, RasterState, SetupReport, TriangleSetup, Viewport,

@@ -173,31 +173,29 @@ impl Table {
 #[inline(always)]
 fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i32; LANES]) {
     let n = f64::from(size);
+    match mode {
+        AddressMode::Wrap => each(coordinate, scale, out, |p| p - (p / n).floor() * n),
+        AddressMode::Mirror => each(coordinate, scale, out, |p| {
+            let folded = p - (p / (2.0 * n)).floor() * (2.0 * n);
+            if folded < n { folded } else { 2.0 * n - 1.0 - folded }
+        }),
+        AddressMode::Clamp => each(coordinate, scale, out, |p| {
+            let above = if p > 0.0 { p } else { 0.0 };
+            if above < n - 1.0 { above } else { n - 1.0 }
+        }),
+        AddressMode::Border => each(coordinate, scale, out, |p| if (p >= 0.0) & (p < n) { p } else { -1.0 }),
+    }
+}
+
+/// Texel numbers by the position of a coordinate in texels, rounded down.
+#[inline(always)]
+fn each(coordinate: &Row, scale: f64, out: &mut [i32; LANES], number: impl Fn(f64) -> f64) {
     for i in 0..LANES {
         let c = f64::from(f32::from_bits(coordinate[i]));
         let finite = if c.abs() < f64::INFINITY { c } else { 0.0 };
         let low = if finite > -FAR { finite } else { -FAR };
         let tamed = if low < FAR { low } else { FAR };
-        let position = (tamed * scale).floor();
-        let index = match mode {
-            AddressMode::Wrap => position - (position / n).floor() * n,
-            AddressMode::Mirror => {
-                let folded = position - (position / (2.0 * n)).floor() * (2.0 * n);
-                if folded < n { folded } else { 2.0 * n - 1.0 - folded }
-            }
-            AddressMode::Clamp => {
-                let above = if position > 0.0 { position } else { 0.0 };
-                if above < n - 1.0 { above } else { n - 1.0 }
-            }
-            AddressMode::Border => {
-                if (position >= 0.0) & (position < n) {
-                    position
-                } else {
-                    -1.0
-                }
-            }
-        };
-        out[i] = index as i32;
+        out[i] = number((tamed * scale).floor()) as i32;
     }
 }
 

@@ -6,7 +6,8 @@
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
 //!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
 //!   reads, and with what only one operation reads as part of that.
-//! - `ops`, `steps`, `fetch`, `raster`, `output`: carrying the steps out, 256 lanes at a time.
+//! - `ops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
+//! - `surfaces`, `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`, `trace`: the ways in.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
@@ -32,9 +33,12 @@ mod power;
 mod program;
 mod raster;
 mod schedule;
+mod shader;
 mod simd;
 mod slots;
 mod steps;
+mod surfaces;
+mod targets;
 mod tile;
 mod trace;
 mod translate;
@@ -43,6 +47,7 @@ mod vertex;
 
 pub use evaluate::{LaneOperation, convert, evaluate};
 pub use simd::SimdLevel;
-pub use tile::BatchTiles;
+pub use surfaces::Surfaces;
+pub use tile::{BatchTiles, Round};
 pub use trace::BatchTracer;
 pub use vertex::BatchVertices;

@@ -1,17 +1,22 @@
-//! From shaded lanes to targets: tests in rows, then the fragments that pass one by one through the output room.
+//! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets of
+//! signed or small float channels) goes through the output room, fragment by fragment.
 
 use super::arith::Formats;
 use super::graph::Arith;
 use super::lane::{LANES, Lane};
-use super::lanes::{AnyLane, with_any_lane};
+use super::lanes::with_any_lane;
+use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots, TRUE};
+use super::targets::{Coding, ColorRows, PackedChannel, Packing, Targets};
 use crate::event::FragmentCounts;
 use crate::num::{Format, Kind, ops};
 use crate::output::{
-    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentFate, FragmentOutput, OutputRules, OutputState,
-    TargetTile, merge,
+    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MOST_TARGETS, OutputRules, OutputState, merge,
 };
 use crate::texture::TargetRounding;
+
+/// Fragments of a tile up to which it is quicker to write them one by one than to make whole rows of texels.
+const FEW: u32 = 24;
 
 /// Where the results of a program lie.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +29,38 @@ pub(crate) struct Results {
     pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,
 }
 
+impl Results {
+    /// Whether the interpolated depth is of no interest.
+    pub(crate) fn decide_depth(&self) -> bool {
+        matches!(self.depth, Some((_, _, None)))
+    }
+}
+
+/// What a program left behind in the lanes of a tile.
+#[derive(Clone, Copy)]
+pub(crate) struct Shaded<'a> {
+    pub(crate) results: &'a Results,
+    pub(crate) formats: &'a Formats,
+    pub(crate) slots: &'a Slots,
+    pub(crate) covered: &'a Row,
+    /// Interpolated depth.
+    pub(crate) depth: &'a Row,
+}
+
+/// The lanes that the tests before the depth test left, with their depths as the depth buffer stores them.
+#[derive(Clone, Debug)]
+pub(crate) struct Survivors {
+    pub(crate) alive: Row,
+    pub(crate) count: u32,
+    pub(crate) depth: Row,
+}
+
+impl Survivors {
+    pub(crate) fn new() -> Self {
+        Self { alive: [0; LANES], count: 0, depth: [0; LANES] }
+    }
+}
+
 /// The output stage of a draw.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
@@ -34,146 +71,286 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Takes the covered lanes through the output stage.
-    pub(crate) fn run(
+    /// Kill and alpha test, and depths made ready for the depth test.
+    pub(crate) fn test(
         &self,
-        (results, formats, slots): (&Results, &Formats, &Slots),
-        (covered, depth): (&Row, &Row),
-        origin: (u32, u32),
-        tile: &mut TargetTile,
+        shaded: Shaded<'_>,
+        depth: Option<DepthFormat>,
+        out: &mut Survivors,
         counts: &mut FragmentCounts,
     ) {
-        let mut alive = *covered;
-        if let Some(killed) = results.killed {
-            counts.killed += drop_lanes(&mut alive, |i| slots.row(killed)[i] == 0);
+        let simd = shaded.formats.simd();
+        let before = |row: &Row| {
+            simd.run(
+                #[inline(always)]
+                || population(row),
+            )
+        };
+        out.alive = *shaded.covered;
+        out.count = before(&out.alive);
+        if let Some(killed) = shaded.results.killed {
+            let killed = shaded.slots.row(killed);
+            simd.run(
+                #[inline(always)]
+                || and(&mut out.alive, killed, u32::MAX),
+            );
+            counts.killed += self.recount(simd, out);
         }
         if let Some(test) = &self.state.alpha {
             let mut passes = [0; LANES];
-            self.alpha(test, results, formats, slots, &mut passes);
-            counts.alpha_failed += drop_lanes(&mut alive, |i| passes[i] != 0);
+            alpha(test, &shaded, &mut passes);
+            simd.run(
+                #[inline(always)]
+                || and(&mut out.alive, &passes, 0),
+            );
+            counts.alpha_failed += self.recount(simd, out);
         }
-        if let (Some(function), true) = (self.state.depth.test, tile.depth.is_some()) {
-            let mut new = [0; LANES];
-            self.quantised(results, formats, slots, depth, &alive, tile, &mut new);
-            counts.depth_failed += self.depth_test(function, &new, &mut alive, origin, tile);
-        }
-        // What is left is blended and written by the reference; its tests are switched off.
-        let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
-        let main = formats.lane(Arith::Main);
-        for lane in (0..LANES).filter(|&l| alive[l] != 0) {
-            let colors = results.colors.map(|c| c.map_or([0; 4], |c| c.map(|s| main.encode(slots.row(s)[lane]))));
-            let fragment = FragmentOutput { colors, written: self.written, depth: None, killed: false };
-            let (x, y) = super::raster::place(lane);
-            if merge(tile, (origin.0 + x, origin.1 + y), &fragment, 0, &state, &self.rules) == FragmentFate::Passed {
-                counts.passed += 1;
-            }
+        if let (Some(_), Some(format), true) = (self.state.depth.test, depth, out.count > 0) {
+            self.quantised(&shaded, format, out);
         }
     }
 
-    fn alpha(&self, test: &AlphaTest, results: &Results, formats: &Formats, slots: &Slots, passes: &mut Row) {
-        let main = formats.lane(Arith::Main);
-        let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
-        let zero = [0; LANES];
-        let alpha = results.colors[0].map_or(&zero, |c| slots.row(c[3]));
-        with_any_lane!(main, |lane| { compare(lane, alpha, reference, test.function, passes) });
+    /// Counts the lanes again; gives how many are gone.
+    fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
+        let left = simd.run(
+            #[inline(always)]
+            || population(&out.alive),
+        );
+        let gone = out.count - left;
+        out.count = left;
+        gone.into()
+    }
+
+    /// Depth test, blending and writing of the lanes that are left.
+    pub(crate) fn merge(
+        &self,
+        shaded: Shaded<'_>,
+        survivors: &mut Survivors,
+        targets: &mut Targets<'_>,
+        counts: &mut FragmentCounts,
+    ) {
+        if survivors.count == 0 {
+            return;
+        }
+        let simd = shaded.formats.simd();
+        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+            let (new, alive) = (&survivors.depth, &mut survivors.alive);
+            simd.run(
+                #[inline(always)]
+                || depth_test(function, self.state.depth.write, new, alive, stored),
+            );
+            counts.depth_failed += self.recount(simd, survivors);
+        }
+        counts.passed += u64::from(survivors.count);
+        if survivors.count == 0 {
+            return;
+        }
+        for i in 0..MOST_TARGETS {
+            let Some(rows) = &mut targets.colors[i] else { continue };
+            let Some(colors) = shaded.results.colors[i] else { continue };
+            let colors = colors.map(|slot| shaded.slots.row(slot));
+            write_rows(rows, colors, survivors, shaded.formats);
+        }
+        self.merge_rest(shaded, survivors, targets);
+    }
+
+    /// What rows don't do goes through the output room, its tests switched off.
+    fn merge_rest(&self, shaded: Shaded<'_>, survivors: &Survivors, targets: &mut Targets<'_>) {
+        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
+        let written = here.fold(0, |bits, i| bits | (self.written & 1 << i));
+        if written == 0 {
+            return;
+        }
+        let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
+        let main = shaded.formats.lane(Arith::Main);
+        for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
+            let value = |slot: Slot| main.encode(shaded.slots.row(slot)[lane]);
+            let colors = shaded.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value)));
+            let fragment = FragmentOutput { colors, written, depth: None, killed: false };
+            let (x, y) = super::raster::place(lane);
+            merge(targets.tile, (targets.origin.0 + x, targets.origin.1 + y), &fragment, 0, &state, &self.rules);
+        }
     }
 
     /// Depths as the depth buffer stores them, for the lanes still alive.
-    #[expect(clippy::too_many_arguments, reason = "rows in, rows out")]
-    fn quantised(
-        &self,
-        results: &Results,
-        formats: &Formats,
-        slots: &Slots,
-        depth: &Row,
-        alive: &Row,
-        tile: &TargetTile,
-        out: &mut Row,
-    ) {
-        let Some(buffer) = &tile.depth else { return };
-        let rounding = self.rules.depth_rounding;
+    fn quantised(&self, shaded: &Shaded<'_>, buffer: DepthFormat, out: &mut Survivors) {
+        let (formats, slots, rounding) = (shaded.formats, shaded.slots, self.rules.depth_rounding);
         let single = formats.lane(Arith::Single);
-        match results.depth {
-            Some((arith, own, None)) => {
-                let lane = formats.lane(arith);
-                quantise(lane, formats.format(arith), buffer.format, rounding, slots.row(own), alive, out);
-            }
+        match shaded.results.depth {
+            Some((arith, own, None)) => quantise((formats, arith), buffer, rounding, slots.row(own), out),
             Some((arith, own, Some(decided))) => {
                 let decided = slots.row(decided);
-                for i in (0..LANES).filter(|&i| alive[i] != 0) {
+                for i in (0..LANES).filter(|&i| out.alive[i] != 0) {
                     let (format, bits) = if decided[i] != 0 {
                         (formats.format(arith), formats.lane(arith).encode(slots.row(own)[i]))
                     } else {
-                        (Format::FP32, single.encode(depth[i]))
+                        (Format::FP32, single.encode(shaded.depth[i]))
                     };
-                    out[i] = buffer.format.quantise(format, bits, rounding);
+                    out.depth[i] = buffer.quantise(format, bits, rounding);
                 }
             }
-            None => quantise(single, Format::FP32, buffer.format, rounding, depth, alive, out),
+            None => quantise((formats, Arith::Single), buffer, rounding, shaded.depth, out),
         }
-    }
-
-    fn depth_test(
-        &self,
-        function: CompareFunction,
-        new: &Row,
-        alive: &mut Row,
-        origin: (u32, u32),
-        tile: &mut TargetTile,
-    ) -> u64 {
-        let region = tile.region;
-        let Some(buffer) = &mut tile.depth else { return 0 };
-        let mut failed = 0;
-        for y in 0..region.height.min(16) {
-            let start = (y * region.width) as usize;
-            let Some(row) = buffer.data.get_mut(start..start + region.width as usize) else { continue };
-            let first = ((region.y - origin.1 + y) * 16 + region.x - origin.0) as usize;
-            for (k, old) in row.iter_mut().enumerate() {
-                let i = first + k;
-                if alive[i] == 0 {
-                    continue;
-                }
-                if !function.holds(Some(new[i].cmp(old))) {
-                    alive[i] = 0;
-                    failed += 1;
-                } else if self.state.depth.write {
-                    *old = new[i];
-                }
-            }
-        }
-        failed
     }
 }
 
-/// Drops the lanes for which `stays` doesn't hold and counts them.
-fn drop_lanes(alive: &mut Row, stays: impl Fn(usize) -> bool) -> u64 {
-    let mut dropped = 0;
-    for (i, lane) in alive.iter_mut().enumerate() {
-        let goes = (*lane != 0) & !stays(i);
-        dropped += u64::from(goes);
-        *lane = if goes { 0 } else { *lane };
+/// Lanes in a mask.
+#[inline(always)]
+fn population(row: &Row) -> u32 {
+    row.iter().map(|&m| m & 1).sum()
+}
+
+/// `alive` where the other row, turned by `flip`, holds too.
+#[inline(always)]
+fn and(alive: &mut Row, mask: &Row, flip: u32) {
+    for i in 0..LANES {
+        alive[i] &= mask[i] ^ flip;
     }
-    dropped
+}
+
+/// Mask of the lanes whose alpha passes.
+fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut Row) {
+    let formats = shaded.formats;
+    let main = formats.lane(Arith::Main);
+    let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
+    let zero = [0; LANES];
+    let alpha = shaded.results.colors[0].map_or(&zero, |c| shaded.slots.row(c[3]));
+    with_any_lane!(main, |lane| {
+        formats.simd().run(
+            #[inline(always)]
+            || compare(lane, alpha, reference, test.function, passes),
+        )
+    });
 }
 
 /// Mask of the lanes whose value compares so with the reference; a NaN is equal to nothing.
+#[inline(always)]
 fn compare<L: Lane>(lane: &L, row: &Row, reference: u32, function: CompareFunction, out: &mut Row) {
-    let r = L::load(reference);
-    for i in 0..LANES {
-        let a = L::load(row[i]);
-        let (below, equal, above) = (lane.lt(a, r), lane.eq(a, r), lane.lt(r, a));
-        let holds = match function {
-            CompareFunction::Never => false,
-            CompareFunction::Less => below,
-            CompareFunction::Equal => equal,
-            CompareFunction::LessEqual => below | equal,
-            CompareFunction::Greater => above,
-            CompareFunction::NotEqual => !equal,
-            CompareFunction::GreaterEqual => above | equal,
-            CompareFunction::Always => true,
-        };
-        out[i] = if holds { TRUE } else { 0 };
+    #[inline(always)]
+    fn rows<L: Lane>(row: &Row, out: &mut Row, holds: impl Fn(L::T) -> bool) {
+        for i in 0..LANES {
+            out[i] = if holds(L::load(row[i])) { TRUE } else { 0 };
+        }
     }
+    let r = L::load(reference);
+    match function {
+        CompareFunction::Never => out.fill(0),
+        CompareFunction::Less => rows::<L>(row, out, |a| lane.lt(a, r)),
+        CompareFunction::Equal => rows::<L>(row, out, |a| lane.eq(a, r)),
+        CompareFunction::LessEqual => rows::<L>(row, out, |a| lane.lt(a, r) | lane.eq(a, r)),
+        CompareFunction::Greater => rows::<L>(row, out, |a| lane.lt(r, a)),
+        CompareFunction::NotEqual => rows::<L>(row, out, |a| !lane.eq(a, r)),
+        CompareFunction::GreaterEqual => rows::<L>(row, out, |a| lane.lt(r, a) | lane.eq(a, r)),
+        CompareFunction::Always => out.fill(TRUE),
+    }
+}
+
+/// Takes lanes that fail out of `alive`; the others' depths are stored if `write` says so.
+#[inline(always)]
+fn depth_test(function: CompareFunction, write: bool, new: &Row, alive: &mut Row, stored: &mut Row) {
+    #[inline(always)]
+    fn rows(new: &Row, alive: &mut Row, stored: &Row, holds: impl Fn(u32, u32) -> bool) {
+        for i in 0..LANES {
+            alive[i] &= if holds(new[i], stored[i]) { TRUE } else { 0 };
+        }
+    }
+    match function {
+        CompareFunction::Never => alive.fill(0),
+        CompareFunction::Less => rows(new, alive, stored, |a, b| a < b),
+        CompareFunction::Equal => rows(new, alive, stored, |a, b| a == b),
+        CompareFunction::LessEqual => rows(new, alive, stored, |a, b| a <= b),
+        CompareFunction::Greater => rows(new, alive, stored, |a, b| a > b),
+        CompareFunction::NotEqual => rows(new, alive, stored, |a, b| a != b),
+        CompareFunction::GreaterEqual => rows(new, alive, stored, |a, b| a >= b),
+        CompareFunction::Always => {}
+    }
+    if write {
+        super::raster::lay_over(stored, new, alive);
+    }
+}
+
+/// Writes the texels of the lanes that are left.
+fn write_rows(rows: &mut ColorRows, colors: [&Row; 4], survivors: &Survivors, formats: &Formats) {
+    let (main, simd) = (formats.lane(Arith::Main), formats.simd());
+    let Packing { channels, written } = &rows.packing;
+    if survivors.count <= FEW {
+        for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
+            for (word, &bits) in rows.words.iter_mut().zip(written) {
+                word[lane] &= !bits;
+            }
+            for channel in channels {
+                let raw = colors[channel.component][lane];
+                let value = with_any_lane!(main, |l| { code(l, raw, channel.coding) });
+                rows.words[channel.word][lane] |= value << channel.shift;
+            }
+        }
+        return;
+    }
+    let mut texels = [0; LANES];
+    for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
+        texels.fill(0);
+        for channel in channels.iter().filter(|c| c.word == number) {
+            let row = colors[channel.component];
+            with_any_lane!(main, |l| {
+                simd.run(
+                    #[inline(always)]
+                    || pack(l, row, channel, &mut texels),
+                )
+            });
+        }
+        let (alive, bits) = (&survivors.alive, written[number]);
+        simd.run(
+            #[inline(always)]
+            || {
+                for i in 0..LANES {
+                    let mask = alive[i] & bits;
+                    word[i] = (word[i] & !mask) | (texels[i] & mask);
+                }
+            },
+        );
+    }
+}
+
+#[inline(always)]
+fn pack<L: Lane>(lane: &L, row: &Row, channel: &PackedChannel, texels: &mut Row) {
+    match channel.coding {
+        Coding::Steps(scale, half) => {
+            for i in 0..LANES {
+                texels[i] |= steps(lane, row[i], scale, half) << channel.shift;
+            }
+        }
+        Coding::Single => {
+            for i in 0..LANES {
+                texels[i] |= single(lane, row[i]);
+            }
+        }
+    }
+}
+
+/// The bits of a channel for a value.
+fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
+    match coding {
+        Coding::Steps(scale, half) => steps(lane, raw, scale, half),
+        Coding::Single => single(lane, raw),
+    }
+}
+
+#[inline(always)]
+fn steps<L: Lane>(lane: &L, raw: u32, scale: f64, half: f64) -> u32 {
+    (clamped(lane.to_f64(L::load(raw))) * scale + half) as u32
+}
+
+#[inline(always)]
+fn single<L: Lane>(lane: &L, raw: u32) -> u32 {
+    let x = lane.to_f64(L::load(raw)) as f32;
+    if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
+}
+
+/// A value clamped to [0, 1]; NaN gives 0.
+#[inline(always)]
+fn clamped(x: f64) -> f64 {
+    let low = if x > 0.0 { x } else { 0.0 };
+    if low < 1.0 { low } else { 1.0 }
 }
 
 /// Values clamped to [0, 1] as depth patterns.
@@ -181,47 +358,87 @@ fn compare<L: Lane>(lane: &L, row: &Row, reference: u32, function: CompareFuncti
 /// In doubles: a value of at most 24 significant bits times 2^24 - 1 is exact, and so is adding the half where that
 /// decides anything. Wider values and the other depth formats go through the output room.
 fn quantise(
-    lane: &AnyLane,
-    format: Format,
+    (formats, arith): (&Formats, Arith),
     depth: DepthFormat,
     rounding: TargetRounding,
     row: &Row,
-    alive: &Row,
-    out: &mut Row,
+    out: &mut Survivors,
 ) {
-    let narrow = match format.kind {
-        Kind::Fixed { .. } => format.width() <= 24,
-        Kind::Float { .. } => true,
+    let (lane, format, simd) = (formats.lane(arith), formats.format(arith), formats.simd());
+    let bits = match depth {
+        DepthFormat::Unorm16 => 16,
+        DepthFormat::Unorm24 => 24,
+        _ => 0,
     };
-    let steps = match depth {
-        DepthFormat::Unorm16 => 65_535.0,
-        DepthFormat::Unorm24 => 16_777_215.0,
-        DepthFormat::Float32 if narrow => return with_any_lane!(lane, |lane| { to_single(lane, row, out) }),
-        _ => 0.0,
-    };
-    if narrow && steps > 0.0 {
-        let half = if rounding == TargetRounding::Nearest { 0.5 } else { 0.0 };
-        return with_any_lane!(lane, |lane| { to_steps(lane, row, steps, half, out) });
+    let nearest = rounding == TargetRounding::Nearest;
+    let to = &mut out.depth;
+    match format.kind {
+        Kind::Fixed { frac_bits, .. } if u32::from(frac_bits) <= bits => {
+            return simd.run(
+                #[inline(always)]
+                || fixed_to_steps(row, frac_bits.into(), bits, nearest, to),
+            );
+        }
+        Kind::Float { .. } if bits > 0 => {
+            let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
+            return simd.run(
+                #[inline(always)]
+                || float_to_steps(row, scale, half, to),
+            );
+        }
+        Kind::Float { .. } if depth == DepthFormat::Float32 => {
+            return simd.run(
+                #[inline(always)]
+                || float_to_single(row, to),
+            );
+        }
+        // At most 24 bits: exact in single precision.
+        Kind::Fixed { frac_bits, .. } if depth == DepthFormat::Float32 && format.width() <= 24 => {
+            return simd.run(
+                #[inline(always)]
+                || fixed_to_single(row, frac_bits.into(), to),
+            );
+        }
+        _ => {}
     }
-    for i in (0..LANES).filter(|&i| alive[i] != 0) {
-        out[i] = depth.quantise(format, lane.encode(row[i]), rounding);
+    for i in (0..LANES).filter(|&i| out.alive[i] != 0) {
+        out.depth[i] = depth.quantise(format, lane.encode(row[i]), rounding);
     }
 }
 
-/// A value clamped to [0, 1]; NaN gives 0.
-fn clamped(x: f64) -> f64 {
-    let low = if x > 0.0 { x } else { 0.0 };
-    if low < 1.0 { low } else { 1.0 }
-}
-
-fn to_steps<L: Lane>(lane: &L, row: &Row, steps: f64, half: f64, out: &mut Row) {
+/// A fixed-point value `k / 2^F` of [0, 1] is `k 2^(n-F)` steps of `1 / (2^n - 1)`, less the fraction `k / 2^F`: one less
+/// where that is more than what rounding makes up for.
+#[inline(always)]
+fn fixed_to_steps(row: &Row, frac: u32, bits: u32, nearest: bool, out: &mut Row) {
+    let one = 1i32 << frac;
+    let kept = if nearest { one } else { 0 };
     for i in 0..LANES {
-        out[i] = (clamped(lane.to_f64(L::load(row[i]))) * steps + half) as u32;
+        let k = row[i].cast_signed().clamp(0, one);
+        out[i] = ((k << (bits - frac)) - i32::from(2 * k > kept)).cast_unsigned();
     }
 }
 
-fn to_single<L: Lane>(lane: &L, row: &Row, out: &mut Row) {
+#[inline(always)]
+fn fixed_to_single(row: &Row, frac: u32, out: &mut Row) {
+    let one = 1i32 << frac;
     for i in 0..LANES {
-        out[i] = (clamped(lane.to_f64(L::load(row[i]))) as f32).to_bits();
+        out[i] = (row[i].cast_signed().clamp(0, one) as f32 / one as f32).to_bits();
+    }
+}
+
+/// Every float format's numbers are held as host singles.
+#[inline(always)]
+fn float_to_steps(row: &Row, scale: f64, half: f64, out: &mut Row) {
+    for i in 0..LANES {
+        out[i] = (clamped(f64::from(f32::from_bits(row[i]))) * scale + half) as u32;
+    }
+}
+
+#[inline(always)]
+fn float_to_single(row: &Row, out: &mut Row) {
+    for i in 0..LANES {
+        let x = f32::from_bits(row[i]);
+        let low = if x > 0.0 { x } else { 0.0 };
+        out[i] = if low < 1.0 { low } else { 1.0f32 }.to_bits();
     }
 }

@@ -1,12 +1,15 @@
-//! Pixel programs without flow control: one graph, scheduled as two blocks.
+//! Pixel programs without flow control: one graph, scheduled as three blocks.
 //!
 //! What is the same all over a triangle (attributes that are, and whatever is computed from them and constants) is
-//! computed for 256 triangles at a time, a triangle a lane; the rest for 256 fragments of one triangle.
+//! computed for 256 triangles at a time, a triangle a lane. What depends on nothing of that kind, only on the place in the
+//! tile (coordinates that vary, texels read at them), is computed for 256 fragments, and kept for as long as triangles
+//! have the same planes there: the crossbar reads its rays once a tile, not once a quad. The rest is computed for 256
+//! fragments of each triangle.
 
 use std::collections::BTreeMap;
 
 use super::arith::Formats;
-use super::graph::{Arith, Graph, Kind, Node};
+use super::graph::{Arith, Detail, Graph, Kind, Node};
 use super::ops::Code;
 use super::output::Results;
 use super::schedule::{Block, schedule};
@@ -25,6 +28,8 @@ pub(crate) struct StraightProgram {
     ends: Ends,
     /// Texture reads by sampler, one for each read of a fragment.
     pub(crate) fetches: Vec<usize>,
+    /// Whether no lane's result depends on another lane, so that lanes of different triangles can be run together.
+    pub(crate) lanes_apart: bool,
 }
 
 /// What a straight pixel program leaves behind.
@@ -40,7 +45,10 @@ pub(crate) struct Ends {
 pub(crate) struct StraightPlan {
     /// For 256 triangles: inputs are constant components, roots the values that the other block is given.
     pub(crate) uniform: Block,
-    /// For the fragments of a triangle; `given` slots in the order of `uniform.roots`.
+    /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they are
+    /// while `varying` runs.
+    pub(crate) invariant: Block,
+    /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of `uniform.roots`.
     pub(crate) varying: Block,
     pub(crate) results: Results,
 }
@@ -64,33 +72,67 @@ impl StraightProgram {
     ) -> Self {
         let mut t = Translator::new(program, rules, formats.clone(), constants, Some(bindings));
         let ends = decode(&mut t, program, |_, _| {});
-        Self { ends, fetches: t.fetches, graph: t.make.graph }
+        let lanes_apart = !looks_at_neighbours(&t.make.graph, bindings);
+        Self { ends, fetches: t.fetches, lanes_apart, graph: t.make.graph }
     }
 
     /// Schedules the program for triangles whose components in `constant` are constant.
     pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
         let uniform = self.graph.uniform(|component| constant.has(component.into()));
+        let invariant = self.invariant(constant);
         let roots = self.ends.roots();
         let live = self.graph.live(roots.iter().copied());
-        // Given to the varying block: uniform values that something varying, or the output, reads.
+        // Values that the varying block, or the output, reads and does not make itself.
         let is_constant = |n: Node| matches!(self.graph.kind(n), Kind::Constant(_));
+        let made_before = |n: Node| uniform[n.0 as usize] || invariant[n.0 as usize];
         let mut wanted = vec![false; self.graph.len()];
-        for i in 0..self.graph.len() as u32 {
-            let node = Node(i);
-            if live[i as usize] && !uniform[i as usize] {
-                self.graph.kind(node).needs(|n| wanted[n.0 as usize] |= uniform[n.0 as usize] && !is_constant(n));
-            }
+        let mut want = |n: Node| wanted[n.0 as usize] |= made_before(n) && !is_constant(n);
+        for node in self.nodes().filter(|&n| live[n.0 as usize] && !made_before(n)) {
+            self.graph.kind(node).needs(&mut want);
         }
-        for &root in &roots {
-            wanted[root.0 as usize] |= uniform[root.0 as usize] && !is_constant(root);
-        }
-        let given: Vec<Node> = (0..self.graph.len() as u32).map(Node).filter(|n| wanted[n.0 as usize]).collect();
-        let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &BTreeMap::new(), 0);
+        roots.iter().copied().for_each(want);
+        let kept: Vec<Node> = self.nodes().filter(|n| wanted[n.0 as usize] && !uniform[n.0 as usize]).collect();
+        let given: Vec<Node> = self.nodes().filter(|n| wanted[n.0 as usize] && uniform[n.0 as usize]).collect();
+        let invariant = schedule(&self.graph, &kept, |_| false, &BTreeMap::new(), 0);
+        let placed = kept.into_iter().zip(invariant.roots.iter().copied()).collect();
+        let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &placed, invariant.slots);
         debug_assert_eq!(varying.given.iter().map(|g| g.0).collect::<Vec<_>>(), given, "one slot for each given value");
         let uniform = schedule(&self.graph, &given, |_| false, &BTreeMap::new(), 0);
         let results = self.ends.results(&varying.roots);
-        StraightPlan { uniform, varying, results }
+        StraightPlan { uniform, invariant, varying, results }
     }
+
+    fn nodes(&self) -> impl Iterator<Item = Node> {
+        (0..self.graph.len() as u32).map(Node)
+    }
+
+    /// For each node whether it depends on constants and on components that vary, alone.
+    fn invariant(&self, constant: ComponentMask) -> Vec<bool> {
+        let mut invariant = Vec::with_capacity(self.graph.len());
+        for node in self.nodes() {
+            let kind = self.graph.kind(node);
+            let mut all = match kind {
+                Kind::Input(component) => !constant.has(component.into()),
+                Kind::Held(_) | Kind::Relative(..) => false,
+                _ => true,
+            };
+            kind.needs(|n| all &= invariant[n.0 as usize]);
+            invariant.push(all);
+        }
+        invariant
+    }
+}
+
+/// Whether a program takes differences across quads, for itself or to choose a texture's level of detail.
+fn looks_at_neighbours(graph: &Graph, bindings: &PixelBindings<'_>) -> bool {
+    (0..graph.len() as u32).any(|i| match graph.kind(Node(i)) {
+        Kind::Compute(_, Code::DifferenceX | Code::DifferenceY, _) => true,
+        Kind::Fetch(sampler, _, Detail::Implicit | Detail::Biased(_)) => {
+            let binding = bindings.samplers.get(usize::from(sampler)).and_then(Option::as_ref);
+            binding.is_some_and(|b| b.needs_detail())
+        }
+        _ => false,
+    })
 }
 
 impl Ends {

@@ -6,7 +6,7 @@ use super::lanes::AnyLane;
 use super::simd::SimdLevel;
 use super::slots::{Row, TRUE};
 use crate::num::Format;
-use crate::raster::{Plane, TriangleSetup, Weights};
+use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;
 
 /// Column and row of a lane within its tile.
@@ -120,25 +120,33 @@ impl TileWeights {
 
     /// A component in every lane, single precision.
     pub(crate) fn component(&self, setup: &TriangleSetup, component: usize, single: &AnyLane, out: &mut Row) {
-        let Some(plane) = setup.planes.get(component) else {
-            return out.fill(0);
-        };
-        if setup.constant.has(component) {
-            out.fill(single.decode(plane.base));
-        } else if setup.iterator_format == Format::FP32 {
-            self.simd.run(
+        match setup.planes.get(component) {
+            None => out.fill(0),
+            Some(plane) if setup.constant.has(component) => out.fill(single.decode(plane.base)),
+            Some(plane) => self.plane(plane, setup.iterator_format, single, out),
+        }
+    }
+
+    /// A component that varies, in every lane, single precision; `format` is that of the plane.
+    pub(crate) fn plane(&self, plane: &Plane, format: Format, single: &AnyLane, out: &mut Row) {
+        if format == Format::FP32 {
+            return self.simd.run(
                 #[inline(always)]
                 || along(plane, &self.perspective, out),
             );
-        } else {
-            for (i, slot) in out.iter_mut().enumerate() {
-                let at = |rows: &[[f32; LANES]; 2]| {
-                    [single.encode(rows[0][i].to_bits()), single.encode(rows[1][i].to_bits())]
-                };
-                let weights = Weights { linear: at(&self.linear), perspective: at(&self.perspective) };
-                *slot = single.decode(setup.component_at(component, &weights));
-            }
         }
+        for (i, slot) in out.iter_mut().enumerate() {
+            let weights = [0, 1].map(|k: usize| single.encode(self.perspective[k][i].to_bits()));
+            *slot = single.decode(interpolated(plane, weights, format));
+        }
+    }
+}
+
+/// Where `mask` holds, `from` takes the place of what `to` holds.
+#[inline(always)]
+pub(crate) fn lay_over(to: &mut Row, from: &Row, mask: &Row) {
+    for i in 0..LANES {
+        to[i] = (to[i] & !mask[i]) | (from[i] & mask[i]);
     }
 }
 

@@ -91,6 +91,7 @@ pub(crate) fn schedule(
         place: placed.clone(),
         last_use,
         free: Vec::new(),
+        first: first_slot,
         next: first_slot,
         texels: BTreeMap::new(),
     };
@@ -150,6 +151,8 @@ struct Scheduler<'g> {
     place: BTreeMap<Node, Slot>,
     last_use: BTreeMap<Node, u32>,
     free: Vec<Slot>,
+    /// Slots below are the caller's and keep what they hold.
+    first: usize,
     next: usize,
     texels: BTreeMap<Node, Vec<(u8, Node)>>,
     /// Slots that some step reads as a row.
@@ -204,6 +207,7 @@ impl Scheduler<'_> {
             if !kept
                 && last_use.get(&n) == Some(&node.0)
                 && let Some(&slot) = place.get(&n)
+                && usize::from(slot) >= self.first
                 && !done.contains(&slot)
             {
                 done.push(slot);

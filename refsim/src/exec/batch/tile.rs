@@ -1,7 +1,9 @@
-//! The batch executor on a tile: triangle by triangle, all 256 fragments at once.
+//! The batch executor on a tile: part after part, all 256 fragments at once.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::prelude::*;
 
 use super::arith::Formats;
 use super::fetch::BatchTexture;
@@ -9,13 +11,15 @@ use super::flow::FlowPlan;
 use super::flow_run::FlowRun;
 use super::graph::Arith;
 use super::lane::LANES;
-use super::output::Output;
+use super::output::{Output, Results, Shaded, Survivors};
 use super::program::{StraightPlan, StraightProgram, has_flow, pixel_formats};
-use super::raster::{TileWeights, cover, quads};
 use super::schedule::Block;
+use super::shader::{Manner, Shader};
 use super::simd::SimdLevel;
-use super::slots::{Row, Slots};
+use super::slots::{Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
+use super::surfaces::Surfaces;
+use super::targets::Targets;
 use crate::event::FragmentCounts;
 use crate::exec::{ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read, sample_rules};
 use crate::output::TargetTile;
@@ -30,6 +34,8 @@ pub struct BatchTiles<'a> {
     output: Output,
     inputs: ComponentMask,
     program: PixelCode,
+    /// Workers' rows that are not in use, by the constant components of their plan.
+    shaders: Mutex<Vec<(u64, Shader)>>,
 }
 
 #[derive(Debug)]
@@ -37,6 +43,34 @@ enum PixelCode {
     /// Scheduled once for each set of constant components that turns up.
     Straight(StraightProgram, Mutex<BTreeMap<u64, Arc<StraightPlan>>>),
     Flow(FlowPlan),
+}
+
+/// Some triangles of a draw, with what is computed for them before tiles are walked.
+#[derive(Debug)]
+pub struct Round<'s> {
+    surfaces: &'s Surfaces,
+    /// The components that are constant over every triangle.
+    constant: u64,
+    code: RoundCode<'s>,
+    /// For each value that the plan's varying block is given, a row of values by triangle.
+    given: Vec<Vec<u32>>,
+    /// Components that vary: row of the surfaces, slot.
+    inputs: Vec<(usize, Slot)>,
+}
+
+#[derive(Debug)]
+enum RoundCode<'s> {
+    Straight(&'s StraightProgram, Arc<StraightPlan>),
+    Flow(&'s FlowPlan),
+}
+
+impl Round<'_> {
+    fn results(&self) -> &Results {
+        match &self.code {
+            RoundCode::Straight(_, plan) => &plan.results,
+            RoundCode::Flow(plan) => plan.results(),
+        }
+    }
 }
 
 impl<'a> BatchTiles<'a> {
@@ -65,6 +99,7 @@ impl<'a> BatchTiles<'a> {
             inputs: inputs_read(program),
             program: code,
             formats,
+            shaders: Mutex::default(),
         })
     }
 
@@ -75,155 +110,166 @@ impl<'a> BatchTiles<'a> {
         self
     }
 
+    /// The components that the program can read.
+    pub fn inputs(&self) -> ComponentMask {
+        self.inputs
+    }
+
     fn around(&self) -> Surroundings<'_> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    fn run_straight(
-        &self,
-        program: &StraightProgram,
-        plan: &StraightPlan,
-        triangles: &[&TriangleSetup],
-        tile: &mut TargetTile,
-        counts: &mut FragmentCounts,
-    ) {
-        let mut walk = Walk::new(tile, plan.varying.slots, self.formats.simd());
-        let mut uniform = Slots::new(plan.uniform.slots);
-        fill_constants(&plan.uniform, &mut uniform);
-        fill_constants(&plan.varying, &mut walk.slots);
-        let around = self.around();
-        for group in triangles.chunks(LANES) {
-            self.uniforms(&plan.uniform, group, &mut uniform);
-            for (lane, triangle) in group.iter().enumerate() {
-                if !walk.enter(triangle, tile, counts) {
-                    continue;
-                }
-                for (&(_, slot), &root) in plan.varying.given.iter().zip(&plan.uniform.roots) {
-                    let raw = uniform.row(root)[lane];
-                    walk.slots.give(slot, raw);
-                }
-                walk.interpolate(triangle, &plan.varying, &self.formats);
-                run_steps(&plan.varying.steps, &around, &walk.run, &mut walk.slots);
-                for &sampler in &program.fetches {
-                    if let Some(count) = counts.fetches.get_mut(sampler) {
-                        *count += walk.covered_count;
-                    }
-                }
-                let results = (&plan.results, &self.formats, &walk.slots);
-                self.output.run(results, (&walk.covered, &walk.depth), walk.origin, tile, counts);
+    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, a triangle a lane.
+    pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> Round<'s> {
+        let constant = surfaces.all_constant() & self.inputs.0;
+        let (code, given) = match &self.program {
+            PixelCode::Straight(program, plans) => {
+                let plan = plan(program, plans, constant);
+                let given = self.uniforms(&plan.uniform, surfaces);
+                (RoundCode::Straight(program, plan), given)
             }
-        }
+            PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new()),
+        };
+        let wanted = match &code {
+            RoundCode::Straight(_, plan) => &plan.invariant.inputs,
+            RoundCode::Flow(plan) => plan.inputs(),
+        };
+        let row = |component: u16| surfaces.rows.iter().position(|row| row.component == usize::from(component));
+        let inputs = wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect();
+        Round { surfaces, constant, code, given, inputs }
     }
 
-    /// Computes what is constant over each of up to 256 triangles, a triangle a lane.
-    fn uniforms(&self, block: &Block, group: &[&TriangleSetup], slots: &mut Slots) {
+    /// Computes what is constant over each triangle: for each root of the block a value by triangle.
+    fn uniforms(&self, block: &Block, surfaces: &Surfaces) -> Vec<Vec<u32>> {
+        if block.roots.is_empty() {
+            return Vec::new();
+        }
         let single = self.formats.lane(Arith::Single);
-        for &(component, slot) in &block.inputs {
-            for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
-                *value = triangle.planes.get(usize::from(component)).map_or(0, |p| single.decode(p.base));
+        let groups = surfaces.triangles.par_chunks(LANES).map(|group| {
+            let mut slots = Slots::new(block.slots);
+            fill_constants(block, &mut slots);
+            for &(component, slot) in &block.inputs {
+                let Some(row) = surfaces.row(component) else { continue };
+                for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
+                    *value = single.decode(row.base[triangle.planes as usize]);
+                }
             }
-        }
-        run_steps(&block.steps, &self.around(), &[0; LANES], slots);
+            run_steps(&block.steps, &self.around(), &[0; LANES], &mut slots);
+            block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>()
+        });
+        let groups: Vec<_> = groups.collect();
+        let whole = |root: usize| groups.iter().flat_map(|group| group[root].iter().copied()).collect();
+        (0..block.roots.len()).map(whole).collect()
     }
 
-    fn run_flow(
-        &self,
-        plan: &FlowPlan,
-        triangles: &[&TriangleSetup],
-        tile: &mut TargetTile,
-        counts: &mut FragmentCounts,
-    ) {
-        let mut walk = Walk::new(tile, plan.slots(), self.formats.simd());
-        plan.fill(&mut walk.slots);
-        let around = self.around();
-        for triangle in triangles {
-            if !walk.enter(triangle, tile, counts) {
+    /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
+    ///
+    /// Returns what became of the fragments; helper lanes are not counted.
+    pub fn draw(&self, round: &Round<'_>, order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
+        let mut shader = self.shader(round);
+        shader.start(tile);
+        let mut counts = FragmentCounts::default();
+        let mut targets = Targets::load(tile, self.output.written, &self.output.state, &self.output.rules);
+        let mut survivors = Survivors::new();
+        let depth = targets.tile.depth.as_ref().map(|buffer| buffer.format);
+        let manner = self.manner(round, depth.is_some());
+        let mut at = 0;
+        while at < order.len() {
+            let part = &order[at..];
+            at += shader.take(round.surfaces, part, manner).max(1);
+            if shader.covered_count == 0 {
                 continue;
             }
-            for &(component, slot) in plan.inputs() {
-                let single = self.formats.lane(Arith::Single);
-                walk.weights.make(triangle, walk.origin);
-                walk.weights.component(triangle, component.into(), single, walk.slots.row_mut(slot));
+            self.shade(round, part[0] as usize, &mut shader, &mut counts);
+            let shaded = Shaded {
+                results: round.results(),
+                formats: &self.formats,
+                slots: &shader.slots,
+                covered: &shader.covered,
+                depth: &shader.depth,
+            };
+            self.output.test(shaded, depth, &mut survivors, &mut counts);
+            self.output.merge(shaded, &mut survivors, &mut targets, &mut counts);
+        }
+        targets.store();
+        self.shaders.lock().unwrap_or_else(PoisonError::into_inner).push((round.constant, shader));
+        counts
+    }
+
+    /// Rows for a plan, used before or new.
+    fn shader(&self, round: &Round<'_>) -> Shader {
+        let mut idle = self.shaders.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(i) = idle.iter().position(|(constant, _)| *constant == round.constant) {
+            return idle.swap_remove(i).1;
+        }
+        drop(idle);
+        match &round.code {
+            RoundCode::Flow(plan) => {
+                let mut shader = Shader::new(plan.slots(), self.formats.simd());
+                plan.fill(&mut shader.slots);
+                shader
             }
-            let (run, covered) = (walk.run, walk.covered);
-            FlowRun::new(plan, &around, &run, &covered).run(&mut walk.slots, &mut counts.fetches);
-            let results = (plan.results(), &self.formats, &walk.slots);
-            self.output.run(results, (&walk.covered, &walk.depth), walk.origin, tile, counts);
+            RoundCode::Straight(_, plan) => {
+                let mut shader = Shader::new(plan.varying.slots.max(plan.invariant.slots), self.formats.simd());
+                fill_constants(&plan.invariant, &mut shader.slots);
+                fill_constants(&plan.varying, &mut shader.slots);
+                shader
+            }
         }
     }
+
+    fn manner(&self, round: &Round<'_>, has_depth: bool) -> Manner {
+        let together = match &round.code {
+            RoundCode::Straight(program, _) => program.lanes_apart,
+            RoundCode::Flow(_) => false,
+        };
+        let tested = has_depth && self.output.state.depth.test.is_some();
+        Manner { together, depth: tested && !round.results().decide_depth() }
+    }
+
+    /// Runs the program for the part that the shader has taken, whose first triangle is `first`.
+    fn shade(&self, round: &Round<'_>, first: usize, shader: &mut Shader, counts: &mut FragmentCounts) {
+        counts.generated += shader.covered_count;
+        counts.shaded += shader.covered_count;
+        let around = self.around();
+        match &round.code {
+            RoundCode::Straight(program, plan) => {
+                if shader.fill_inputs(round.surfaces, &round.inputs, &self.formats) {
+                    run_steps(&plan.invariant.steps, &around, &shader.run, &mut shader.slots);
+                }
+                for (&(_, slot), values) in plan.varying.given.iter().zip(&round.given) {
+                    shader.slots.give(slot, values[first]);
+                }
+                run_steps(&plan.varying.steps, &around, &shader.run, &mut shader.slots);
+                for &sampler in &program.fetches {
+                    if let Some(count) = counts.fetches.get_mut(sampler) {
+                        *count += shader.covered_count;
+                    }
+                }
+            }
+            RoundCode::Flow(plan) => {
+                shader.forget_inputs();
+                shader.fill_inputs(round.surfaces, &round.inputs, &self.formats);
+                let Shader { slots, run, covered, .. } = shader;
+                FlowRun::new(plan, &around, run, covered).run(slots, &mut counts.fetches);
+            }
+        }
+    }
+}
+
+/// The plan for triangles with these constant components, made once.
+fn plan(
+    program: &StraightProgram,
+    plans: &Mutex<BTreeMap<u64, Arc<StraightPlan>>>,
+    constant: u64,
+) -> Arc<StraightPlan> {
+    let mut plans = plans.lock().unwrap_or_else(PoisonError::into_inner);
+    Arc::clone(plans.entry(constant).or_insert_with(|| Arc::new(program.plan(ComponentMask(constant)))))
 }
 
 impl TileExecutor for BatchTiles<'_> {
     fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
-        let mut counts = FragmentCounts::default();
-        let ordered: Vec<&TriangleSetup> = order.iter().filter_map(|&i| triangles.get(i as usize)).collect();
-        match &self.program {
-            PixelCode::Straight(program, plans) => {
-                let constant = ordered.iter().fold(self.inputs.0, |mask, t| mask & t.constant.0);
-                let known = plans.lock().unwrap_or_else(PoisonError::into_inner).get(&constant).cloned();
-                let plan = known.unwrap_or_else(|| {
-                    let plan = Arc::new(program.plan(ComponentMask(constant)));
-                    plans.lock().unwrap_or_else(PoisonError::into_inner).insert(constant, Arc::clone(&plan));
-                    plan
-                });
-                self.run_straight(program, &plan, &ordered, tile, &mut counts);
-            }
-            PixelCode::Flow(plan) => self.run_flow(plan, &ordered, tile, &mut counts),
-        }
-        counts
-    }
-}
-
-/// A walk over the triangles of one tile.
-struct Walk {
-    simd: SimdLevel,
-    origin: (u32, u32),
-    slots: Slots,
-    weights: TileWeights,
-    covered: Row,
-    covered_count: u64,
-    /// Lanes of quads that have a covered lane.
-    run: Row,
-    depth: Row,
-}
-
-impl Walk {
-    fn new(tile: &TargetTile, slots: usize, simd: SimdLevel) -> Self {
-        Self {
-            simd,
-            origin: (tile.region.x & !15, tile.region.y & !15),
-            slots: Slots::new(slots),
-            weights: TileWeights::new(simd),
-            covered: [0; LANES],
-            covered_count: 0,
-            run: [0; LANES],
-            depth: [0; LANES],
-        }
-    }
-
-    /// Finds what a triangle covers, and its depth; false if it covers nothing.
-    fn enter(&mut self, triangle: &TriangleSetup, tile: &TargetTile, counts: &mut FragmentCounts) -> bool {
-        self.covered_count = cover(triangle, self.origin, tile.region, self.simd, &mut self.covered);
-        if self.covered_count == 0 {
-            return false;
-        }
-        counts.generated += self.covered_count;
-        counts.shaded += self.covered_count;
-        quads(&self.covered, &mut self.run);
-        if !triangle.depth_constant {
-            self.weights.make(triangle, self.origin);
-        }
-        self.weights.depth(triangle, &mut self.depth);
-        true
-    }
-
-    fn interpolate(&mut self, triangle: &TriangleSetup, block: &Block, formats: &Formats) {
-        if !block.inputs.is_empty() {
-            self.weights.make(triangle, self.origin);
-        }
-        for &(component, slot) in &block.inputs {
-            let single = formats.lane(Arith::Single);
-            self.weights.component(triangle, component.into(), single, self.slots.row_mut(slot));
-        }
+        let surfaces = Surfaces::from_setups(triangles, self.inputs);
+        self.draw(&self.round(&surfaces), order, tile)
     }
 }

@@ -6,6 +6,7 @@ use super::ops::Code;
 use super::translate::{Effect, Translator};
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::isa::{Destination, Instruction, Modifier, Opcode, Register, RegisterFile, Source, Version};
+use crate::texture::TextureKind;
 use crate::texture::unbound;
 
 const S: Arith = Arith::Single;
@@ -188,6 +189,14 @@ impl Translator<'_> {
             return unbound(self.make.rules.format).map(|bits| self.make.pattern(Arith::Main, bits));
         };
         let detail = if binding.needs_detail() { detail } else { Detail::Implicit };
+        // What the texture has no axis for is not waited for.
+        let axes = match binding.image.kind() {
+            TextureKind::D1 => 1,
+            TextureKind::D2 | TextureKind::Rectangle => 2,
+            TextureKind::Cube | TextureKind::Volume => 3,
+        };
+        let zero = self.make.zero();
+        let coordinates = std::array::from_fn(|i| if i < axes { coordinates[i] } else { zero });
         let fetch = self.make.graph.node(Kind::Fetch(stage as u8, coordinates, detail));
         std::array::from_fn(|c| self.make.graph.node(Kind::Texel(fetch, c as u8)))
     }

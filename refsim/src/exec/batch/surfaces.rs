@@ -1,0 +1,163 @@
+//! Triangles as the batch executor wants them: shapes kept once however many triangles share them, and only the components
+//! that the pixel program reads, a row a component.
+//!
+//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and tell each other apart by
+//! components that are constant.
+
+use crate::num::Format;
+use crate::raster::{ComponentMask, Plane, TriangleSetup};
+
+/// Shapes that a new one is compared with before it is taken for new.
+const RECENT: usize = 4;
+
+/// A triangle: its shape, and where its planes lie in the rows of the components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Triangle {
+    pub(crate) shape: u32,
+    pub(crate) planes: u32,
+}
+
+/// One component over all triangles.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PlaneRows {
+    /// Its number, as in [`ComponentMask`].
+    pub(crate) component: usize,
+    pub(crate) base: Vec<u32>,
+    pub(crate) d1: Vec<u32>,
+    pub(crate) d2: Vec<u32>,
+}
+
+impl PlaneRows {
+    pub(crate) fn plane(&self, index: u32) -> Plane {
+        let at = |row: &[u32]| row.get(index as usize).copied().unwrap_or_default();
+        Plane { base: at(&self.base), d1: at(&self.d1), d2: at(&self.d2) }
+    }
+
+    pub(crate) fn push(&mut self, plane: Plane) {
+        self.base.push(plane.base);
+        self.d1.push(plane.d1);
+        self.d2.push(plane.d2);
+    }
+}
+
+/// Some triangles of a draw, in the order of submission, with the components that the pixel program reads.
+#[derive(Clone, Debug)]
+pub struct Surfaces {
+    /// Set-ups without planes.
+    pub(crate) shapes: Vec<TriangleSetup>,
+    pub(crate) triangles: Vec<Triangle>,
+    pub(crate) rows: Vec<PlaneRows>,
+    /// By planes: the components of `rows` that are constant over the triangle.
+    pub(crate) constant: Vec<u64>,
+    /// By triangle: whether the components that are constant over it are the same, with the same values, as those of the
+    /// triangle before.
+    pub(crate) joins: Vec<bool>,
+    pub(crate) iterator_format: Format,
+}
+
+impl Surfaces {
+    /// No triangles yet, with rows for the components that are `needed`.
+    pub(crate) fn new(needed: ComponentMask, iterator_format: Format) -> Self {
+        let rows = (0..crate::raster::COMPONENTS)
+            .filter(|&component| needed.has(component))
+            .map(|component| PlaneRows { component, ..PlaneRows::default() })
+            .collect();
+        Self {
+            shapes: Vec::new(),
+            triangles: Vec::new(),
+            rows,
+            constant: Vec::new(),
+            joins: Vec::new(),
+            iterator_format,
+        }
+    }
+
+    /// Triangles that the raster room has set up.
+    pub fn from_setups(setups: &[TriangleSetup], needed: ComponentMask) -> Self {
+        let format = setups.first().map_or(Format::FP32, |setup| setup.iterator_format);
+        let mut out = Self::new(needed, format);
+        for setup in setups {
+            let shape = out.shape(setup);
+            let planes = out.push_planes(setup);
+            out.push(Triangle { shape, planes });
+        }
+        out
+    }
+
+    /// The number of a shape: that of an equal one among the last few, or a new one.
+    pub(crate) fn shape(&mut self, setup: &TriangleSetup) -> u32 {
+        let first = self.shapes.len().saturating_sub(RECENT);
+        if let Some(i) = self.shapes[first..].iter().position(|known| same_shape(known, setup)) {
+            return (first + i) as u32;
+        }
+        self.shapes.push(setup.clone());
+        (self.shapes.len() - 1) as u32
+    }
+
+    /// Appends the planes of a triangle and gives their number.
+    pub(crate) fn push_planes(&mut self, setup: &TriangleSetup) -> u32 {
+        let mut constant = 0;
+        for row in &mut self.rows {
+            row.push(setup.planes[row.component]);
+            constant |= setup.constant.0 & 1 << row.component;
+        }
+        self.constant.push(constant);
+        (self.constant.len() - 1) as u32
+    }
+
+    /// Appends a triangle whose planes are there.
+    pub(crate) fn push(&mut self, triangle: Triangle) {
+        let joins = self.triangles.last().is_some_and(|last| self.same_constants(last.planes, triangle.planes));
+        self.push_joined(triangle, joins);
+    }
+
+    /// [`Self::push`] where it is known whether it joins the one before.
+    pub(crate) fn push_joined(&mut self, triangle: Triangle, joins: bool) {
+        self.triangles.push(triangle);
+        self.joins.push(joins);
+    }
+
+    /// Whether two sets of planes have the same constant components with the same values.
+    fn same_constants(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (a as usize, b as usize);
+        let constant = self.constant[a];
+        constant == self.constant[b]
+            && self.rows.iter().all(|row| constant >> row.component & 1 == 0 || row.base[a] == row.base[b])
+    }
+
+    /// The components that are constant over every triangle.
+    pub(crate) fn all_constant(&self) -> u64 {
+        self.triangles.iter().fold(u64::MAX, |mask, t| mask & self.constant[t.planes as usize])
+    }
+
+    /// The planes of a component.
+    pub(crate) fn row(&self, component: u16) -> Option<&PlaneRows> {
+        self.rows.iter().find(|row| row.component == usize::from(component))
+    }
+
+    /// How many triangles there are.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The geometry of a triangle; its planes mean nothing.
+    pub fn geometry(&self, triangle: usize) -> Option<&TriangleSetup> {
+        self.triangles.get(triangle).and_then(|t| self.shapes.get(t.shape as usize))
+    }
+}
+
+/// Whether two set-ups cover the same pixels with the same weights and depths.
+fn same_shape(a: &TriangleSetup, b: &TriangleSetup) -> bool {
+    a.edges == b.edges
+        && a.bounds == b.bounds
+        && a.area == b.area
+        && a.depth == b.depth
+        && a.depth_constant == b.depth_constant
+        && a.affine == b.affine
+        && a.reciprocal_w == b.reciprocal_w
+}
