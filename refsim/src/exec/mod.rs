@@ -9,6 +9,8 @@ pub mod batch;
 mod bindings;
 mod constants;
 mod flow;
+#[cfg(feature = "wgpu")]
+pub mod gpu;
 mod observer;
 pub mod scalar;
 mod tile;

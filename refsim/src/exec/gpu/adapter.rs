@@ -1,0 +1,135 @@
+//! Which GPUs there are.
+
+use super::GpuError;
+use serde::Serialize;
+
+/// What an adapter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AdapterKind {
+    /// A card of its own.
+    Discrete,
+    /// Part of the processor or the board.
+    Integrated,
+    /// A share of a card, in a virtual machine.
+    Virtual,
+    /// A driver that runs on the processor.
+    Software,
+    /// The driver does not say.
+    Other,
+}
+
+/// An adapter of this computer.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Adapter {
+    /// Its name, as the driver gives it.
+    pub name: String,
+    /// What it is.
+    pub kind: AdapterKind,
+    /// The interface it is reached through: `vulkan`, `metal`, `dx12`.
+    pub backend: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// Bytes of the largest buffer that a shader can use.
+    pub largest_buffer: u64,
+}
+
+/// All adapters, in the driver's order.
+pub fn adapters() -> Vec<Adapter> {
+    raw_adapters().iter().map(describe).collect()
+}
+
+fn raw_adapters() -> Vec<wgpu::Adapter> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
+}
+
+pub(super) fn describe(adapter: &wgpu::Adapter) -> Adapter {
+    let info = adapter.get_info();
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+        wgpu::DeviceType::IntegratedGpu => AdapterKind::Integrated,
+        wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
+        wgpu::DeviceType::Cpu => AdapterKind::Software,
+        wgpu::DeviceType::Other => AdapterKind::Other,
+    };
+    Adapter {
+        name: info.name,
+        kind,
+        backend: info.backend.to_str().to_owned(),
+        driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
+        largest_buffer: adapter.limits().max_storage_buffer_binding_size,
+    }
+}
+
+/// The adapter that `asked` names: its whole name, or a part of it that fits no other, whatever the case. Without a
+/// name the first discrete one, else the first integrated or virtual one, else the first.
+pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+    let all = raw_adapters();
+    let known: Vec<Adapter> = all.iter().map(describe).collect();
+    let chosen = choose(&known, asked)?;
+    all.into_iter().nth(chosen).ok_or(GpuError::NoAdapter)
+}
+
+fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
+    let rank = |kind| match kind {
+        AdapterKind::Discrete => 0,
+        AdapterKind::Integrated | AdapterKind::Virtual => 1,
+        AdapterKind::Software | AdapterKind::Other => 2,
+    };
+    let Some(asked) = asked else {
+        let best = known.iter().enumerate().min_by_key(|(_, adapter)| rank(adapter.kind));
+        return best.map(|(i, _)| i).ok_or(GpuError::NoAdapter);
+    };
+    let wanted = asked.to_lowercase();
+    let positions = |fits: &dyn Fn(&str) -> bool| -> Vec<usize> {
+        (0..known.len()).filter(|&i| fits(&known[i].name.to_lowercase())).collect()
+    };
+    let whole = positions(&|name| name == wanted);
+    let fitting = if whole.is_empty() { positions(&|name| name.contains(&wanted)) } else { whole };
+    let names = |of: &[usize]| of.iter().map(|&i| known[i].name.clone()).collect();
+    match fitting[..] {
+        [one] => Ok(one),
+        [] if known.is_empty() => Err(GpuError::NoAdapter),
+        [] => {
+            let everybody: Vec<usize> = (0..known.len()).collect();
+            Err(GpuError::UnknownAdapter { asked: asked.to_owned(), found: names(&everybody) })
+        }
+        _ => Err(GpuError::AmbiguousAdapter { asked: asked.to_owned(), found: names(&fitting) }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn adapter(name: &str, kind: AdapterKind) -> Adapter {
+        Adapter { name: name.to_owned(), kind, backend: String::new(), driver: String::new(), largest_buffer: 0 }
+    }
+
+    #[test]
+    fn adapters_are_picked_by_name_and_kind() {
+        let known = [
+            adapter("llvmpipe (LLVM 15)", AdapterKind::Software),
+            adapter("Radeon 8500", AdapterKind::Discrete),
+            adapter("Radeon 9700", AdapterKind::Discrete),
+            adapter("Radeon", AdapterKind::Integrated),
+        ];
+        assert_eq!(choose(&known, None), Ok(1));
+        assert_eq!(choose(&known[..1], None), Ok(0));
+        assert_eq!(choose(&known, Some("LLVMpipe")), Ok(0));
+        assert_eq!(choose(&known, Some("9700")), Ok(2));
+        // A whole name wins over names that hold it.
+        assert_eq!(choose(&known, Some("radeon")), Ok(3));
+        assert_eq!(choose(&[], None), Err(GpuError::NoAdapter));
+        assert_eq!(choose(&[], Some("x")), Err(GpuError::NoAdapter));
+        assert!(
+            matches!(choose(&known[1..3], Some("radeon")), Err(GpuError::AmbiguousAdapter { found, .. }) if found.len() == 2)
+        );
+        let unknown = choose(&known[..2], Some("voodoo")).err().map(|e| e.to_string());
+        assert_eq!(
+            unknown.as_deref(),
+            Some("no GPU adapter is called `voodoo`; there are: llvmpipe (LLVM 15), Radeon 8500")
+        );
+    }
+}

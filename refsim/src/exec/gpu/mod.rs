@@ -1,0 +1,16 @@
+//! The executor on a GPU of the host, through wgpu (feature `wgpu`).
+//!
+//! - `adapter`: which adapters there are, and picking one by name; `error`: what can go wrong.
+//! - `device`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
+//! - `testing`: what tests do without an adapter.
+//!
+//! Nothing here decides a bit: the shaders do (`refsim::exec::wgsl`), from storage buffers of 32-bit words.
+
+mod adapter;
+mod device;
+mod error;
+pub mod testing;
+
+pub use adapter::{Adapter, AdapterKind, adapters};
+pub use device::{Access, Buffer, Gpu, Pipeline};
+pub use error::GpuError;
