@@ -62,7 +62,7 @@ impl Gpu {
         let required_limits = wgpu::Limits {
             max_buffer_size: given.max_buffer_size,
             max_storage_buffer_binding_size: given.max_storage_buffer_binding_size,
-            ..wgpu::Limits::default().using_minimum_supported_values(&given)
+            ..wgpu::Limits::default()
         };
         let wanted = wgpu::DeviceDescriptor { label: Some("refsim"), required_limits, ..Default::default() };
         let (device, queue) = pollster::block_on(raw.request_device(&wanted))
