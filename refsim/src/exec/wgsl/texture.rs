@@ -1,0 +1,347 @@
+//! Texture reads in WGSL: the sampler table, texels as words, and the text that reads them.
+//!
+//! The text defines `texture_read` and `texel_decode`. It takes from the rest of its module: the bindings `samplers`
+//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, and of the number library `Format`,
+//! `n_round`, `n_infinite`, `n_nan` and `s_alu`.
+//!
+//! Everything that a read depends on comes from the sampler table, so one module serves all textures and states. A
+//! sampler has [`SAMPLER_WORDS`] words; what is at which place the constants say, which the text has by the same names.
+
+use crate::exec::SamplerBinding;
+use crate::num::Format;
+use crate::texture::{
+    AddressMode, Channel, ChannelClass, ComponentSource, Filter, Image, MipFilter, SampleRules, SignedTexelMinimum,
+    TargetRounding, TexelFormat, TextureError, TextureKind, encode,
+};
+
+/// Constants that Rust and WGSL share: made here, written out at the head of the text.
+macro_rules! shared {
+    ($($(#[$doc:meta])* $name:ident = $value:literal;)*) => {
+        $($(#[$doc])* pub const $name: usize = $value;)*
+        const SHARED: &[(&str, usize)] = &[$((stringify!($name), $value),)*];
+    };
+}
+
+shared! {
+    /// Words of a sampler in the table.
+    SAMPLER_WORDS = 96;
+    /// Kind of texture: `KIND_*`.
+    SAMPLER_KIND = 0;
+    /// 1 if the level of detail matters to a read.
+    SAMPLER_DETAIL = 1;
+    /// Filter where texels are smaller than pixels: `FILTER_*`.
+    SAMPLER_MIN = 2;
+    /// Filter elsewhere.
+    SAMPLER_MAG = 3;
+    /// Filter between levels: `MIP_*`.
+    SAMPLER_MIP = 4;
+    /// Address modes of the three axes, as the kind of texture lets them be: `ADDRESS_*`.
+    SAMPLER_ADDRESS = 5;
+    /// Bias of the level of detail, FP32 bits.
+    SAMPLER_LOD_BIAS = 8;
+    /// The largest level that may be read.
+    SAMPLER_FIRST_LEVEL = 9;
+    /// The smallest level.
+    SAMPLER_LAST_LEVEL = 10;
+    /// Fraction bits of filter weights, at most 12.
+    SAMPLER_FILTER_BITS = 11;
+    /// Fraction bits of the level of detail, at most 8.
+    SAMPLER_LOD_BITS = 12;
+    /// Words of a texel: 1, 2 or 4.
+    SAMPLER_TEXEL_WORDS = 13;
+    /// 1 if every stored channel is floating-point.
+    SAMPLER_FLOAT = 14;
+    /// Axes along which texels lie; 0 where nothing is bound.
+    SAMPLER_AXES = 15;
+    /// 1 if coordinates go from 0 to 1, 0 if they count texels.
+    SAMPLER_NORMALISED = 16;
+    /// Texels of level 0 along the axes for a coordinate of 1, FP32 bits.
+    SAMPLER_SCALES = 17;
+    /// The four components: class (`TEXEL_*`, bits 0 to 7), shift (8 to 15), width (from 16 on).
+    SAMPLER_COMPONENTS = 20;
+    /// The border texel as it would be stored, four words.
+    SAMPLER_BORDER = 24;
+    /// The levels, four words each.
+    SAMPLER_LEVELS = 32;
+    /// First word of a level in `video`.
+    LEVEL_OFFSET = 0;
+    /// Texels of a row.
+    LEVEL_WIDTH = 1;
+    /// Rows of a slice.
+    LEVEL_HEIGHT = 2;
+    /// Slices (or faces).
+    LEVEL_SLICES = 3;
+    /// A row.
+    KIND_D1 = 0;
+    /// A plane.
+    KIND_D2 = 1;
+    /// A plane addressed in texels.
+    KIND_RECTANGLE = 2;
+    /// Six faces.
+    KIND_CUBE = 3;
+    /// A block.
+    KIND_VOLUME = 4;
+    /// The texel that holds the point.
+    FILTER_NEAREST = 0;
+    /// The nearest two along each axis.
+    FILTER_LINEAR = 1;
+    /// Only the largest level allowed.
+    MIP_NONE = 0;
+    /// The nearest level.
+    MIP_NEAREST = 1;
+    /// The nearest two levels.
+    MIP_LINEAR = 2;
+    /// The image repeats.
+    ADDRESS_WRAP = 0;
+    /// The image repeats mirrored.
+    ADDRESS_MIRROR = 1;
+    /// The outermost texel goes on.
+    ADDRESS_CLAMP = 2;
+    /// The border texel.
+    ADDRESS_BORDER = 3;
+    /// Always 0.
+    TEXEL_ZERO = 0;
+    /// Always 1.
+    TEXEL_ONE = 1;
+    /// `k / (2^n - 1)`
+    TEXEL_UNORM = 2;
+    /// `k / (2^(n-1) - 1)`, the smallest below -1.
+    TEXEL_SNORM = 3;
+    /// The same, the smallest -1.
+    TEXEL_SNORM_CLAMPED = 4;
+    /// `k / 15` above zero, `k / 16` below.
+    TEXEL_SPLIT = 5;
+    /// fp16
+    TEXEL_FP16 = 6;
+    /// fp24
+    TEXEL_FP24 = 7;
+    /// fp32
+    TEXEL_FP32 = 8;
+    /// `texture_read` takes the differences across the quad.
+    DETAIL_IMPLICIT = 0;
+    /// The same plus a bias.
+    DETAIL_BIASED = 1;
+    /// Derivatives given.
+    DETAIL_GRADIENTS = 2;
+}
+
+/// The most levels that an image has: 16384 texels a side.
+const MOST_LEVELS: usize = 15;
+
+/// The text: constants, then functions.
+pub fn library() -> String {
+    let mut text = String::new();
+    for (name, value) in SHARED {
+        text.push_str(&format!("const {name}: u32 = {value}u;\n"));
+    }
+    for part in [
+        include_str!("texture/address.wgsl"),
+        include_str!("texture/texel.wgsl"),
+        include_str!("texture/place.wgsl"),
+        include_str!("texture/sample.wgsl"),
+    ] {
+        text.push('\n');
+        text.push_str(part);
+    }
+    text
+}
+
+/// The words of one sampler. `first_word` is where its image ([`image_words`]) begins in `video`; an unbound sampler
+/// reads as (0, 0, 0, 1).
+pub fn sampler_words(
+    binding: Option<&SamplerBinding<'_>>,
+    rules: &SampleRules,
+    first_word: u32,
+) -> [u32; SAMPLER_WORDS] {
+    let mut words = [0; SAMPLER_WORDS];
+    words[SAMPLER_FILTER_BITS] = u32::from(rules.filter_fraction_bits.min(12));
+    words[SAMPLER_LOD_BITS] = u32::from(rules.lod_fraction_bits.min(8));
+    words[SAMPLER_TEXEL_WORDS] = 1;
+    words[SAMPLER_COMPONENTS + 3] = TEXEL_ONE as u32;
+    let Some(binding) = binding else { return words };
+    let (image, state) = (binding.image, &binding.state);
+    let format = image.format();
+    let last = image.levels().len().min(MOST_LEVELS) as u32 - 1;
+    let filter = |f: Filter| f as u32;
+    words[SAMPLER_KIND] = kind_word(image.kind());
+    words[SAMPLER_DETAIL] = u32::from(binding.needs_detail());
+    words[SAMPLER_MIN] = filter(state.min);
+    words[SAMPLER_MAG] = filter(state.mag);
+    words[SAMPLER_MIP] = match state.mip {
+        MipFilter::None => MIP_NONE,
+        MipFilter::Nearest => MIP_NEAREST,
+        MipFilter::Linear => MIP_LINEAR,
+    } as u32;
+    for (axis, mode) in [state.address_u, state.address_v, state.address_w].into_iter().enumerate() {
+        words[SAMPLER_ADDRESS + axis] = address_word(image.kind(), mode);
+    }
+    words[SAMPLER_LOD_BIAS] = state.lod_bias;
+    words[SAMPLER_FIRST_LEVEL] = u32::from(state.max_mip_level).min(last);
+    words[SAMPLER_LAST_LEVEL] = last;
+    words[SAMPLER_TEXEL_WORDS] = texel_words(format) as u32;
+    words[SAMPLER_FLOAT] = u32::from(format.record().is_float());
+    words[SAMPLER_AXES] = axes(image.kind());
+    words[SAMPLER_NORMALISED] = u32::from(image.kind() != TextureKind::Rectangle);
+    words[SAMPLER_SCALES..][..3].copy_from_slice(&scales(image));
+    words[SAMPLER_COMPONENTS..][..4].copy_from_slice(&component_words(format, rules.signed_texel_minimum));
+    let border = encode(format, Format::FP32, state.border, TargetRounding::Nearest);
+    words[SAMPLER_BORDER..][..4].copy_from_slice(&split(border));
+    let size = texel_words(format);
+    for (row, level) in words[SAMPLER_LEVELS..].chunks_exact_mut(4).zip(image.levels()) {
+        let offset = level.offset / format.bytes() * size;
+        row.copy_from_slice(&[first_word.wrapping_add(offset as u32), level.width, level.height, level.slices]);
+    }
+    words
+}
+
+fn kind_word(kind: TextureKind) -> u32 {
+    let word = match kind {
+        TextureKind::D1 => KIND_D1,
+        TextureKind::D2 => KIND_D2,
+        TextureKind::Rectangle => KIND_RECTANGLE,
+        TextureKind::Cube => KIND_CUBE,
+        TextureKind::Volume => KIND_VOLUME,
+    };
+    word as u32
+}
+
+/// Along the faces of a cube coordinates are clamped, on a rectangle wrap and mirror act as clamp.
+fn address_word(kind: TextureKind, asked: AddressMode) -> u32 {
+    let mode = match (kind, asked) {
+        (TextureKind::Cube, _) => ADDRESS_CLAMP,
+        (_, AddressMode::Border) => ADDRESS_BORDER,
+        (TextureKind::Rectangle, _) | (_, AddressMode::Clamp) => ADDRESS_CLAMP,
+        (_, AddressMode::Wrap) => ADDRESS_WRAP,
+        (_, AddressMode::Mirror) => ADDRESS_MIRROR,
+    };
+    mode as u32
+}
+
+fn axes(kind: TextureKind) -> u32 {
+    match kind {
+        TextureKind::D1 => 1,
+        TextureKind::D2 | TextureKind::Rectangle | TextureKind::Cube => 2,
+        TextureKind::Volume => 3,
+    }
+}
+
+/// What derivatives are multiplied by to be in texels of level 0.
+fn scales(image: &Image) -> [u32; 3] {
+    let single = crate::texture::value::from_integer;
+    match image.kind() {
+        TextureKind::Rectangle => [single(1); 3],
+        TextureKind::Cube => [single(i64::from(image.width())); 3],
+        _ => [image.width(), image.height(), image.slices()].map(|n| single(i64::from(n))),
+    }
+}
+
+/// What a sampler (or a target's read-back, see `texel_decode`) takes as red, green, blue and alpha of a texel: the
+/// words at [`SAMPLER_COMPONENTS`].
+pub fn component_words(format: TexelFormat, minimum: SignedTexelMinimum) -> [u32; 4] {
+    let record = format.record();
+    record.components.map(|source| match source {
+        ComponentSource::Zero => TEXEL_ZERO as u32,
+        ComponentSource::One => TEXEL_ONE as u32,
+        ComponentSource::Channel(i) => channel_word(record.channels[usize::from(i)], minimum),
+    })
+}
+
+/// One stored channel: class, shift and width. Channels that are ratios have at most 16 bits, and none crosses a word.
+pub fn channel_word(channel: Channel, minimum: SignedTexelMinimum) -> u32 {
+    let class = match channel.class {
+        ChannelClass::Unorm => TEXEL_UNORM,
+        ChannelClass::Snorm if minimum == SignedTexelMinimum::Clamp => TEXEL_SNORM_CLAMPED,
+        ChannelClass::Snorm => TEXEL_SNORM,
+        ChannelClass::SplitSnorm => TEXEL_SPLIT,
+        ChannelClass::Float(f) if f == Format::FP16 => TEXEL_FP16,
+        ChannelClass::Float(f) if f == Format::FP24 => TEXEL_FP24,
+        ChannelClass::Float(_) => TEXEL_FP32,
+    };
+    class as u32 | u32::from(channel.shift) << 8 | u32::from(channel.bits) << 16
+}
+
+/// Whole words that a texel takes in `video`: 1, 2 or 4.
+pub fn texel_words(format: TexelFormat) -> usize {
+    format.bytes().div_ceil(4)
+}
+
+fn split(raw: u128) -> [u32; 4] {
+    [0, 32, 64, 96].map(|shift| (raw >> shift) as u32)
+}
+
+/// Words that [`image_words`] makes of an image.
+pub fn image_size(image: &Image) -> usize {
+    image.bytes().len() / image.format().bytes() * texel_words(image.format())
+}
+
+/// An image as the device holds it: each texel as little-endian words, padded with zeros to whole ones, levels, slices
+/// and rows one after the other.
+pub fn image_words(image: &Image) -> Vec<u32> {
+    let (bytes, words) = (image.format().bytes(), texel_words(image.format()));
+    let mut out = Vec::with_capacity(image_size(image));
+    if bytes == 4 * words {
+        out.extend(image.bytes().chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
+    } else {
+        // One or two bytes.
+        let wide = |texel: &[u8]| texel.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b));
+        out.extend(image.bytes().chunks_exact(bytes).map(wide));
+    }
+    out
+}
+
+/// Overwrites all texels of an image with what [`image_words`] made, or a shader changed.
+///
+/// # Errors
+/// If there are too many or too few words.
+pub fn words_to_image(words: &[u32], image: &mut Image) -> Result<(), TextureError> {
+    let expected = image_size(image);
+    if words.len() != expected {
+        return Err(TextureError::DataSize { unit: "words", expected, found: words.len() });
+    }
+    let step = image.format().bytes().min(4);
+    for (bytes, word) in image.bytes_mut().chunks_exact_mut(step).zip(words) {
+        bytes.copy_from_slice(&word.to_le_bytes()[..step]);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_are_what_the_text_takes_them_for() {
+        for &format in TexelFormat::ALL {
+            assert!([1, 2, 4].contains(&texel_words(format)), "{format}");
+            for channel in format.record().stored() {
+                let (low, high) = (channel.shift / 32, (channel.shift + channel.bits - 1) / 32);
+                assert_eq!(low, high, "{format}: a channel crosses a word");
+                match channel.class {
+                    ChannelClass::Float(f) => {
+                        assert!([Format::FP16, Format::FP24, Format::FP32].contains(&f), "{format}");
+                        assert!(format.record().is_float(), "{format}: floats and ratios in one texel");
+                    }
+                    _ => assert!(channel.bits <= 16, "{format}: a ratio of {} bits", channel.bits),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn words_are_undone_exactly() -> Result<(), TextureError> {
+        for &format in TexelFormat::ALL {
+            let mut image = Image::new(format, TextureKind::Volume, [5, 3, 2], 3)?;
+            for (i, byte) in image.bytes_mut().iter_mut().enumerate() {
+                *byte = (i * 37 + 11) as u8;
+            }
+            let words = image_words(&image);
+            assert_eq!(words.len(), image_size(&image), "{format}");
+            assert_eq!(words[0].to_le_bytes()[0], 11, "{format}");
+            let mut back = Image::new(format, TextureKind::Volume, [5, 3, 2], 3)?;
+            words_to_image(&words, &mut back)?;
+            assert_eq!(back, image, "{format}");
+            assert!(words_to_image(&words[1..], &mut back).is_err());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+// From coordinates to texel indices: refsim::texture::address in pairs of words (x the low one, y the high one).
+
+// The index that stands for the border.
+const TEXTURE_BORDER: u32 = 0xffffffffu;
+
+fn texture_wide(a: u32, b: u32) -> vec2<u32> {
+    let low = (a & 0xffffu) * (b & 0xffffu);
+    let middle = (a >> 16u) * (b & 0xffffu) + (low >> 16u);
+    let cross = (a & 0xffffu) * (b >> 16u) + (middle & 0xffffu);
+    return vec2<u32>((cross << 16u) | (low & 0xffffu), (a >> 16u) * (b >> 16u) + (middle >> 16u) + (cross >> 16u));
+}
+
+fn texture_add(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
+    let low = a.x + b.x;
+    return vec2<u32>(low, a.y + b.y + select(0u, 1u, low < a.x));
+}
+
+fn texture_negated(a: vec2<u32>) -> vec2<u32> {
+    return vec2<u32>(~a.x + 1u, ~a.y + select(0u, 1u, a.x == 0u));
+}
+
+fn texture_left(a: vec2<u32>, shift: u32) -> vec2<u32> {
+    let part = shift & 31u;
+    if (shift >= 64u) { return vec2<u32>(0u); }
+    if (shift >= 32u) { return vec2<u32>(0u, a.x << part); }
+    if (part == 0u) { return a; }
+    return vec2<u32>(a.x << part, (a.y << part) | (a.x >> (32u - part)));
+}
+
+fn texture_right(a: vec2<u32>, shift: u32) -> vec2<u32> {
+    let part = shift & 31u;
+    if (shift >= 64u) { return vec2<u32>(0u); }
+    if (shift >= 32u) { return vec2<u32>(a.y >> part, 0u); }
+    if (part == 0u) { return a; }
+    return vec2<u32>((a.x >> part) | (a.y << (32u - part)), a.y >> part);
+}
+
+// floor(coordinate * scale * 2^fraction) in two's complement; with `half_up`, halves up instead of down. NaN and
+// infinities count as 0; what is larger than `most` (FP32 bits of a finite number) counts as that, so that the
+// result has at most 54 bits.
+fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_up: bool) -> vec2<u32> {
+    let given = coordinate & 0x7fffffffu;
+    if (given >= 0x7f800000u) { return vec2<u32>(0u); }
+    let size = min(given, most);
+    let field = size >> 23u;
+    let significand = (size & 0x7fffffu) | select(0u, 0x800000u, field != 0u);
+    let product = texture_wide(significand, scale);
+    // One more bit below the point than asked for, so that a half can be added before the floor.
+    let shift = i32(max(field, 1u)) - 150 + i32(fraction) + 1;
+    var doubled = product;
+    var lost = false;
+    if (shift >= 0) {
+        doubled = texture_left(product, u32(shift));
+    } else {
+        doubled = texture_right(product, u32(-shift));
+        let back = texture_left(doubled, u32(-shift));
+        lost = any(back != product);
+    }
+    if ((coordinate >> 31u) == 1u) {
+        doubled = texture_negated(doubled);
+        if (lost) { doubled = texture_add(doubled, vec2<u32>(0xffffffffu)); }
+    }
+    if (half_up) { doubled = texture_add(doubled, vec2<u32>(1u, 0u)); }
+    return vec2<u32>((doubled.x >> 1u) | (doubled.y << 31u), bitcast<u32>(bitcast<i32>(doubled.y) >> 1u));
+}
+
+// The index that an address mode makes of a position in two's complement, or TEXTURE_BORDER.
+fn texture_resolved(mode: u32, position: vec2<u32>, size: u32) -> u32 {
+    let below = (position.y >> 31u) == 1u;
+    if (mode > ADDRESS_MIRROR) {
+        if (position.y == 0u && position.x < size) { return position.x; }
+        if (mode == ADDRESS_BORDER) { return TEXTURE_BORDER; }
+        return select(size - 1u, 0u, below);
+    }
+    let period = size << mode; // mirrored images repeat every two sizes
+    var rest = position.x & (period - 1u);
+    if ((period & (period - 1u)) != 0u) {
+        var magnitude = position;
+        if (below) { magnitude = texture_negated(position); }
+        // The period has at most 16 bits: a remainder and sixteen more bits fit a word.
+        rest = magnitude.y % period;
+        rest = ((rest << 16u) | (magnitude.x >> 16u)) % period;
+        rest = ((rest << 16u) | (magnitude.x & 0xffffu)) % period;
+        if (below && rest != 0u) { rest = period - rest; }
+    }
+    return select(rest, 2u * size - 1u - rest, rest >= size);
+}
+
+// The signed face axes and the signed major axis of a vector on a given face.
+fn texture_face_axes(face: u32, v: vec3<u32>) -> vec3<u32> {
+    let flipped = v ^ vec3<u32>(0x80000000u);
+    switch face {
+        case 0u: { return vec3<u32>(flipped.z, flipped.y, v.x); }
+        case 1u: { return vec3<u32>(v.z, flipped.y, flipped.x); }
+        case 2u: { return vec3<u32>(v.x, v.z, v.y); }
+        case 3u: { return vec3<u32>(v.x, flipped.z, flipped.y); }
+        case 4u: { return vec3<u32>(v.x, flipped.y, v.z); }
+        default: { return vec3<u32>(flipped.x, flipped.y, flipped.z); }
+    }
+}
+
+// The face that a finite direction meets: of equal magnitudes z goes before y before x.
+fn texture_face(v: vec3<u32>) -> u32 {
+    let size = v & vec3<u32>(0x7fffffffu);
+    let below = v >> vec3<u32>(31u);
+    if (size.z >= size.y && size.z >= size.x) { return 4u + below.z; }
+    if (size.y >= size.x) { return 2u + below.y; }
+    return below.x;
+}
+
+fn texture_finite(bits: u32) -> u32 {
+    return select(bits, 0u, (bits & 0x7f800000u) == 0x7f800000u);
+}

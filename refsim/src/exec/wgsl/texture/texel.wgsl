@@ -1,0 +1,135 @@
+// Texels: components out of stored words, and the one rounding into the register format.
+//
+// A component is described by a word: class (bits 0 to 7), shift (8 to 15), width (16 to 23).
+
+// The stored bits of a component; `words` are those of the texel, low ones first.
+fn texel_bits(component: u32, words: vec4<u32>) -> u32 {
+    let shift = (component >> 8u) & 0xffu;
+    let word = words[shift >> 5u];
+    return extractBits(word, shift & 31u, component >> 16u);
+}
+
+// Whether a component is a floating-point pattern.
+fn texel_is_float(component: u32) -> bool {
+    return (component & 0xffu) >= TEXEL_FP16;
+}
+
+// The numerator of a component that is a ratio.
+fn texel_numerator(component: u32, bits: u32) -> i32 {
+    let spare = 32u - (component >> 16u);
+    let signed_bits = bitcast<i32>(bits << (spare & 31u)) >> (spare & 31u);
+    switch component & 0xffu {
+        case TEXEL_ZERO: { return 0; }
+        case TEXEL_ONE: { return 1; }
+        case TEXEL_UNORM: { return bitcast<i32>(bits); }
+        case TEXEL_SNORM_CLAMPED: { return max(signed_bits, -bitcast<i32>(texel_denominator(component))); }
+        case TEXEL_SPLIT: { return signed_bits * select(16, 15, signed_bits < 0); }
+        default: { return signed_bits; }
+    }
+}
+
+// The denominator of a component that is a ratio, at most 65535.
+fn texel_denominator(component: u32) -> u32 {
+    let width = component >> 16u;
+    switch component & 0xffu {
+        case TEXEL_UNORM: { return (1u << width) - 1u; }
+        case TEXEL_SNORM, TEXEL_SNORM_CLAMPED: { return max((1u << (width - 1u)) - 1u, 1u); }
+        case TEXEL_SPLIT: { return 240u; }
+        default: { return 1u; }
+    }
+}
+
+// A component of a floating-point texel as FP32 bits, exactly; NaN is the canonical one.
+fn texel_single(component: u32, bits: u32) -> u32 {
+    let kind = component & 0xffu;
+    if (kind == TEXEL_ONE) { return 0x3f800000u; }
+    if (kind < TEXEL_FP16) { return 0u; }
+    var fraction_bits = 23u;
+    var exponent_bits = 8u;
+    if (kind == TEXEL_FP16) { fraction_bits = 10u; exponent_bits = 5u; }
+    if (kind == TEXEL_FP24) { fraction_bits = 16u; exponent_bits = 7u; }
+    let sign = ((bits >> (fraction_bits + exponent_bits)) & 1u) << 31u;
+    let top_field = (1u << exponent_bits) - 1u;
+    let field = (bits >> fraction_bits) & top_field;
+    let fraction = bits & ((1u << fraction_bits) - 1u);
+    if (field == top_field) {
+        return select(0x7fc00000u, sign | 0x7f800000u, fraction == 0u);
+    }
+    // The bias is half the largest field, cut.
+    let rebias = 127u - (top_field >> 1u);
+    if (field != 0u) {
+        return sign | ((field + rebias) << 23u) | (fraction << (23u - fraction_bits));
+    }
+    if (fraction == 0u || kind == TEXEL_FP32) { return sign | fraction; }
+    let left = countLeadingZeros(fraction) - (31u - fraction_bits); // places up to the hidden bit
+    let normal = (fraction << left) & ((1u << fraction_bits) - 1u);
+    return sign | ((rebias + 1u - left) << 23u) | (normal << (23u - fraction_bits));
+}
+
+// What one rounding makes a number of: (-1)^negative * significand * 2^exponent, a little more with `sticky`.
+struct TexelParts {
+    significand: vec2<u32>,
+    exponent: i32,
+    negative: bool,
+    sticky: bool,
+    infinite: bool,
+    nan: bool,
+}
+
+// The parts of an FP32 pattern.
+fn texel_parts_of_single(bits: u32) -> TexelParts {
+    let field = (bits >> 23u) & 0xffu;
+    let fraction = bits & 0x7fffffu;
+    let significand = fraction | select(0u, 0x800000u, field != 0u);
+    let special = field == 255u;
+    return TexelParts(
+        vec2<u32>(significand, 0u), i32(max(field, 1u)) - 150, (bits >> 31u) == 1u, false,
+        special && fraction == 0u, special && fraction != 0u,
+    );
+}
+
+// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, the denominator of at most 16 bits.
+fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> TexelParts {
+    let negative = (numerator.y >> 31u) == 1u;
+    var magnitude = numerator;
+    if (negative) { magnitude = texture_negated(numerator); }
+    if (all(magnitude == vec2<u32>(0u))) {
+        return TexelParts(vec2<u32>(0u), 0, false, false, false, false);
+    }
+    var left = countLeadingZeros(magnitude.y);
+    if (magnitude.y == 0u) { left = 32u + countLeadingZeros(magnitude.x); }
+    magnitude = texture_left(magnitude, left);
+    // Sixteen bits at a time: at least 48 bits of quotient, more than any format rounds at.
+    var quotient = vec2<u32>(0u);
+    var rest = 0u;
+    for (var digit = 0u; digit < 4u; digit++) {
+        let dividend = (rest << 16u) | (magnitude.y >> 16u);
+        let part = dividend / denominator;
+        rest = dividend - part * denominator;
+        magnitude = vec2<u32>(magnitude.x << 16u, (magnitude.y << 16u) | (magnitude.x >> 16u));
+        quotient = vec2<u32>((quotient.x << 16u) | part, (quotient.y << 16u) | (quotient.x >> 16u));
+    }
+    return TexelParts(quotient, -i32(left + shift), negative, rest != 0u, false, false);
+}
+
+// The number rounded once into a format, raw.
+fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
+    if (parts.nan) { return n_nan(f); }
+    if (parts.infinite) { return n_infinite(f, parts.negative); }
+    return n_round(f, parts.negative, parts.significand, parts.exponent, parts.sticky);
+}
+
+// A component of a stored texel in a format, raw: what a nearest read gives. (Reading back a target; `texture_read`
+// has its own way, because it weighs before it rounds.)
+fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
+    let bits = texel_bits(component, words);
+    var parts: TexelParts;
+    if (texel_is_float(component)) {
+        parts = texel_parts_of_single(texel_single(component, bits));
+    } else {
+        let numerator = texel_numerator(component, bits);
+        let wide = vec2<u32>(bitcast<u32>(numerator), bitcast<u32>(numerator >> 31u));
+        parts = texel_parts_of_ratio(wide, texel_denominator(component), 0u);
+    }
+    return texel_rounded(f, parts);
+}
