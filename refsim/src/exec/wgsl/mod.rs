@@ -2,14 +2,12 @@
 //! or, where a device was found exact, single precision in its own floats. No GPU is needed to make or check the text.
 //!
 //! - `interface`: what the parts share. `kernel`: rasterisation, interpolation, tests, blending, targets.
-//! - [`number`]: arithmetic in every format of [`crate::num`].
+//! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads out of a storage buffer.
 //!
 //! Values are as the batch executor's slots hold them ("raw"): a fixed-point number is its two's complement integer,
 //! sign-extended; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
 
 pub mod number;
+pub mod texture;
 
 pub use number::{NativeOperations, NumberMode};
-
-/// Bindings, number formats and variables that all parts of a pixel module share.
-pub const INTERFACE: &str = include_str!("interface.wgsl");

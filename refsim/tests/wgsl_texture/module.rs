@@ -1,0 +1,73 @@
+//! The module that the tests run.
+
+use refsim::exec::wgsl::texture;
+use refsim::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+
+const HEAD: &str = "
+@group(0) @binding(0) var<storage, read> draw: array<u32>;
+@group(0) @binding(1) var<storage, read> samplers: array<u32>;
+@group(0) @binding(2) var<storage, read> video: array<u32>;
+@group(0) @binding(3) var<storage, read> reads: array<u32>;
+@group(0) @binding(4) var<storage, read_write> made: array<u32>;
+const MAIN: u32 = 0u;
+fn format(k: u32) -> Format {
+    return Format(draw[0], draw[1], draw[2], draw[3], draw[4], draw[5], draw[6], draw[7]);
+}
+";
+
+const READING: &str = "
+fn row(at: u32) -> vec4<u32> { return vec4<u32>(reads[at], reads[at + 1u], reads[at + 2u], reads[at + 3u]); }
+@compute @workgroup_size(64) fn read_texels(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = 56u * id.x;
+    if (at >= arrayLength(&reads)) { return; }
+    var gradients: array<vec4<u32>, 8>;
+    for (var i = 0u; i < 8u; i++) { gradients[i] = row(at + 24u + 4u * i); }
+    let run = ((vec4<u32>(reads[at + 22u]) >> vec4<u32>(0u, 1u, 2u, 3u)) & vec4<u32>(1u)) != vec4<u32>(0u);
+    var texel = texture_read(
+        reads[at + 20u], row(at), row(at + 4u), row(at + 8u), row(at + 12u), reads[at + 21u], row(at + 16u), gradients, run,
+    );
+    for (var i = 0u; i < 16u; i++) { made[16u * id.x + i] = texel[i / 4u][i % 4u]; }
+}
+";
+
+const DECODING: &str = "
+@compute @workgroup_size(64) fn decode_texels(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = 8u * id.x;
+    if (at >= arrayLength(&reads)) { return; }
+    let words = vec4<u32>(reads[at], reads[at + 1u], reads[at + 2u], reads[at + 3u]);
+    for (var c = 0u; c < 4u; c++) { made[4u * id.x + c] = texel_decode(format(MAIN), reads[at + 4u + c], words); }
+}
+";
+
+/// The module that reads.
+pub(crate) fn reading() -> String {
+    [HEAD, include_str!("number.wgsl"), &texture::library(), READING].concat()
+}
+
+/// The module that decodes.
+pub(crate) fn decoding() -> String {
+    [HEAD, include_str!("number.wgsl"), &texture::library(), DECODING].concat()
+}
+
+/// The words by which the module knows a format.
+pub(crate) fn format_words(format: Format) -> [u32; 8] {
+    let (kind, upper, frac) = match format.kind {
+        Kind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
+        Kind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
+    };
+    let rounding = match format.rounding {
+        Rounding::NearestEven => 0,
+        Rounding::NearestAway => 1,
+        Rounding::TowardZero => 2,
+        Rounding::Down => 3,
+    };
+    let overflow = match format.overflow {
+        Overflow::Saturate => 0,
+        Overflow::Wrap => 1,
+        Overflow::Infinity => 2,
+        Overflow::Nv30 => 3,
+    };
+    let denormals = u32::from(format.denormals == Denormals::Flush);
+    let specials = u32::from(format.specials == Specials::Nv);
+    [kind, upper.into(), frac.into(), rounding, overflow, denormals, specials, 0]
+}
