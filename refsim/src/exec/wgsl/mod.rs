@@ -11,3 +11,6 @@ pub mod number;
 pub mod texture;
 
 pub use number::{NativeOperations, NumberMode};
+
+/// Bindings, number formats and variables that all parts of a pixel module share.
+pub const INTERFACE: &str = include_str!("interface.wgsl");
