@@ -115,7 +115,8 @@ fn state(random: &mut Random, levels: u32) -> SamplerState {
         address_u: random.of(&MODES),
         address_v: random.of(&MODES),
         address_w: random.of(&MODES),
-        border: [0; 4].map(|_: u32| if random.below(8) == 0 { random.edge() } else { random.real(-1.5, 1.5).to_bits() }),
+        border: [0; 4]
+            .map(|_: u32| if random.below(8) == 0 { random.edge() } else { random.real(-1.5, 1.5).to_bits() }),
         lod_bias: match random.below(4) {
             0 => random.real(-3.0, 3.0).to_bits(),
             1 if random.below(6) == 0 => random.edge(),
@@ -157,10 +158,13 @@ pub(crate) fn read(random: &mut Random, number: usize, case: &Case) -> Read {
     }
     let gradients = [0; 4].map(|_: u32| {
         [0; 2].map(|_: u32| {
-            [0; 4].map(|_: u32| if random.below(24) == 0 { random.edge() } else { (step * random.real(-1.0, 1.0)).to_bits() })
+            [0; 4].map(
+                |_: u32| if random.below(24) == 0 { random.edge() } else { (step * random.real(-1.0, 1.0)).to_bits() },
+            )
         })
     });
-    let bias = [0; 4].map(|_: u32| if random.below(12) == 0 { random.edge() } else { random.real(-5.0, 5.0).to_bits() });
+    let bias =
+        [0; 4].map(|_: u32| if random.below(12) == 0 { random.edge() } else { random.real(-5.0, 5.0).to_bits() });
     let run = if random.below(4) == 0 { random.below(16) } else { 15 };
     Read { sampler: number, coordinates, detail: random.below(3), bias, gradients, run }
 }

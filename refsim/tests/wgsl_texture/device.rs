@@ -11,8 +11,20 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const FORMATS: [&str; 14] = [
-    "fp32", "s3.12", "fp16", "fp24:rtz:ftz", "s1.10", "s0.31", "s3.12:rtz:wrap", "s0.7:rdn", "bf16:rna", "fp32:ftz:rtz",
-    "e5m10:nvovf:nv:rtz", "e4m3:sat", "e2m1:rdn", "s15.16:rna",
+    "fp32",
+    "s3.12",
+    "fp16",
+    "fp24:rtz:ftz",
+    "s1.10",
+    "s0.31",
+    "s3.12:rtz:wrap",
+    "s0.7:rdn",
+    "bf16:rna",
+    "fp32:ftz:rtz",
+    "e5m10:nvovf:nv:rtz",
+    "e4m3:sat",
+    "e2m1:rdn",
+    "s15.16:rna",
 ];
 /// Reads of a quad from each texture.
 const READS: usize = 24;
@@ -94,9 +106,8 @@ fn texels_decode_as_the_texture_room_has_it() {
         }
         let inputs: [&[u32]; 4] = [&module::format_words(main), &[0], &[0], &words];
         let count = words.len() / 8;
-        let made = gpu
-            .compute(&text, "decode_texels", &inputs, 4 * count, groups(count))
-            .unwrap_or_else(|e| panic!("{e}"));
+        let made =
+            gpu.compute(&text, "decode_texels", &inputs, 4 * count, groups(count)).unwrap_or_else(|e| panic!("{e}"));
         for (i, (made, expected)) in made.chunks_exact(4).zip(expected.chunks_exact(4)).enumerate() {
             let format = TexelFormat::ALL[i % TexelFormat::ALL.len()];
             assert_eq!(made, expected, "{name} {format}: {:x?}", &words[8 * i..8 * i + 4]);

@@ -39,9 +39,25 @@ impl Random {
     pub(crate) fn edge(&mut self) -> u32 {
         let sign = self.bits() & 0x8000_0000;
         sign | self.of(&[
-            0, 1, 0x007f_ffff, 0x0080_0000, 0x3f00_0000, 0x3eff_ffff, 0x3f80_0000, 0x3f7f_ffff, 0x3f80_0001,
-            0x4000_0000, 0x4b7f_ffff, 0x4b80_0000, 0x4b80_0001, 0x5f00_0000, 0x7f7f_ffff, 0x7f80_0000, 0x7f80_0001,
-            0x7fc0_0000, 0x7fff_ffff,
+            0,
+            1,
+            0x007f_ffff,
+            0x0080_0000,
+            0x3f00_0000,
+            0x3eff_ffff,
+            0x3f80_0000,
+            0x3f7f_ffff,
+            0x3f80_0001,
+            0x4000_0000,
+            0x4b7f_ffff,
+            0x4b80_0000,
+            0x4b80_0001,
+            0x5f00_0000,
+            0x7f7f_ffff,
+            0x7f80_0000,
+            0x7f80_0001,
+            0x7fc0_0000,
+            0x7fff_ffff,
         ])
     }
 }
