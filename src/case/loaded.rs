@@ -8,7 +8,7 @@ use refsim::{
         VertexSource, VertexStreams,
     },
     output::{DepthSurface, MOST_TARGETS, WriteMask},
-    raster::{ClipSpace, Cull, PixelCenter},
+    raster::{ClipSpace, Cull, PixelCenter, Vertex},
     texture::{Image, SamplerState},
 };
 
@@ -76,6 +76,15 @@ impl<'s> Loaded<'s> {
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
         Ok(self.machine.trace_pixels(&call, pixels)?)
+    }
+
+    /// The corners of a triangle after the vertex stage: see [`Machine::corners`].
+    ///
+    /// # Errors
+    /// As [`Loaded::draw`].
+    pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
+        let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
+        Ok(self.machine.corners(&call, instance, triangle)?)
     }
 
     /// What the colour targets hold.

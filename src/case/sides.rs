@@ -9,7 +9,9 @@ use refsim::{
 use serde::Serialize;
 
 use super::{CaseError, Loaded, Setup, loaded::constants};
-use crate::compare::{Difference, Shape, SurfaceDifference, TraceSide, depths, first_difference, images};
+use crate::compare::{
+    Difference, Pass, Shape, Stage, SurfaceDifference, TraceSide, depths, differing_corner, first_difference, images,
+};
 
 /// Pixels that are followed at a time: the vertices are processed once for them.
 const TOGETHER: usize = 1024;
@@ -159,11 +161,31 @@ fn follow(sides: &[Drawn<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Compar
         let found = first_difference(&sides[0].trace(left), &sides[1].trace(right), &shape);
         if let Some(difference) = found {
             comparison.followed[1] += 1;
+            if comparison.first.is_some() {
+                continue;
+            }
+            let difference = from_vertices(sides, difference)?;
             let first = || First { draw: 0, pixel: [x, y], difference: Some(difference) };
             comparison.first.get_or_insert_with(first);
         }
     }
     Ok(())
+}
+
+/// A difference before the program may come from the vertices: then it is there that the sides part.
+fn from_vertices(sides: &[Drawn<'_>; 2], difference: Difference) -> Result<Difference, CaseError> {
+    if !matches!(difference.stage, Stage::Coverage { .. } | Stage::Input) {
+        return Ok(difference);
+    }
+    let Pass { instance, triangle, .. } = difference.pass;
+    let corners = [sides[0].before.corners(instance, triangle)?, sides[1].before.corners(instance, triangle)?];
+    Ok(match corners {
+        [Some(left), Some(right)] => match differing_corner(&left, &right) {
+            Some((corner, values)) => Difference { stage: Stage::Vertex { corner }, values, ..difference },
+            None => difference,
+        },
+        _ => difference,
+    })
 }
 
 /// Both sides' surfaces. They have the same shapes: both are of one case.

@@ -13,4 +13,4 @@ mod trace;
 pub use number::{Compared, Number, ulps};
 pub use operands::Operand;
 pub use surface::{Largest, SurfaceDifference, depths, images};
-pub use trace::{Difference, Pass, Shape, Stage, TraceSide, component, first_difference};
+pub use trace::{Difference, Pass, Shape, Stage, TraceSide, component, differing_corner, first_difference};

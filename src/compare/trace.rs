@@ -6,6 +6,7 @@ use refsim::{
     machine::{FragmentTrace, PixelState},
     num::Format,
     output::{DepthFormat, FragmentFate},
+    raster::Vertex,
     texture::TexelFormat,
 };
 
@@ -53,6 +54,12 @@ pub struct Pass {
 /// Where on the way of a fragment the sides part.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stage {
+    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] cannot tell it from what follows; who has
+    /// the corners asks [`differing_corner`].
+    Vertex {
+        /// The corner of the triangle, 0 to 2.
+        corner: usize,
+    },
     /// The triangle covers the pixel on one side only, or the order differs: what the vertex stage or the set-up of
     /// triangles computes. Which pass each side has there.
     Coverage {
@@ -155,6 +162,31 @@ pub fn first_difference(left: &TraceSide<'_>, right: &TraceSide<'_>, shape: &Sha
             let (stage, values) = pair.outputs().or_else(|| pair.stored(shape))?;
             Some(found(stage, values))
         })
+    })
+}
+
+/// The first corner of a triangle that differs, and in what.
+pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usize, Vec<Compared>)> {
+    let differing = |a: &Vertex, b: &Vertex| {
+        let vectors = |v: &Vertex| {
+            let colors = (0..2).map(|n| (format!("oD{n}"), v.colors[n]));
+            let sets = (0..8).map(|n| (format!("oT{n}"), v.texcoords[n]));
+            let vectors = [("oPos".to_owned(), v.position)].into_iter().chain(colors).chain(sets);
+            let mut components: Vec<(String, u32)> = vectors
+                .flat_map(|(name, vector)| {
+                    ['x', 'y', 'z', 'w'].into_iter().zip(vector).map(move |(c, bits)| (format!("{name}.{c}"), bits))
+                })
+                .collect();
+            components.push(("oFog".to_owned(), v.fog));
+            components
+        };
+        let single = |bits| Number { format: Format::FP32, bits };
+        let pairs = vectors(a).into_iter().zip(vectors(b)).map(|((name, a), (_, b))| (name, single(a), single(b)));
+        pairs.filter(|(_, a, b)| !a.equals(b)).map(|(name, a, b)| Compared::registers(name, &a, &b)).collect()
+    };
+    left.iter().zip(right).enumerate().find_map(|(corner, (a, b))| {
+        let values: Vec<Compared> = differing(a, b);
+        (!values.is_empty()).then_some((corner, values))
     })
 }
 

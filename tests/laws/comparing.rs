@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::{
-    case::{Loaded, Setup},
+    case::{Loaded, Scope, Setup, Side, compare},
     compare::{Difference, Number, Shape, Stage, TraceSide, first_difference, ulps},
 };
 use proptest::prelude::*;
@@ -115,18 +115,20 @@ fn one_bit_of_one_step() {
     }
 }
 
+type Change = fn(&mut Vec<FragmentTrace>);
+
 #[test]
 fn every_stage_in_its_order() {
     let setup = example("two_triangles.toml");
     // Every change alone, from the latest stage to the earliest; then with all later ones, which it must hide.
-    let changes: [(&str, &dyn Fn(&mut Vec<FragmentTrace>)); 7] = [
-        ("merge", &|t| t[1].after.colors[0] = Some(7)),
-        ("test", &|t| t[1].shading.fate = FragmentFate::AlphaFailed),
-        ("output", &|t| t[1].shading.output.killed = true),
-        ("flow", &|t| t[1].shading.steps.clear()),
-        ("input", &|t| t[1].shading.delivered[0].1[2] ^= 1),
-        ("interpolation", &|t| t[1].shading.input.depth ^= 1),
-        ("coverage", &|t| t[1].triangle = 5),
+    let changes: [(&str, Change); 7] = [
+        ("merge", |t| t[1].after.colors[0] = Some(7)),
+        ("test", |t| t[1].shading.fate = FragmentFate::AlphaFailed),
+        ("output", |t| t[1].shading.output.killed = true),
+        ("flow", |t| t[1].shading.steps.clear()),
+        ("input", |t| t[1].shading.delivered[0].1[2] ^= 1),
+        ("interpolation", |t| t[1].shading.input.depth ^= 1),
+        ("coverage", |t| t[1].triangle = 5),
     ];
     for (place, (name, _)) in changes.iter().enumerate() {
         let found = after(&setup, (7, 4), |t| changes[..=place].iter().for_each(|(_, change)| change(t)));
@@ -163,6 +165,23 @@ fn every_stage_in_its_order() {
     }
     let shorter = after(&setup, (7, 4), |t| t.truncate(1)).expect("a difference");
     assert!(matches!(shorter.stage, Stage::Coverage { left: Some(_), right: None }), "{shorter:?}");
+}
+
+/// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and with it whether it
+/// covers the centre of column 3.
+#[test]
+fn vertices_come_before_what_they_cause() {
+    let mut setup = example("transform.toml");
+    setup.vertex_constants.float[0][0] = 1.06_f32.to_bits();
+    let mut short = setup.clone();
+    short.profile.rules.vertex_format = "e5m3".parse().expect("a format");
+    let sides = [&setup, &short].map(|setup| Side { setup, executor: ExecutorKind::Batch });
+    let found = compare(&sides[0], &sides[1], Scope::Results).expect("both can be drawn");
+    let first = found.first.expect("a difference");
+    assert_eq!(first.pixel, [3, 0]);
+    let difference = first.difference.expect("a stage");
+    assert_eq!((&difference.stage, names(&difference)), (&Stage::Vertex { corner: 0 }, vec!["oPos.x"]));
+    assert_eq!((&*difference.values[0].left, &*difference.values[0].right), ("-0.5299999713897705", "-0.5"));
 }
 
 #[test]

@@ -79,6 +79,26 @@ impl Machine {
         Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
+    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such triangle.
+    ///
+    /// # Errors
+    /// As [`Machine::draw`].
+    pub fn corners(
+        &self,
+        call: &DrawCall<'_>,
+        instance: usize,
+        triangle: usize,
+    ) -> Result<Option<[Vertex; 3]>, MachineError> {
+        let plan = validate::plan(&self.profile, &self.memory, call)?;
+        let Some(corners) = plan.triangles.get(triangle).filter(|_| instance < plan.instance_count) else {
+            return Ok(None);
+        };
+        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd));
+        let vertices = stage.run(instance, 1, &plan).vertices;
+        let [a, b, c] = corners.map(|corner| vertices.get(corner).copied());
+        Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
+    }
+
     fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<Followed, MachineError> {
         let tile = load(&self.memory, call, Region { x, y, width: 1, height: 1 })?;
         if tile.index(x, y).is_none() {

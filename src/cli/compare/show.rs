@@ -201,10 +201,13 @@ impl Shown<'_> {
     fn stage(&self, difference: &Difference) -> (String, Option<usize>) {
         let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
         match &difference.stage {
+            Stage::Vertex { corner } => {
+                (format!("stage: vertices: {name} of corner {corner} of the triangle, before set-up"), None)
+            }
             Stage::Coverage { left, right } => {
                 let side = |pass: &Option<Pass>| pass.as_ref().map_or("none".to_owned(), pass_text);
                 let sides = format!("{} on the left, {} on the right", side(left), side(right));
-                (format!("stage: coverage, from the vertex stage or the set-up of triangles: {sides}"), None)
+                (format!("stage: coverage, from the set-up of triangles: {sides}"), None)
             }
             Stage::Input => (format!("stage: interpolation of {name}, before the program"), None),
             Stage::Delivered => {
@@ -286,6 +289,7 @@ impl Shown<'_> {
             }).collect::<Vec<_>>(),
         });
         match &difference.stage {
+            Stage::Vertex { corner } => value["corner"] = (*corner).into(),
             Stage::Coverage { left, right } => {
                 value["left"] = json!(left.as_ref().map(pass_json));
                 value["right"] = json!(right.as_ref().map(pass_json));
@@ -318,6 +322,7 @@ impl Shown<'_> {
 /// The stage in one word.
 const fn stage_name(stage: &Stage) -> &'static str {
     match stage {
+        Stage::Vertex { .. } => "vertices",
         Stage::Coverage { .. } => "coverage",
         Stage::Input => "interpolation",
         Stage::Delivered => "input",
