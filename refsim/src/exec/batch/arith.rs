@@ -4,6 +4,7 @@ use super::graph::{Arith, Graph, Kind, Node};
 use super::lanes::AnyLane;
 use super::ops::Code;
 use super::simd::SimdLevel;
+use super::slots::TRUE;
 use crate::device::{LrpMode, MadMode, Rules};
 use crate::num::{self, DotOrder, Format, Overflow};
 
@@ -79,7 +80,29 @@ impl<'a> Maker<'a> {
     }
 
     pub(crate) fn compute(&mut self, k: Arith, code: Code, a: Node, b: Node, c: Node) -> Node {
+        if let Some(known) = self.known_mask(k, code, a, b) {
+            return known;
+        }
         self.graph.node(Kind::Compute(k, code, [a, b, c]))
+    }
+
+    /// A mask that needs no computing: of constants, or of masks that say nothing new.
+    fn known_mask(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Option<Node> {
+        let constant = |n: Node| match self.graph.kind(n) {
+            Kind::Constant(raw) => Some(raw),
+            _ => None,
+        };
+        match code {
+            Code::Less | Code::LessEqual | Code::Equal => {
+                let holds = self.formats.lane(k).compares(code, constant(a)?, constant(b)?);
+                Some(self.graph.constant(if holds { TRUE } else { 0 }))
+            }
+            Code::Or if constant(b) == Some(0) || self.graph.includes(a, b) => Some(a),
+            Code::Or if constant(a) == Some(0) => Some(b),
+            Code::And if constant(b) == Some(TRUE) => Some(a),
+            Code::And if constant(a) == Some(TRUE) => Some(b),
+            _ => None,
+        }
     }
 
     pub(crate) fn unary(&mut self, k: Arith, code: Code, a: Node) -> Node {

@@ -123,14 +123,27 @@ impl<'g> Fusion<'g> {
                 let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
                 if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
             }
+            Code::Or => {
+                let less = |n: Node| self.alone(n, given).filter(|part| part.code == Code::Less);
+                let (mask, part) = match less(args[1]) {
+                    Some(part) => (args[0], part),
+                    None => (args[1], less(args[0])?),
+                };
+                Some(Fused::new(part.arith, Code::OrLess, &[mask, part.args[0], part.args[1]]))
+            }
             _ => None,
         }
     }
 
     /// The operation behind an operand that nothing else reads.
-    fn part(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
+    fn alone(&self, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
         let alone = self.readers[node.0 as usize] == 1 && !given(node);
-        self.fused.get(&node).filter(|part| alone && part.arith == arith)
+        self.fused.get(&node).filter(|_| alone)
+    }
+
+    /// Likewise, in the same arithmetic.
+    fn part(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
+        self.alone(node, given).filter(|part| part.arith == arith)
     }
 
     /// The factors of the products behind an operand that nothing else reads.

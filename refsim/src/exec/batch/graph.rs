@@ -93,7 +93,7 @@ impl Code {
             Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or | Code::AndNot => 2,
             Code::Mad | Code::FusedMad | Code::SelectNonNegative | Code::SelectAboveHalf | Code::Select => 3,
             Code::AddTo | Code::SubFrom | Code::SubOff => 2,
-            Code::MadBy => 3,
+            Code::MadBy | Code::OrLess => 3,
             Code::Difference => 4,
             Code::Dot(terms) | Code::Sum(terms) | Code::SumBy(terms) => 2 * usize::from(terms),
             _ => 1,
@@ -119,6 +119,18 @@ impl Graph {
 
     pub(crate) fn constant(&mut self, raw: u32) -> Node {
         self.node(Kind::Constant(raw))
+    }
+
+    /// Whether mask `a` is `b`, or one of several that are or'ed together of which `b` is one.
+    pub(crate) fn includes(&self, mut a: Node, b: Node) -> bool {
+        while a != b {
+            match self.kind(a) {
+                Kind::Compute(_, Code::Or, [_, right, _]) if right == b => return true,
+                Kind::Compute(_, Code::Or, [left, ..]) => a = left,
+                _ => return false,
+            }
+        }
+        true
     }
 
     pub(crate) fn kind(&self, node: Node) -> Kind {

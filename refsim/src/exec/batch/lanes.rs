@@ -4,6 +4,7 @@ use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, HOST, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
+use super::ops::Code;
 use crate::num::{Format, Kind, Overflow, Rounding};
 
 /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
@@ -79,6 +80,19 @@ impl AnyLane {
             L::store(lane.decode(bits))
         }
         with_any_lane!(self, |lane| { decode(lane, bits) })
+    }
+
+    /// Whether `a < b`, `a <= b` or `a == b`, as the code says, of numbers as slots hold them.
+    pub(crate) fn compares(&self, code: Code, a: u32, b: u32) -> bool {
+        fn compares<L: Lane>(lane: &L, code: Code, a: u32, b: u32) -> bool {
+            let (a, b) = (L::load(a), L::load(b));
+            match code {
+                Code::Less => lane.lt(a, b),
+                Code::LessEqual => lane.le(a, b),
+                _ => lane.eq(a, b),
+            }
+        }
+        with_any_lane!(self, |lane| { compares(lane, code, a, b) })
     }
 
     /// The bit pattern of what a slot holds.

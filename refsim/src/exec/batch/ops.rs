@@ -60,6 +60,8 @@ pub(crate) enum Code {
     SubFrom,
     SubOff,
     MadBy,
+    /// `a`, or the mask of `b < c`.
+    OrLess,
     /// Mask operations: `a ? b : c`, and, or, `b and not a`.
     Select,
     And,
@@ -238,6 +240,13 @@ fn three<L: Lane>(a: &Row, b: &Row, c: &Row, out: &mut Row, f: impl Fn(L::T, L::
 fn compare<L: Lane>(a: &Row, b: &Row, out: &mut Row, f: impl Fn(L::T, L::T) -> bool) {
     for i in 0..LANES {
         out[i] = if f(L::load(a[i]), L::load(b[i])) { TRUE } else { 0 };
+    }
+}
+
+#[inline(always)]
+fn or_less<L: Lane>(lane: &L, mask: &Row, a: &Row, b: &Row, out: &mut Row) {
+    for i in 0..LANES {
+        out[i] = mask[i] | if lane.lt(L::load(a[i]), L::load(b[i])) { TRUE } else { 0 };
     }
 }
 
@@ -483,6 +492,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
             #[inline(always)]
             |a, b| l.eq(a, b),
         ),
+        Code::OrLess => or_less(l, a, b, c, out),
         Code::DifferenceX => difference(l, a, out, 1),
         Code::DifferenceY => difference(l, a, out, 16),
         Code::AddressFloor => {
