@@ -1,0 +1,225 @@
+// Every operation of the lane arithmetic behind one switch. Arguments of one operand ignore the others.
+
+// The integer next to x: downwards, or the nearest (ties to even).
+fn n_integral(x: Number, nearest: bool) -> Number {
+    if x.kind != 0u || x.exp >= 0 || x.sig == 0u {
+        return x;
+    }
+    let places = u32(-x.exp);
+    let integer = n_shift(x.sig, x.exp);
+    let rest = select(x.sig, x.sig & ((1u << (places & 31u)) - 1u), places < 32u);
+    let half = select(0u, 1u << ((places - 1u) & 31u), places <= 32u);
+    var up = x.sign == 1u && rest != 0u;
+    if nearest {
+        up = half != 0u && (rest > half || (rest == half && (integer & 1u) == 1u));
+    }
+    var n = n_whole(integer + select(0u, 1u, up));
+    n.sign = x.sign;
+    return n;
+}
+
+// x without what stands before the point; +0 of an integer.
+fn n_rest(x: Number) -> Number {
+    if x.kind != 0u || (x.exp <= -32 && x.sig != 0u) {
+        return x;
+    }
+    var n = n_whole(select(0u, x.sig & ((1u << (u32(-x.exp) & 31u)) - 1u), x.exp < 0));
+    n.exp += x.exp;
+    n.sign = select(x.sign, 0u, n.sig == 0u);
+    return n;
+}
+
+// The nearest of so many steps of [0, 1], halves up, as a number of steps; below 2^24 steps.
+fn n_step(x: Number, steps: u32) -> u32 {
+    if x.kind == 2u || x.sign == 1u || x.sig == 0u {
+        return 0u;
+    }
+    if x.kind == 1u || x.exp >= -31 {
+        return steps;
+    }
+    let product = n_mul32(x.sig, steps);
+    // Two more digits, of which the jammed one is not needed.
+    let m = n_right(vec3<u32>(0u, product.x, product.y), u32(-x.exp) - 2u);
+    return ((m.z >> 1u) + 1u) >> 1u;
+}
+
+// The integer part as an i32, saturated; NaN gives 0.
+fn n_integer(x: Number) -> u32 {
+    if x.kind == 2u {
+        return 0u;
+    }
+    if x.kind == 1u || x.exp >= 0 {
+        return select(0x7fffffffu, 0x80000000u, x.sign == 1u);
+    }
+    let part = n_shift(x.sig, x.exp);
+    return select(part, 0u - part, x.sign == 1u);
+}
+
+// What orders raw values as their numbers; both zeros give 0.
+fn n_key(f: Format, a: u32) -> i32 {
+    let magnitude = i32(a & 0x7fffffffu);
+    return select(i32(a), select(magnitude, -magnitude, (a >> 31u) == 1u), n_is_float(f));
+}
+
+fn n_is_nan(f: Format, a: u32) -> bool {
+    return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
+}
+
+// Everything that rounds. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed format it is of.
+// N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32.
+fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
+    var kind = f.kind;
+    var frac = f.frac;
+    if op == N_CONVERT {
+        kind = select(N_FIXED, N_FLOAT, b == 0u);
+        frac = b - 1u;
+    } else if op == N_STEPS {
+        kind = N_FLOAT;
+    }
+    var x = n_unpack(kind, frac, a);
+    var y = n_unpack(f.kind, f.frac, b);
+    var z = n_unpack(f.kind, f.frac, c);
+    // Adds nothing, not even to the sign.
+    let nothing = Number(0u, x.sign, -N_FAR, 0u);
+    var w: Real;
+    switch op {
+        case N_DIV: {}
+        case N_RCP: {
+            y = x;
+            x = N_ONE;
+        }
+        case N_STEPS: {
+            x = n_whole(n_step(x, b));
+            y = n_whole(b);
+        }
+        case N_ADD, N_SUB: {
+            z = y;
+            z.sign ^= select(0u, 1u, op == N_SUB);
+            y = N_ONE;
+        }
+        case N_MUL: {
+            z = nothing;
+            z.sign ^= y.sign;
+        }
+        case N_SCALE: {
+            y = N_ONE;
+            y.exp += clamp(i32(b), -4096, 4096);
+            z = nothing;
+        }
+        case N_CONVERT: {
+            y = N_ONE;
+            z = nothing;
+        }
+        case N_FLOOR, N_ADDRESS_FLOOR, N_ADDRESS_NEAREST: {
+            x = n_integral(x, op == N_ADDRESS_NEAREST);
+            y = N_ONE;
+            z = nothing;
+        }
+        case N_FRC: {
+            let rest = n_rest(x);
+            let below = x.sign == 1u && rest.sig != 0u;
+            // An infinity less itself; zero less zero; the rest, plus one if negative.
+            z = Number(select(0u, 1u, x.kind == 1u), select(1u - x.sign, 1u, rest.sig == 0u), -N_FAR, 0u);
+            if below && x.kind == 0u {
+                z = N_ONE;
+            }
+            x = rest;
+            y = N_ONE;
+        }
+        default: {}
+    }
+    switch op {
+        case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS: { w = n_quotient(op, f, x, y); }
+        case N_EXP2, N_LOG2: { w = n_power(op, f, x); }
+        default: { w = n_sum(f, x, y, z); }
+    }
+    let result = n_finish(f, w);
+    if op == N_ADDRESS_FLOOR || op == N_ADDRESS_NEAREST {
+        return n_integer(n_unpack(f.kind, f.frac, result));
+    }
+    return result;
+}
+
+fn n_select(condition: bool, yes: u32, no: u32) -> u32 {
+    return select(no, yes, condition);
+}
+
+fn n_mask(condition: bool) -> u32 {
+    return select(0u, 0xffffffffu, condition);
+}
+
+// What needs no rounding; known is false if the operation does.
+fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
+    let float = n_is_float(f);
+    let first = n_key(f, a);
+    let second = n_key(f, b);
+    let unordered = n_is_nan(f, a) || n_is_nan(f, b);
+    let sign = a & 0x80000000u;
+    switch op {
+        case N_MIN, N_MAX: {
+            let takes_first = !unordered && select((first < second), (first >= second), op == N_MAX);
+            return n_known(select(select(b, a, takes_first), N_NAN, unordered && f.special == 1u));
+        }
+        case N_NEG, N_ABS: {
+            let flips = op == N_NEG || sign != 0u;
+            if float {
+                return n_known(select(select(a, a ^ 0x80000000u, flips), N_NAN, n_is_nan(f, a)));
+            }
+            let least = n_extreme(f, 1u);
+            let turned = select(0u - a, select(~least, least, f.overflow == 1u), a == least);
+            return n_known(select(a, turned, flips));
+        }
+        case N_SATURATE: {
+            var one = 0x3f800000u;
+            if !float {
+                one = select(1u << f.frac, n_extreme(f, 0u), f.upper == 0u);
+            }
+            let clamped = select(select(a, one, first >= i32(one)), 0u, first <= 0);
+            return n_known(select(clamped, select(0u, N_NAN, f.special == 1u), n_is_nan(f, a)));
+        }
+        case N_FACTOR: {
+            let ends = max(a & 0x7fffffffu, b & 0x7fffffffu) >= N_INFINITY;
+            let zero = (a & 0x7fffffffu) == 0u || (b & 0x7fffffffu) == 0u;
+            return n_known(select(a, 0u, float && ends && zero));
+        }
+        case N_SELECT_NON_NEGATIVE: { return n_known(n_select(first >= 0 && !n_is_nan(f, a), b, c)); }
+        case N_SELECT_ABOVE_HALF: {
+            let half = select((1u << f.frac) >> 1u, 0x3f000000u, float);
+            return n_known(n_select(first > i32(half) && !n_is_nan(f, a), b, c));
+        }
+        case N_LESS: { return n_known(n_mask(first < second && !unordered)); }
+        case N_LESS_EQUAL: { return n_known(n_mask(first <= second && !unordered)); }
+        case N_EQUAL: { return n_known(n_mask(first == second && !unordered)); }
+        case N_SELECT: { return n_known((a & b) | (~a & c)); }
+        case N_AND: { return n_known(a & b); }
+        case N_OR: { return n_known(a | b); }
+        case N_AND_NOT: { return n_known(~a & b); }
+        case N_DECODE: { return n_known(n_decode(f, a)); }
+        case N_ENCODE: { return n_known(n_encode(f, a)); }
+        default: { return Real(); }
+    }
+}
+
+// Any operation, by its number.
+fn n_alu(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
+    let simple = n_simple(op, f, a, b, c);
+    if simple.known {
+        return simple.raw;
+    }
+    if n_native(op, f) {
+        return n_native_alu(op, a, b, c);
+    }
+    // One operation, or a product and then a sum: a loop, so that the text is there once.
+    var step = select(op, N_MUL, op == N_MAD);
+    var first = a;
+    var second = b;
+    loop {
+        first = n_arith(step, f, first, second, c);
+        if op != N_MAD || step == N_ADD {
+            return first;
+        }
+        step = N_ADD;
+        second = c;
+    }
+    return first;
+}

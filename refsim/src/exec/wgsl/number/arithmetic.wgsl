@@ -1,0 +1,240 @@
+// Exact sums and products; quotients, roots, powers and logarithms as far as one rounding can see them.
+
+const N_ONE: Number = Number(0u, 0u, -31, 0x80000000u);
+
+// x y + z
+fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
+    let sign = x.sign ^ y.sign;
+    let infinite = x.kind == 1u || y.kind == 1u;
+    let zero = (x.kind == 0u && x.sig == 0u) || (y.kind == 0u && y.sig == 0u);
+    let differ = sign != z.sign;
+    if x.kind == 2u || y.kind == 2u || z.kind == 2u || (infinite && (zero || (z.kind == 1u && differ))) {
+        return n_known(n_nan(f));
+    }
+    if infinite {
+        return n_known(n_infinite(f, sign));
+    }
+    if z.kind == 1u {
+        return n_known(n_infinite(f, z.sign));
+    }
+    let product = n_mul32(x.sig, y.sig);
+    // The higher one's leading bit goes to place 94. What the lower one loses below place 0 lies under zeros of the higher.
+    let first = x.exp + y.exp + 63;
+    let second = z.exp + 31;
+    let top = max(first, second);
+    let u = n_right(vec3<u32>(product.x, product.y, 0u), u32(top - first) + 1u);
+    var v = n_right(vec3<u32>(z.sig, 0u, 0u), u32(top - second) + 1u);
+    if differ {
+        v = ~v;
+    }
+    var total = n_add96(u, v, select(0u, 1u, differ));
+    var negative = sign;
+    if differ {
+        if (total.x >> 31u) == 1u {
+            total = n_add96(~total, vec3<u32>(), 1u);
+            negative = z.sign;
+        }
+        // An exact zero of different signs.
+        if (total.x | total.y | total.z) == 0u {
+            negative = select(0u, 1u, f.rounding == 3u);
+        }
+    }
+    return Real(false, 0u, negative, top - 94, total);
+}
+
+// x / y, sqrt x, 1 / sqrt x: digits of a long division, two at a time, of which roots extract a digit each.
+fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
+    let inverse = op == N_RSQ;
+    let root = inverse || op == N_SQRT;
+    var sign = 0u;
+    if x.kind == 2u || (!root && y.kind == 2u) {
+        return n_known(n_nan(f));
+    }
+    let empty = x.kind == 0u && x.sig == 0u;
+    if root {
+        let magnitude = inverse && f.special == 0u && n_is_float(f);
+        if empty && inverse {
+            return n_known(n_pole(f, select(x.sign, 0u, magnitude)));
+        }
+        if empty {
+            return n_known(n_zero(f, x.sign));
+        }
+        if x.sign == 1u && !magnitude {
+            return n_known(n_nan(f));
+        }
+        if x.kind == 1u {
+            return n_known(select(n_infinite(f, 0u), n_zero(f, 0u), inverse));
+        }
+    } else {
+        sign = x.sign ^ y.sign;
+        let by_zero = y.kind == 0u && y.sig == 0u;
+        if (x.kind == 1u && y.kind == 1u) || (empty && by_zero) {
+            return n_known(n_nan(f));
+        }
+        if x.kind == 1u {
+            return n_known(n_infinite(f, sign));
+        }
+        if by_zero {
+            return n_known(n_pole(f, sign));
+        }
+        if y.kind == 1u || empty {
+            return n_known(n_zero(f, sign));
+        }
+    }
+    // rest / divisor is less than one, except that divisor 0 stands for 2^32: then the digits are those of rest.
+    var rest = x.sig;
+    var divisor = 0u;
+    var digits = 0u;
+    var steps = select(34u, 28u, n_is_float(f));
+    var exp = x.exp + 32;
+    if inverse {
+        steps = select(50u, 28u, n_is_float(f));
+        rest = 0x40000000u;
+        divisor = x.sig;
+        exp = -x.exp - 30;
+    }
+    // Of an odd power, or after the digit before the point, the first pair has one digit only.
+    var skip = u32(exp & 1);
+    exp = (exp + i32(skip)) / 2 - i32(steps);
+    if !root {
+        steps = select(32u, 16u, n_is_float(f));
+        divisor = y.sig;
+        if rest >= divisor {
+            rest -= divisor;
+            digits = 1u;
+        }
+        skip = 1u;
+        exp = x.exp - y.exp - 2 * i32(steps) + 1;
+    }
+    // The result and, for roots, what is left of the digits: two words each, the high one first.
+    var result = vec2<u32>();
+    var left = vec2<u32>();
+    for (var i = 0u; i < steps; i++) {
+        for (var k = skip; k < 2u; k++) {
+            let carry = rest >> 31u;
+            rest <<= 1u;
+            let one = carry == 1u || (divisor != 0u && rest >= divisor);
+            rest -= select(0u, divisor, one);
+            digits = (digits << 1u) | select(0u, 1u, one);
+        }
+        skip = 0u;
+        let quadruple = vec2<u32>((result.x << 2u) | (result.y >> 30u), result.y << 2u);
+        if root {
+            left = vec2<u32>((left.x << 2u) | (left.y >> 30u), (left.y << 2u) | digits);
+            let trial = quadruple.y | 1u;
+            let fits = left.x > quadruple.x || (left.x == quadruple.x && left.y >= trial);
+            if fits {
+                left = vec2<u32>(left.x - quadruple.x - select(0u, 1u, left.y < trial), left.y - trial);
+            }
+            result = vec2<u32>((result.x << 1u) | (result.y >> 31u), (result.y << 1u) | select(0u, 1u, fits));
+        } else {
+            result = vec2<u32>(quadruple.x, quadruple.y | digits);
+        }
+        digits = 0u;
+    }
+    let sticky = select(0u, 1u, (rest | left.x | left.y) != 0u);
+    return Real(false, 0u, sign, exp - 32, vec3<u32>(result.x, result.y, sticky));
+}
+
+// The upper half of a product, less 4 units at most.
+fn n_mul96(a: vec3<u32>, b: vec3<u32>) -> vec3<u32> {
+    let high = n_mul32(a.x, b.x);
+    let one = n_mul32(a.x, b.y);
+    let two = n_mul32(a.y, b.x);
+    let low = vec3<u32>(n_mul32(a.y, b.y).x, n_mul32(a.x, b.z).x, n_mul32(a.z, b.x).x);
+    var sum = n_add96(vec3<u32>(high.x, high.y, one.y), vec3<u32>(0u, one.x, two.y), 0u);
+    sum = n_add96(sum, vec3<u32>(0u, two.x, low.x), 0u);
+    sum = n_add96(sum, vec3<u32>(0u, 0u, low.y), 0u);
+    return n_add96(sum, vec3<u32>(0u, 0u, low.z), 0u);
+}
+
+// p / k for k below 2^16.
+fn n_div96(p: vec3<u32>, k: u32) -> vec3<u32> {
+    var rest = 0u;
+    var source = p;
+    var to = vec3<u32>();
+    for (var i = 0u; i < 6u; i++) {
+        rest = (rest << 16u) | (source.x >> 16u);
+        let digit = rest / k;
+        rest -= digit * k;
+        source = (source << vec3<u32>(16u)) | (vec3<u32>(source.y, source.z, 0u) >> vec3<u32>(16u));
+        to = (to << vec3<u32>(16u)) | (vec3<u32>(to.y, to.z, digit << 16u) >> vec3<u32>(16u));
+    }
+    return to;
+}
+
+// 2^x and log2 x, good to 2^-90 and 2^-84. Both are irrational where they aren't exact, and no format has an operand whose
+// result is expected nearer than 2^-64 to a place where rounding turns.
+fn n_power(op: u32, f: Format, x: Number) -> Real {
+    let exponential = op == N_EXP2;
+    if x.kind == 2u {
+        return n_known(n_nan(f));
+    }
+    let empty = x.kind == 0u && x.sig == 0u;
+    var whole = x.exp + 31;
+    var u = vec3<u32>(x.sig, 0u, 0u);
+    if exponential {
+        if x.kind == 1u {
+            return n_known(select(n_infinite(f, 0u), n_zero(f, 0u), x.sign == 1u));
+        }
+        let far = whole >= 20;
+        let integral = far || empty || i32(countTrailingZeros(x.sig)) >= -x.exp;
+        whole = select(i32(n_shift(x.sig, x.exp)), N_FAR, far);
+        // The fraction in units of 2^-96; of a negative number, what is missing to the next integer.
+        let s = x.exp + 96;
+        u = vec3<u32>(n_shift(x.sig, s - 64), n_shift(x.sig, s - 32), n_shift(x.sig, s));
+        if x.sign == 1u {
+            whole = select(-whole - 1, -whole, integral);
+            u = n_add96(~u, vec3<u32>(), select(1u, 0u, s < 0));
+        }
+        if !n_is_float(f) && f.overflow == 1u && whole >= i32(f.upper) {
+            return n_known(n_extreme(f, 0u));
+        }
+        if integral {
+            return Real(false, 0u, 0u, whole, vec3<u32>(0u, 0u, 1u));
+        }
+    } else {
+        if empty {
+            return n_known(n_pole(f, 1u));
+        }
+        if x.sign == 1u && (f.special == 1u || !n_is_float(f)) {
+            return n_known(n_nan(f));
+        }
+        if x.kind == 1u {
+            return n_known(n_infinite(f, 0u));
+        }
+        if x.sig == 0x80000000u {
+            return Real(false, 0u, select(0u, 1u, whole < 0), 0, vec3<u32>(0u, 0u, u32(abs(whole))));
+        }
+    }
+    // Exponential: the first step makes t = u ln 2, each of the others 1 + t v / k, k from 27 down: e^t in units of 2^-94.
+    // Logarithm: squaring doubles it, so each square that passes 2 is a binary digit.
+    let one = vec3<u32>(0x40000000u, 0u, 0u);
+    var v = select(u, vec3<u32>(0xb17217f7u, 0xd1cf79abu, 0xc9e3b398u), exponential);
+    var digits = vec3<u32>();
+    let steps = select(84u, 28u, exponential);
+    for (var i = 0u; i < steps; i++) {
+        let p = n_mul96(u, v);
+        if exponential {
+            if i == 0u {
+                u = p;
+                v = one;
+            } else {
+                v = n_add96(one, n_div96(p, 28u - i), 0u);
+            }
+        } else {
+            let passed = p.x >> 31u;
+            u = n_add96(p, select(p, vec3<u32>(), passed == 1u), 0u);
+            v = u;
+            digits = n_add96(digits, digits, passed);
+        }
+    }
+    if exponential {
+        return Real(false, 0u, 0u, whole - 94, v | vec3<u32>(0u, 0u, 1u));
+    }
+    digits.x += u32(whole) << 20u;
+    // Truncated downwards: the magnitude of a negative one is one less.
+    let negative = whole < 0;
+    let magnitude = select(digits, ~digits, negative);
+    return Real(false, 0u, select(0u, 1u, negative), -84, magnitude | vec3<u32>(0u, 0u, 1u));
+}

@@ -1,0 +1,307 @@
+// Number formats, and the one place that rounds.
+//
+// Values are raw: fixed point as a sign-extended integer, floats of every format as the binary32 pattern of the number, NaN
+// as 0x7fc00000. Magnitudes of 96 bits are vec3, the first word the highest; a last bit that is set may stand for whatever
+// follows it ("jammed"), which rounding can't tell from the truth as long as it happens two places above.
+
+struct Format {
+    kind: u32,       // 0 fixed, 1 float
+    upper: u32,      // integer bits, or exponent bits
+    frac: u32,       // fraction bits, or stored mantissa bits
+    rounding: u32,   // 0 nearest even, 1 nearest away, 2 toward zero, 3 down
+    overflow: u32,   // 0 saturate, 1 wrap, 2 infinity, 3 as NV_fragment_program
+    denormals: u32,  // 0 keep, 1 flush
+    special: u32,    // 0 Direct3D, 1 NV_fragment_program
+    spare: u32,
+}
+
+const N_FIXED: u32 = 0u;
+const N_FLOAT: u32 = 1u;
+const N_NAN: u32 = 0x7fc00000u;
+const N_INFINITY: u32 = 0x7f800000u;
+const N_FP32: Format = Format(1u, 8u, 23u, 0u, 2u, 0u, 0u, 0u);
+// Beyond every exponent.
+const N_FAR: i32 = 1048576;
+
+// (-1)^sign sig 2^exp with the leading bit of sig set; zero has sig 0 and exp -N_FAR. kind: 0 finite, 1 infinite, 2 NaN.
+struct Number {
+    kind: u32,
+    sign: u32,
+    exp: i32,
+    sig: u32,
+}
+
+// What an operation leaves to be rounded: (-1)^sign m 2^exp; or a result known already.
+struct Real {
+    known: bool,
+    raw: u32,
+    sign: u32,
+    exp: i32,
+    m: vec3<u32>,
+}
+
+fn n_known(raw: u32) -> Real {
+    return Real(true, raw, 0u, 0, vec3<u32>());
+}
+
+fn n_is_float(f: Format) -> bool {
+    return f.kind == N_FLOAT;
+}
+
+// No result: NaN, or zero where there is none.
+fn n_nan(f: Format) -> u32 {
+    return select(0u, N_NAN, n_is_float(f));
+}
+
+fn n_zero(f: Format, sign: u32) -> u32 {
+    return select(0u, sign << 31u, n_is_float(f));
+}
+
+// The finite end of the range on a side.
+fn n_extreme(f: Format, sign: u32) -> u32 {
+    if n_is_float(f) {
+        let exponent = (1u << (f.upper - 1u)) + 126u;
+        return (sign << 31u) | (exponent << 23u) | (((1u << f.frac) - 1u) << (23u - f.frac));
+    }
+    let most = (1u << (f.upper + f.frac)) - 1u;
+    return select(most, ~most, sign == 1u);
+}
+
+// An infinite operand passed on.
+fn n_infinite(f: Format, sign: u32) -> u32 {
+    return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, n_is_float(f));
+}
+
+// An exactly infinite result of finite operands.
+fn n_pole(f: Format, sign: u32) -> u32 {
+    return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, n_is_float(f) && f.overflow != 0u);
+}
+
+// A float too large; huge: beyond the largest exponent before rounding.
+fn n_overflow(f: Format, sign: u32, huge: bool) -> u32 {
+    var infinite = f.rounding < 2u || (f.rounding == 3u && sign == 1u);
+    if f.overflow == 0u {
+        infinite = false;
+    } else if f.overflow == 3u {
+        infinite = huge;
+    }
+    return select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, infinite);
+}
+
+// x 2^s, cut to the word on both sides.
+fn n_shift(x: u32, s: i32) -> u32 {
+    if s >= 32 || s <= -32 {
+        return 0u;
+    }
+    return select(x >> (u32(-s) & 31u), x << (u32(s) & 31u), s >= 0);
+}
+
+// m / 2^s, jammed.
+fn n_right(m: vec3<u32>, s: u32) -> vec3<u32> {
+    var y = m;
+    var lost = 0u;
+    if s >= 96u {
+        lost = y.x | y.y | y.z;
+        y = vec3<u32>();
+    } else if s >= 64u {
+        lost = y.y | y.z;
+        y = vec3<u32>(0u, 0u, y.x);
+    } else if s >= 32u {
+        lost = y.z;
+        y = vec3<u32>(0u, y.x, y.y);
+    }
+    let bits = s & 31u;
+    if bits != 0u {
+        lost |= y.z << (32u - bits);
+        y = (y >> vec3<u32>(bits)) | (vec3<u32>(0u, y.x, y.y) << vec3<u32>(32u - bits));
+    }
+    y.z |= select(0u, 1u, lost != 0u);
+    return y;
+}
+
+// a + b + carry modulo 2^96.
+fn n_add96(a: vec3<u32>, b: vec3<u32>, carry: u32) -> vec3<u32> {
+    let low = a.z + b.z;
+    let z = low + carry;
+    let c = select(0u, 1u, low < a.z || z < low);
+    let middle = a.y + b.y;
+    let y = middle + c;
+    let d = select(0u, 1u, middle < a.y || y < middle);
+    return vec3<u32>(a.x + b.x + d, y, z);
+}
+
+// The 64 bits of a product, the high word first.
+fn n_mul32(a: u32, b: u32) -> vec2<u32> {
+    let a0 = a & 0xffffu;
+    let a1 = a >> 16u;
+    let b0 = b & 0xffffu;
+    let b1 = b >> 16u;
+    let low = a0 * b0;
+    let middle = a1 * b0 + (low >> 16u);
+    let other = a0 * b1 + (middle & 0xffffu);
+    return vec2<u32>(a1 * b1 + (middle >> 16u) + (other >> 16u), (other << 16u) | (low & 0xffffu));
+}
+
+// A whole number.
+fn n_whole(x: u32) -> Number {
+    let zeros = countLeadingZeros(x);
+    return Number(0u, 0u, select(-i32(zeros), -N_FAR, x == 0u), x << (zeros & 31u));
+}
+
+// The number that a raw value of a format of this kind, with so many fraction bits if fixed, means.
+fn n_unpack(kind: u32, frac: u32, raw: u32) -> Number {
+    let sign = raw >> 31u;
+    if kind == N_FIXED {
+        var n = n_whole(select(raw, 0u - raw, sign == 1u));
+        n.sign = sign;
+        n.exp -= i32(frac);
+        return n;
+    }
+    let field = (raw >> 23u) & 0xffu;
+    let mantissa = raw & 0x7fffffu;
+    if field == 255u {
+        return Number(select(1u, 2u, mantissa != 0u), sign, 0, 0x80000000u);
+    }
+    var n = n_whole(mantissa | select(0u, 0x800000u, field != 0u));
+    n.sign = sign;
+    n.exp += i32(max(field, 1u)) - 150;
+    return n;
+}
+
+// (-1)^sign m 2^exp rounded once into the format.
+fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
+    var m = magnitude;
+    var e = exp;
+    for (var i = 0u; i < 2u; i++) {
+        if m.x == 0u {
+            m = vec3<u32>(m.y, m.z, 0u);
+            e -= 32;
+        }
+    }
+    if m.x == 0u {
+        return n_zero(f, sign);
+    }
+    let zeros = countLeadingZeros(m.x);
+    if zeros != 0u {
+        m = (m << vec3<u32>(zeros)) | (vec3<u32>(m.y, m.z, 0u) >> vec3<u32>(32u - zeros));
+        e -= i32(zeros);
+    }
+    let float = n_is_float(f);
+    let top = e + 95;
+    let places = i32(f.frac);
+    // Exponents of the smallest and the largest normal number.
+    let lowest = 2 - (1 << (f.upper - select(0u, 1u, float)));
+    let highest = 1 - lowest;
+    let unit = select(-places, max(top, lowest) - places, float);
+    let shift = unit - e;
+    // Below two the integer ends in 32 zeros, in fixed point; a float never comes near.
+    var y = vec3<u32>();
+    if shift >= 2 {
+        y = n_right(m, u32(shift - 2));
+    }
+    let kept = (y.z >> 2u) | (y.y << 30u);
+    let half = (y.z & 2u) != 0u;
+    let below = (y.z & 1u) != 0u;
+    var up = false;
+    switch f.rounding {
+        case 0u: { up = half && (below || (kept & 1u) != 0u); }
+        case 1u: { up = half; }
+        case 3u: { up = sign == 1u && (half || below); }
+        default: {}
+    }
+    let rounded = kept + select(0u, 1u, up);
+    if !float {
+        let bits = f.upper + f.frac;
+        // One unit further on the negative side.
+        let limit = (1u << bits) - 1u + sign;
+        let over = shift < 2 || y.x != 0u || (y.y >> 2u) != 0u || rounded > limit || rounded < kept;
+        let value = select(rounded, 0u - rounded, sign == 1u);
+        if over && f.overflow != 1u {
+            return n_extreme(f, sign);
+        }
+        return u32(i32(value << (31u - bits)) >> (31u - bits));
+    }
+    if top > highest || (top == highest && (rounded >> (f.frac + 1u)) != 0u) {
+        return n_overflow(f, sign, top > highest);
+    }
+    if rounded == 0u || (f.denormals == 1u && (rounded >> f.frac) == 0u) {
+        return sign << 31u;
+    }
+    let clear = countLeadingZeros(rounded);
+    let exponent = 31 - i32(clear) + unit;
+    if exponent < -126 {
+        return (sign << 31u) | (rounded << u32(unit + 149));
+    }
+    return (sign << 31u) | (u32(exponent + 127) << 23u) | (((rounded << clear) << 1u) >> 9u);
+}
+
+fn n_finish(f: Format, x: Real) -> u32 {
+    if x.known {
+        return x.raw;
+    }
+    return n_round_real(f, x.sign, x.exp, x.m);
+}
+
+// (-1)^negative v rounded into the format: v = sig 2^exponent (x the low word, y the high one), or with sticky strictly between
+// that and (sig + 1) 2^exponent.
+fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: bool) -> u32 {
+    let m = vec3<u32>(sig.y, sig.x, select(0u, 1u, sticky));
+    return n_round_real(f, select(0u, 1u, negative), exponent - 32, m);
+}
+
+// The raw value of a bit pattern of the format.
+fn n_decode(f: Format, bits: u32) -> u32 {
+    if !n_is_float(f) {
+        let spare = 31u - f.upper - f.frac;
+        return u32(i32(bits << spare) >> spare);
+    }
+    let width = f.upper + f.frac;
+    let sign = ((bits >> width) & 1u) << 31u;
+    let field = (bits >> f.frac) & ((1u << f.upper) - 1u);
+    let mantissa = bits & ((1u << f.frac) - 1u);
+    if field == (1u << f.upper) - 1u {
+        return select(sign | N_INFINITY, N_NAN, mantissa != 0u);
+    }
+    if field == 0u && (mantissa == 0u || f.denormals == 1u) {
+        return sign;
+    }
+    let above = 23u - f.frac;
+    if f.upper == 8u {
+        return sign | (field << 23u) | (mantissa << above);
+    }
+    let bias = (1u << (f.upper - 1u)) - 1u;
+    if field != 0u {
+        return sign | ((field + 127u - bias) << 23u) | (mantissa << above);
+    }
+    let clear = countLeadingZeros(mantissa);
+    // The leading bit means 2^(31 - clear) units of 2^(1 - bias - frac).
+    return sign | ((159u - clear - bias - f.frac) << 23u) | (((mantissa << clear) << 1u) >> 9u);
+}
+
+// The bit pattern of a raw value of the format.
+fn n_encode(f: Format, raw: u32) -> u32 {
+    let width = f.upper + f.frac;
+    if !n_is_float(f) {
+        return raw & (0xffffffffu >> (31u - width));
+    }
+    let magnitude = raw & 0x7fffffffu;
+    let infinity = ((1u << f.upper) - 1u) << f.frac;
+    if magnitude > N_INFINITY {
+        return infinity | (1u << (f.frac - 1u));
+    }
+    let sign = (raw >> 31u) << width;
+    let above = 23u - f.frac;
+    if magnitude == N_INFINITY {
+        return sign | infinity;
+    }
+    if f.upper == 8u || magnitude == 0u {
+        return sign | (magnitude >> above);
+    }
+    let bias = (1 << (f.upper - 1u)) - 1;
+    let exponent = i32(magnitude >> 23u) - 127;
+    let mantissa = magnitude & 0x7fffffu;
+    if exponent >= 1 - bias {
+        return sign | (u32(exponent + bias) << f.frac) | (mantissa >> above);
+    }
+    return sign | ((mantissa | 0x800000u) >> (above + u32(1 - bias - exponent)));
+}

@@ -1,0 +1,175 @@
+//! The shader's results against `refsim::num`.
+
+use std::sync::Arc;
+
+use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::wgsl::number::{NativeOperations, NumberMode, Operation, format_words, library, source_word};
+use refsim::num::{Format, ops};
+
+use crate::operands::{Words, edges, formats, pattern};
+use crate::reference::reference;
+
+/// Operands of single precision for steps, whatever the format.
+const SINGLE: Format = Format::FP32;
+
+fn text(entry: &str) -> String {
+    library(NumberMode::Integer, NativeOperations::empty()) + entry
+}
+
+/// The adapter, or `None` after saying that there is none.
+fn adapter() -> Option<Arc<Gpu>> {
+    let gpu = testing::shared().expect("an adapter that can be opened");
+    if gpu.is_none() {
+        println!("ignored: no adapter");
+    }
+    gpu
+}
+
+/// One operation to try.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    operation: Operation,
+    /// Places in the list of formats: of the result, and of what is converted.
+    format: usize,
+    source: usize,
+    operands: [u32; 3],
+}
+
+impl Item {
+    fn words(&self, formats: &[Format]) -> [u32; 5] {
+        let [a, b, c] = self.operands;
+        let (b, c) = match self.operation {
+            Operation::Convert => (source_word(&formats[self.source]), self.source as u32),
+            _ => (b, c),
+        };
+        [self.operation.word(), self.format as u32, a, b, c]
+    }
+
+    fn expected(&self, formats: &[Format]) -> Option<u32> {
+        let [a, b, c] = self.operands;
+        let format = &formats[self.format];
+        match self.operation {
+            Operation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
+            operation => reference(operation, format, a, b, c),
+        }
+    }
+}
+
+/// Runs the items and names what differs.
+fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
+    let table: Vec<u32> = formats.iter().flat_map(format_words).collect();
+    let shader = text(include_str!("operations.wgsl"));
+    for part in items.chunks(1 << 18) {
+        let words: Vec<u32> = part.iter().flat_map(|i| i.words(formats)).collect();
+        let groups = [part.len().div_ceil(64) as u32, 1, 1];
+        let found = gpu.compute(&shader, "run_operations", &[&table, &words], part.len(), groups);
+        let found = found.expect("the shader runs");
+        for (item, bits) in part.iter().zip(found) {
+            let Some(expected) = item.expected(formats) else { continue };
+            let (format, source) = (formats[item.format], formats[item.source]);
+            assert_eq!(
+                bits, expected,
+                "{:?} in {format} of {:08x?} (from {source}): {bits:08x} for {expected:08x}",
+                item.operation, item.operands
+            );
+        }
+    }
+}
+
+/// Random operands of an operation.
+fn random_item(words: &mut Words, formats: &[Format], all: &[Vec<u32>], operation: Operation, format: usize) -> Item {
+    let source = words.below(formats.len());
+    let mut operands = [0; 3];
+    for (i, operand) in operands.iter_mut().enumerate() {
+        let of = if i == 0 && operation == Operation::Convert { source } else { format };
+        *operand = pattern(words, &formats[of], &all[of]);
+    }
+    match operation {
+        Operation::Scale => operands[1] = (words.below(15) as i32 - 7).cast_unsigned(),
+        Operation::Steps => {
+            operands[0] = pattern(words, &SINGLE, &edges(&SINGLE));
+            if words.below(2) == 0 {
+                operands[0] = 0x3f80_0000 - (words.next() >> words.below(32)).min(0x3f80_0000);
+            }
+            operands[1] = [255, 1, 3, 7, 15, 31, 63, 127, 1023, 65535][words.below(10)];
+        }
+        _ => {}
+    }
+    Item { operation, format, source, operands }
+}
+
+fn tried(operation: Operation) -> bool {
+    use Operation as Op;
+    !matches!(operation, Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
+}
+
+/// How many operands an operation reads.
+fn arity(operation: Operation) -> usize {
+    use Operation as Op;
+    match operation {
+        Op::Mad | Op::FusedMad | Op::SelectNonNegative | Op::SelectAboveHalf => 3,
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Min | Op::Max | Op::Factor => 2,
+        Op::Less | Op::LessEqual | Op::Equal => 2,
+        _ => 1,
+    }
+}
+
+#[test]
+fn every_operation_in_many_formats() {
+    let Some(gpu) = adapter() else { return };
+    let formats = formats();
+    let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
+    let count = std::env::var("CROSSBAR_LONG").ok().map_or(300, |_| 20_000);
+    let mut words = Words(1);
+    for operation in Operation::ALL.into_iter().filter(|&o| tried(o)) {
+        let mut items = Vec::new();
+        for format in 0..formats.len() {
+            items.extend((0..count).map(|_| random_item(&mut words, &formats, &all, operation, format)));
+        }
+        let start = std::time::Instant::now();
+        check(&gpu, &formats, &items);
+        println!("{operation:?}: {} results in {:?}", items.len(), start.elapsed());
+    }
+}
+
+#[test]
+fn every_pair_of_short_formats() {
+    let Some(gpu) = adapter() else { return };
+    let formats: Vec<Format> =
+        ["e3m2", "s1.2", "e2m2:rdn:nvovf:nv", "e3m2:rtz:ftz:sat", "s2.2:rdn:wrap", "s0.4:rna", "e4m1:rna"]
+            .iter()
+            .map(|f| f.parse().expect("a format"))
+            .collect();
+    let mut items = Vec::new();
+    for (format, layout) in formats.iter().enumerate() {
+        for operation in Operation::ALL.into_iter().filter(|&o| tried(o) && arity(o) < 3 && o != Operation::Steps) {
+            for a in 0..=layout.mask() {
+                match operation {
+                    Operation::Convert => items.extend((0..formats.len()).map(|to| Item {
+                        operation,
+                        format: to,
+                        source: format,
+                        operands: [a, 0, 0],
+                    })),
+                    Operation::Scale => items.extend((-8..=8i32).map(|k| Item {
+                        operation,
+                        format,
+                        source: format,
+                        operands: [a, k.cast_unsigned(), 0],
+                    })),
+                    _ => {
+                        let seconds = if arity(operation) == 2 { layout.mask() } else { 0 };
+                        items.extend((0..=seconds).map(|b| Item {
+                            operation,
+                            format,
+                            source: format,
+                            operands: [a, b, 0],
+                        }));
+                    }
+                }
+            }
+        }
+    }
+    println!("{} results", items.len());
+    check(&gpu, &formats, &items);
+}

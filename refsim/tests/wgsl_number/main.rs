@@ -1,0 +1,25 @@
+//! The arithmetic library in WGSL: valid text, and on an adapter the reference's bits.
+
+#[cfg(feature = "wgpu")]
+mod device;
+#[cfg(feature = "wgpu")]
+mod operands;
+#[cfg(feature = "wgpu")]
+mod reference;
+
+use refsim::exec::wgsl::number::{NativeOperations, NumberMode, library};
+
+/// Parses and validates a module; the message names what naga found.
+fn validate(text: &str) {
+    let module = naga::front::wgsl::parse_str(text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
+}
+
+#[test]
+fn the_library_is_valid_wgsl() {
+    validate(&library(NumberMode::Integer, NativeOperations::empty()));
+    validate(&library(NumberMode::Native, NativeOperations::empty()));
+    validate(&library(NumberMode::Native, NativeOperations::all()));
+}

@@ -1,0 +1,87 @@
+//! Formats and operands: edges, patterns near them, and many others drawn from a fixed seed.
+
+use refsim::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+
+/// A generator of words (splitmix64), so that every run sees the same.
+pub(crate) struct Words(pub(crate) u64);
+
+impl Words {
+    pub(crate) fn next(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 32) as u32
+    }
+
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        self.next() as usize % n
+    }
+}
+
+/// Patterns where something changes: zeros, ends, ones, halves, infinities, NaN, and their neighbours.
+pub(crate) fn edges(format: &Format) -> Vec<u32> {
+    let mut bits =
+        vec![0, 1, format.one(), format.max_finite(), format.min_finite(), format.one() / 2, format.sign_bit()];
+    bits.extend(format.infinity(false));
+    bits.extend(format.canonical_nan());
+    if let Kind::Float { man_bits, .. } = format.kind {
+        bits.push(1 << man_bits);
+        bits.push(format.one() - (1 << man_bits));
+        bits.push(format.one() + (1 << man_bits));
+        bits.push((format.sign_bit() - (1 << man_bits)) | 1);
+    }
+    let mut all = Vec::new();
+    for b in bits {
+        for near in [b.wrapping_sub(1), b, b.wrapping_add(1)] {
+            all.extend([near & format.mask(), (near ^ format.sign_bit()) & format.mask()]);
+        }
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// A pattern: any; or near one; or small; or an edge.
+pub(crate) fn pattern(words: &mut Words, format: &Format, edges: &[u32]) -> u32 {
+    let word = words.next();
+    let bits = match words.below(8) {
+        0 | 1 => edges[words.below(edges.len())],
+        2 => format.one() ^ (word >> 12) & (format.mask() >> 4),
+        3 => word >> words.below(32),
+        4 => !(word >> words.below(32)),
+        5 => word & (word << 7) & (word << 3),
+        _ => word,
+    };
+    bits & format.mask()
+}
+
+/// Every rule on a few layouts, and many layouts.
+pub(crate) fn formats() -> Vec<Format> {
+    let fixed =
+        [(3, 12), (1, 10), (0, 31), (31, 0), (1, 2), (0, 1), (7, 8), (15, 16), (1, 30), (16, 15), (0, 8), (8, 23)];
+    let float = [(8, 23), (5, 10), (7, 16), (8, 7), (3, 2), (2, 1), (2, 23), (8, 1), (4, 3), (6, 9), (8, 22), (3, 20)];
+    let rounding = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
+    let mut all = Vec::new();
+    for (i, (int, frac)) in fixed.into_iter().enumerate() {
+        let Some(format) = Format::fixed(int, frac) else { continue };
+        for (j, r) in rounding.into_iter().enumerate() {
+            let wrap = if (i + j) % 2 == 0 { Overflow::Saturate } else { Overflow::Wrap };
+            all.push(format.with_rounding(r).with_overflow(wrap));
+        }
+        all.push(format.with_overflow(Overflow::Wrap));
+    }
+    let overflow = [Overflow::Infinity, Overflow::Saturate, Overflow::Nv30];
+    for (i, (exp, man)) in float.into_iter().enumerate() {
+        let Some(format) = Format::float(exp, man) else { continue };
+        all.push(format);
+        for (j, r) in rounding.into_iter().enumerate() {
+            let k = i + j;
+            let denormals = if k % 2 == 0 { Denormals::Flush } else { Denormals::Keep };
+            let specials = if (k / 2) % 2 == 0 { Specials::Nv } else { Specials::Ieee };
+            let other = format.with_rounding(r).with_overflow(overflow[k % 3]);
+            all.push(other.with_denormals(denormals).with_specials(specials));
+        }
+    }
+    all
+}

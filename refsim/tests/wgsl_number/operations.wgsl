@@ -1,0 +1,31 @@
+// One operation an item: number, format (a place in `formats`), three operands as bit patterns.
+@group(0) @binding(0) var<storage, read> formats: array<u32>;
+@group(0) @binding(1) var<storage, read> items: array<u32>;
+@group(0) @binding(2) var<storage, read_write> results: array<u32>;
+
+fn format_at(k: u32) -> Format {
+    let at = 8u * k;
+    return Format(formats[at], formats[at + 1u], formats[at + 2u], formats[at + 3u], formats[at + 4u], formats[at + 5u],
+        formats[at + 6u], 0u);
+}
+
+@compute @workgroup_size(64)
+fn run_operations(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = 5u * id.x;
+    if id.x >= arrayLength(&results) {
+        return;
+    }
+    let op = items[at];
+    let f = format_at(items[at + 1u]);
+    var operands = vec3<u32>(items[at + 2u], items[at + 3u], items[at + 4u]);
+    // A conversion's second operand names the format of the first; a scale's is a power, that of steps a count.
+    let first = format_at(select(items[at + 1u], items[at + 4u], op == N_CONVERT));
+    let numbers = select(3u, 1u, op == N_CONVERT || op == N_SCALE || op == N_STEPS);
+    for (var i = 0u; i < numbers; i++) {
+        let one = operands[i];
+        operands[i] = select(n_decode(first, one), one, op == N_STEPS);
+    }
+    let result = n_alu(op, f, operands.x, operands.y, operands.z);
+    let plain = op == N_LESS || op == N_LESS_EQUAL || op == N_EQUAL || op == N_ADDRESS_FLOOR || op == N_ADDRESS_NEAREST;
+    results[id.x] = select(n_encode(f, result), result, plain);
+}
