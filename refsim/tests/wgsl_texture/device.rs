@@ -4,6 +4,7 @@ use super::cases::{self, Case, READ_WORDS, Read};
 use super::random::Random;
 use super::{module, reference};
 use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::wgsl::number::format_words;
 use refsim::exec::wgsl::texture::{component_words, image_words, sampler_words};
 use refsim::num::Format;
 use refsim::texture::{SignedTexelMinimum, TexelFormat, decode};
@@ -52,38 +53,47 @@ fn tables(cases: &[Case]) -> (Vec<u32>, Vec<u32>) {
     (samplers, video)
 }
 
+/// The first read that the text and the texture room see differently.
+fn difference(gpu: &Gpu, text: &str, seed: u64, name: &str) -> Option<String> {
+    let format: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mut random = Random(seed);
+    let cases = cases::cases(&mut random, format).unwrap_or_else(|e| panic!("{e}"));
+    let (samplers, video) = tables(&cases);
+    let mut reads: Vec<Read> = Vec::new();
+    for _ in 0..READS {
+        reads.extend(cases.iter().enumerate().map(|(i, case)| cases::read(&mut random, i, case)));
+    }
+    let words: Vec<u32> = reads.iter().flat_map(Read::words).collect();
+    assert_eq!(words.len(), reads.len() * READ_WORDS);
+    let inputs: [&[u32]; 4] = [&format_words(&format), &samplers, &video, &words];
+    let start = Instant::now();
+    let made = gpu
+        .compute(text, "read_texels", &inputs, 16 * reads.len(), groups(reads.len()))
+        .unwrap_or_else(|e| panic!("{e}"));
+    println!("{name}: {} quads in {:?}", reads.len(), start.elapsed());
+    reads.iter().zip(made.chunks_exact(16)).find_map(|(read, made)| {
+        let case = &cases[read.sampler];
+        (0..4).find_map(|lane| {
+            let runs = read.run >> lane & 1 == 1;
+            let expected = if runs { reference::texel(case, read, lane) } else { [0; 4] };
+            let found = [0, 1, 2, 3].map(|c: usize| made[4 * c + lane]);
+            let image = case.image.as_ref().map(|i| (i.format(), i.kind(), i.levels()));
+            let (state, rules) = (&case.state, &case.rules);
+            (found != expected).then(|| {
+                format!(
+                    "{name}: expected {expected:x?}, found {found:x?} for {image:x?} {state:x?} {rules:?}, lane {lane} of {read:x?}"
+                )
+            })
+        })
+    })
+}
+
 #[test]
 fn reads_are_those_of_the_texture_room() {
     let Some(gpu) = gpu() else { return };
     let text = module::reading();
     for (seed, name) in (0..).zip(FORMATS) {
-        let format: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
-        let mut random = Random(seed);
-        let cases = cases::cases(&mut random, format).unwrap_or_else(|e| panic!("{e}"));
-        let (samplers, video) = tables(&cases);
-        let mut reads: Vec<Read> = Vec::new();
-        for _ in 0..READS {
-            reads.extend(cases.iter().enumerate().map(|(i, case)| cases::read(&mut random, i, case)));
-        }
-        let words: Vec<u32> = reads.iter().flat_map(Read::words).collect();
-        assert_eq!(words.len(), reads.len() * READ_WORDS);
-        let inputs: [&[u32]; 4] = [&module::format_words(format), &samplers, &video, &words];
-        let start = Instant::now();
-        let made = gpu
-            .compute(&text, "read_texels", &inputs, 16 * reads.len(), groups(reads.len()))
-            .unwrap_or_else(|e| panic!("{e}"));
-        println!("{name}: {} quads in {:?}", reads.len(), start.elapsed());
-        for (read, made) in reads.iter().zip(made.chunks_exact(16)) {
-            for lane in 0..4 {
-                let runs = read.run >> lane & 1 == 1;
-                let case = &cases[read.sampler];
-                let expected = if runs { reference::texel(case, read, lane) } else { [0; 4] };
-                let found = [0, 1, 2, 3].map(|c: usize| made[4 * c + lane]);
-                let image = case.image.as_ref().map(|i| (i.format(), i.kind(), i.levels()));
-                let rules = case.rules;
-                assert_eq!(found, expected, "{name}: {image:?} {:?} {rules:?} lane {lane} of {read:x?}", case.state);
-            }
-        }
+        assert_eq!(difference(&gpu, &text, seed, name), None);
     }
 }
 
@@ -104,7 +114,7 @@ fn texels_decode_as_the_texture_room_has_it() {
             words.extend(component_words(format, minimum));
             expected.extend(decode(format, raw, minimum).to_format(main).map(|x| reference::raw(main, x)));
         }
-        let inputs: [&[u32]; 4] = [&module::format_words(main), &[0], &[0], &words];
+        let inputs: [&[u32]; 4] = [&format_words(&main), &[0], &[0], &words];
         let count = words.len() / 8;
         let made =
             gpu.compute(&text, "decode_texels", &inputs, 4 * count, groups(count)).unwrap_or_else(|e| panic!("{e}"));

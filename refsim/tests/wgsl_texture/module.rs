@@ -1,7 +1,6 @@
 //! The module that the tests run.
 
-use refsim::exec::wgsl::texture;
-use refsim::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use refsim::exec::wgsl::{NativeOperations, NumberMode, number, texture};
 
 const HEAD: &str = "
 @group(0) @binding(0) var<storage, read> draw: array<u32>;
@@ -39,35 +38,21 @@ const DECODING: &str = "
 }
 ";
 
-/// The module that reads.
+fn module(entry: &str, mode: NumberMode, native: NativeOperations) -> String {
+    [HEAD, &number::library(mode, native), &texture::library(), entry].concat()
+}
+
+/// The module that reads, in integers alone.
 pub(crate) fn reading() -> String {
-    [HEAD, include_str!("number.wgsl"), &texture::library(), READING].concat()
+    module(READING, NumberMode::Integer, NativeOperations::empty())
+}
+
+/// The module that reads with all the `f32` there is.
+pub(crate) fn reading_native() -> String {
+    module(READING, NumberMode::Native, NativeOperations::all())
 }
 
 /// The module that decodes.
 pub(crate) fn decoding() -> String {
-    [HEAD, include_str!("number.wgsl"), &texture::library(), DECODING].concat()
-}
-
-/// The words by which the module knows a format.
-pub(crate) fn format_words(format: Format) -> [u32; 8] {
-    let (kind, upper, frac) = match format.kind {
-        Kind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
-        Kind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
-    };
-    let rounding = match format.rounding {
-        Rounding::NearestEven => 0,
-        Rounding::NearestAway => 1,
-        Rounding::TowardZero => 2,
-        Rounding::Down => 3,
-    };
-    let overflow = match format.overflow {
-        Overflow::Saturate => 0,
-        Overflow::Wrap => 1,
-        Overflow::Infinity => 2,
-        Overflow::Nv30 => 3,
-    };
-    let denormals = u32::from(format.denormals == Denormals::Flush);
-    let specials = u32::from(format.specials == Specials::Nv);
-    [kind, upper.into(), frac.into(), rounding, overflow, denormals, specials, 0]
+    module(DECODING, NumberMode::Integer, NativeOperations::empty())
 }

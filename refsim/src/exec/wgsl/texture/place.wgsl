@@ -62,11 +62,6 @@ const TEXTURE_STEP_SHIFT: u32 = 16u;
 const TEXTURE_STEP_FACE: u32 = 17u;
 const TEXTURE_STEP_END: u32 = 18u;
 
-const TEXTURE_ADD: u32 = 0u;
-const TEXTURE_SUB: u32 = 1u;
-const TEXTURE_MUL: u32 = 2u;
-const TEXTURE_DIV: u32 = 3u;
-
 // All single precision arithmetic before the texels are read goes through the one s_alu below: an inlining compiler
 // then makes one copy of it.
 fn texture_place(
@@ -112,26 +107,26 @@ fn texture_place(
             }
         }
         if (step == TEXTURE_STEP_END) { break; }
-        var code = TEXTURE_MUL;
+        var code = N_MUL;
         var a = x;
         var b = x;
         switch step {
-            case TEXTURE_STEP_CHANGE: { code = TEXTURE_SUB; a = high[axis]; b = low[axis]; }
-            case TEXTURE_STEP_MOVE: { code = TEXTURE_ADD; a = start[axis]; b = change[axis]; }
-            case TEXTURE_STEP_QUOTIENT: { code = TEXTURE_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_MINOR: { code = TEXTURE_SUB; a = moved[axis]; b = own[axis]; }
-            case TEXTURE_STEP_MAJOR: { code = TEXTURE_SUB; a = moved.z; b = own.z; }
+            case TEXTURE_STEP_CHANGE: { code = N_SUB; a = high[axis]; b = low[axis]; }
+            case TEXTURE_STEP_MOVE: { code = N_ADD; a = start[axis]; b = change[axis]; }
+            case TEXTURE_STEP_QUOTIENT: { code = N_DIV; a = own[axis]; b = own.z; }
+            case TEXTURE_STEP_MINOR: { code = N_SUB; a = moved[axis]; b = own[axis]; }
+            case TEXTURE_STEP_MAJOR: { code = N_SUB; a = moved.z; b = own.z; }
             case TEXTURE_STEP_TURN: { a = y; b = low.x; }
-            case TEXTURE_STEP_SLOPE: { code = TEXTURE_SUB; a = x; b = y; }
-            case TEXTURE_STEP_SHRINK: { code = TEXTURE_DIV; b = own.z; }
+            case TEXTURE_STEP_SLOPE: { code = N_SUB; a = x; b = y; }
+            case TEXTURE_STEP_SHRINK: { code = N_DIV; b = own.z; }
             case TEXTURE_STEP_HALVE: { b = TEXTURE_HALF; }
             case TEXTURE_STEP_SCALE: { a = select(change[axis], x, cube); b = samplers[base + SAMPLER_SCALES + axis]; }
             case TEXTURE_STEP_SQUARE: { }
-            case TEXTURE_STEP_SUM: { code = TEXTURE_ADD; a = sum; }
-            case TEXTURE_STEP_BIAS: { code = TEXTURE_ADD; a = place.wanted; b = bias[lane]; }
-            case TEXTURE_STEP_STATE: { code = TEXTURE_ADD; a = place.wanted; b = samplers[base + SAMPLER_LOD_BIAS]; }
-            case TEXTURE_STEP_DIVIDE: { code = TEXTURE_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_SHIFT: { code = TEXTURE_ADD; b = TEXTURE_ONE; }
+            case TEXTURE_STEP_SUM: { code = N_ADD; a = sum; }
+            case TEXTURE_STEP_BIAS: { code = N_ADD; a = place.wanted; b = bias[lane]; }
+            case TEXTURE_STEP_STATE: { code = N_ADD; a = place.wanted; b = samplers[base + SAMPLER_LOD_BIAS]; }
+            case TEXTURE_STEP_DIVIDE: { code = N_DIV; a = own[axis]; b = own.z; }
+            case TEXTURE_STEP_SHIFT: { code = N_ADD; b = TEXTURE_ONE; }
             default: { b = TEXTURE_HALF; }
         }
         let r = s_alu(code, a, b);

@@ -109,10 +109,10 @@ fn texture_blend(base: u32, taps: TextureTaps, level_weight: u32, texels: ptr<fu
                 for (var c = 0u; c < 4u; c++) {
                     var x = b[c];
                     for (var k = 0u; k < 3u; k++) {
-                        var code = TEXTURE_ADD;
+                        var code = N_ADD;
                         var other = a[c];
-                        if (k == 0u) { code = TEXTURE_SUB; }
-                        if (k == 1u) { code = TEXTURE_MUL; other = single; }
+                        if (k == 0u) { code = N_SUB; }
+                        if (k == 1u) { code = N_MUL; other = single; }
                         x = s_alu(code, x, other);
                     }
                     a[c] = x;
@@ -168,6 +168,8 @@ fn texture_texel(base: u32, place: TexturePlace) -> vec4<u32> {
     if (floats) { texture_blend(base, taps, levels.weight, &texels); }
     let f = format(MAIN);
     var out = vec4<u32>(0u);
+    // Single precision keeps what is single precision.
+    if (floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return texels[0]; }
     for (var c = 0u; c < 4u; c++) {
         var parts: TexelParts;
         if (floats) {

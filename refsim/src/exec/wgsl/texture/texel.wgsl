@@ -115,7 +115,7 @@ fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> T
 // The number rounded once into a format, raw.
 fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
     if (parts.nan) { return n_nan(f); }
-    if (parts.infinite) { return n_infinite(f, parts.negative); }
+    if (parts.infinite) { return n_infinite(f, select(0u, 1u, parts.negative)); }
     return n_round(f, parts.negative, parts.significand, parts.exponent, parts.sticky);
 }
 
