@@ -1,5 +1,6 @@
 //! One body for all cases: draw it with every executor, compare, cut down what differs, say how to see it again.
 
+use crate::blame::{Side, blame};
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Outcome, Programs};
 use crate::shrink;
@@ -82,13 +83,15 @@ pub(crate) fn run(suite: &Suite) {
 pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> String {
     let case = suite.case(seed);
     let executor = &EXECUTORS[difference.executor];
-    let small = shrink::shrink(&case, executor);
+    let small = shrink::shrink(&case, |smaller| self::difference(smaller, executor).is_some());
     let mut text = format!(
         "scalar and {} differ; to see it again:\n  CROSSBAR_SEED={seed} cargo test --test agree -- --exact {}\n",
         executor.name, suite.name
     );
     let _ = writeln!(text, "first difference: {}", difference.what);
     let _ = writeln!(text, "cut down: {}", self::difference(&small, executor).unwrap_or_default());
+    let followed = blame(Side { case: &small, executor: &REFERENCE }, Side { case: &small, executor });
+    let _ = writeln!(text, "{followed}");
     let _ = writeln!(text, "{}", small.pixel.join("\n"));
     if let Some(vertex) = &small.vertex {
         let _ = writeln!(text, "{}", vertex.join("\n"));

@@ -6,12 +6,14 @@
 //! `CROSSBAR_FULL=1` goes through thirty times more seeds, `CROSSBAR_FUZZ=10m` goes on for ten minutes.
 
 mod agreement;
+mod blame;
 mod coverage;
 mod dice;
 mod executors;
 mod files;
 mod fuzz;
 mod generate;
+mod planted;
 mod random;
 mod rules;
 mod scene;

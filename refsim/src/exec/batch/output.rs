@@ -373,7 +373,7 @@ fn quantise(
     let nearest = rounding == TargetRounding::Nearest;
     let to = &mut out.depth;
     match format.kind {
-        Kind::Fixed { frac_bits, .. } if u32::from(frac_bits) <= bits => {
+        Kind::Fixed { frac_bits, .. } if bits > 0 && u32::from(frac_bits) <= bits => {
             return simd.run(
                 #[inline(always)]
                 || fixed_to_steps(row, frac_bits.into(), bits, nearest, to),

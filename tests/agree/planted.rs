@@ -1,0 +1,66 @@
+//! The tools themselves: a difference that was planted is found, cut down to what makes it, and blamed on its instruction.
+
+use crate::blame::{Side, blame};
+use crate::executors::REFERENCE;
+use crate::scene::{Case, Outcome};
+use crate::shapes::Shape;
+use crate::shrink::shrink;
+use crate::suite::{self, Kind};
+use refsim::device::MadMode;
+use refsim::isa::Version;
+
+/// What the reference draws, by one rounding or by two in every `mad`.
+fn drawn(case: &Case, mad: MadMode) -> Option<Outcome> {
+    let case = with(case, mad);
+    let programs = case.build().ok()?;
+    case.scene.draw(&REFERENCE, &programs).ok()
+}
+
+fn with(case: &Case, mad: MadMode) -> Case {
+    let mut case = case.clone();
+    case.scene.profile.rules.mad = mad;
+    case
+}
+
+/// Whether it matters how often `mad` rounds.
+fn shows(case: &Case) -> bool {
+    let (one, two) = (drawn(case, MadMode::Fused), drawn(case, MadMode::TwoRoundings));
+    matches!((one, two), (Some(a), Some(b)) if a.difference(&b, "fused").is_some())
+}
+
+/// A larger case in which it does.
+fn planted() -> Case {
+    let suites = suite::all();
+    let mut programs = suites.iter().filter(|s| matches!(s.kind, Kind::Program(Version::Ps2_0, ..)));
+    let found = programs.find_map(|s| (0..60).map(|seed| s.case(seed)).find(|c| c.pixel.len() > 30 && shows(c)));
+    found.unwrap_or_else(|| panic!("rounding twice shows somewhere"))
+}
+
+#[test]
+fn a_planted_difference_is_cut_down_and_blamed() {
+    let case = planted();
+    let small = shrink(&case, shows);
+    assert!(shows(&small));
+    assert!(small.pixel.len() < 16, "cut down to\n{}", small.pixel.join("\n"));
+    assert!(small.pixel.iter().any(|l| l.starts_with("mad") || l.starts_with("lrp")), "{}", small.pixel.join("\n"));
+    assert!(small.scene.size[0] * small.scene.size[1] <= case.scene.size[0] * case.scene.size[1]);
+    assert!(small.scene.alpha.is_none() && small.scene.blend.is_none() && !small.scene.second_pass);
+    let (one, two) = (with(&small, MadMode::TwoRoundings), with(&small, MadMode::Fused));
+    let text = blame(Side { case: &one, executor: &REFERENCE }, Side { case: &two, executor: &REFERENCE });
+    assert!(text.contains("`mad") || text.contains("`lrp"), "{text}");
+}
+
+#[test]
+fn every_shape_of_geometry_covers_pixels() {
+    for shape in Shape::ALL {
+        let suites = suite::all();
+        let suite = suites.iter().find(|s| s.name == format!("geometry::{}", shape.name()));
+        let suite = suite.unwrap_or_else(|| panic!("a suite of {shape:?}"));
+        let covered = (0..suite.seeds).filter(|&seed| {
+            let case = suite.case(seed);
+            drawn(&case, MadMode::TwoRoundings).is_some_and(|o| o.fragments() > 0)
+        });
+        let (covered, seeds) = (covered.count() as u64, suite.seeds);
+        assert!(4 * covered > seeds, "{shape:?}: {covered} of {seeds} scenes cover something");
+    }
+}
