@@ -117,8 +117,18 @@ fn plainer(line: &str) -> String {
     out
 }
 
+/// Takes some vertices away.
+fn without(scene: &mut Scene, first: usize, count: usize) {
+    let end = (first + count).min(scene.vertices.len());
+    if first < end && end - first < scene.vertices.len() {
+        scene.vertices.drain(first..end);
+        scene.indices = None;
+    }
+    scene.vertex_count = scene.vertex_count.min(scene.vertices.len());
+}
+
 /// Simplifications of a scene; the first goes with dropping the vertex program.
-const PARTS: [fn(&mut Scene); 20] = [
+const PARTS: [fn(&mut Scene); 24] = [
     |s| s.instances = 1,
     |s| s.second_pass = false,
     |s| s.draws = 1,
@@ -132,18 +142,12 @@ const PARTS: [fn(&mut Scene); 20] = [
     |s| s.indices = None,
     |s| s.bump = [BumpStage::default(); 8],
     |s| s.instances = (s.instances / 2).max(1),
-    |s| {
-        let less = s.vertices.len().saturating_sub(1);
-        s.vertices.truncate(less);
-        s.vertex_count = s.vertex_count.min(less);
-        s.indices = None;
-    },
-    |s| {
-        if s.vertices.len() > 3 {
-            s.vertices.remove(0);
-        }
-        s.indices = None;
-    },
+    |s| without(s, 0, 4),
+    |s| without(s, 4, 8),
+    |s| without(s, s.vertices.len().saturating_sub(4), 4),
+    |s| without(s, s.vertices.len().saturating_sub(8), 4),
+    |s| without(s, 3, 3),
+    |s| without(s, s.vertices.len().saturating_sub(1), 1),
     |s| s.size[0] = (s.size[0] / 2).max(1),
     |s| s.size[1] = (s.size[1] / 2).max(1),
     |s| s.textures.iter_mut().for_each(|t| t.2 = SamplerState::NEAREST_CLAMP),

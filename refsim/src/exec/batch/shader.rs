@@ -57,6 +57,8 @@ pub(crate) struct Manner {
     pub(crate) together: bool,
     /// Whether anybody reads the interpolated depth.
     pub(crate) depth: bool,
+    /// The components that are constant over every triangle, which the program is given by triangle.
+    pub(crate) given: u64,
 }
 
 impl Shader {
@@ -95,7 +97,7 @@ impl Shader {
         if same {
             for (i, member) in self.members[..self.used].iter_mut().enumerate() {
                 let new = planes(i);
-                self.inputs_hold &= new == member.planes || same_inputs(surfaces, new, member.planes);
+                self.inputs_hold &= new == member.planes || same_inputs(surfaces, (new, member.planes), manner.given);
                 member.planes = new;
             }
             return self.used;
@@ -206,10 +208,10 @@ fn plane(surfaces: &Surfaces, row: usize, planes: u32) -> (Plane, bool) {
     (row.plane(planes), constant)
 }
 
-/// Whether two triangles of one shape have the same components, but for those that are constant over both.
-fn same_inputs(surfaces: &Surfaces, a: u32, b: u32) -> bool {
+/// Whether two triangles of one shape have the same components, but for those that are `given`. What is constant over both
+/// but not over all triangles lies in rows like what varies, and must be equal like it.
+fn same_inputs(surfaces: &Surfaces, (a, b): (u32, u32), given: u64) -> bool {
     let constant = |planes: u32| surfaces.constant.get(planes as usize).copied().unwrap_or_default();
-    let both = constant(a) & constant(b);
     constant(a) == constant(b)
-        && surfaces.rows.iter().all(|row| both >> row.component & 1 == 1 || row.plane(a) == row.plane(b))
+        && surfaces.rows.iter().all(|row| given >> row.component & 1 == 1 || row.plane(a) == row.plane(b))
 }

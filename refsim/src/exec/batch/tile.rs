@@ -224,7 +224,7 @@ impl<'a> BatchTiles<'a> {
             RoundCode::Flow(_) => false,
         };
         let tested = has_depth && self.output.state.depth.test.is_some();
-        Manner { together, depth: tested && !round.results().decide_depth() }
+        Manner { together, depth: tested && !round.results().decide_depth(), given: round.constant }
     }
 
     /// Runs the program for the part that the shader has taken, whose first triangle is `first`.
