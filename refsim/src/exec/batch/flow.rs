@@ -16,13 +16,13 @@ use super::slots::{Slot, Slots};
 use super::translate::{Effect, Place, Translator};
 use crate::device::Rules;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
-use crate::isa::{Opcode, OpcodeClass, Program, RegisterFile};
+use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
 
 /// Slots with a fixed meaning; registers follow.
-pub(super) const ACTIVE: Slot = 0;
-pub(super) const KILLED: Slot = 1;
-pub(super) const DECIDED: Slot = 2;
-pub(super) const COUNTER: Slot = 3;
+pub(crate) const ACTIVE: Slot = 0;
+pub(crate) const KILLED: Slot = 1;
+pub(crate) const DECIDED: Slot = 2;
+pub(crate) const COUNTER: Slot = 3;
 const FIRST_REGISTER: Slot = 4;
 
 /// One instruction.
@@ -71,18 +71,8 @@ impl FlowPlan {
     }
 
     fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>) -> Self {
-        let mut registers = BTreeMap::new();
-        let mut next = FIRST_REGISTER;
-        for place in written(program) {
-            registers.entry(place).or_insert_with(|| {
-                let node = t.make.graph.node(Kind::Held(next));
-                t.registers.insert(place, node);
-                next += 1;
-                next - 1
-            });
-        }
-        t.loop_counter = Some(COUNTER);
-        let parts: Vec<_> = program.instructions.iter().map(|i| part(&mut t, i, &registers)).collect();
+        let Parts { parts, registers, first_free } = Parts::new(program, &mut t);
+        let mut next = first_free;
         // Constants and inputs live as long as the program.
         let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), BTreeMap::new());
         let results = results(&mut t, program, &registers, &mut next, &mut constant_slots);
@@ -100,18 +90,13 @@ impl FlowPlan {
             let block = schedule(&t.make.graph, &part.roots, |_| false, &placed, next.into());
             slots = slots.max(block.slots);
             let cost = instruction.opcode.info().slot_cost(program.version);
-            let counter = match instruction.opcode {
-                Opcode::Loop => instruction.sources.get(1),
-                _ => instruction.sources.first(),
-            };
-            let number = counter.map_or(usize::MAX, |s| usize::from(s.register.index));
             Instr {
                 opcode: instruction.opcode,
                 block,
                 to: part.to,
                 sampler: part.sampler,
                 cost: u64::from(cost.arithmetic) + u64::from(cost.texture),
-                counter: constants.int.get(number).copied().unwrap_or_default(),
+                counter: loop_counter(instruction, constants),
             }
         });
         let code = code.collect();
@@ -159,14 +144,52 @@ fn written(program: &Program) -> Vec<Place> {
     out
 }
 
-/// What an instruction computes and where it goes.
-struct Part {
-    roots: Vec<Node>,
-    to: Vec<Slot>,
-    sampler: Option<usize>,
+/// The integer constant that a loop instruction counts by.
+pub(crate) fn loop_counter(instruction: &Instruction, constants: &ResolvedConstants) -> [i32; 4] {
+    let counter = match instruction.opcode {
+        Opcode::Loop => instruction.sources.get(1),
+        _ => instruction.sources.first(),
+    };
+    let number = counter.map_or(usize::MAX, |s| usize::from(s.register.index));
+    constants.int.get(number).copied().unwrap_or_default()
 }
 
-fn part(t: &mut Translator<'_>, instruction: &crate::isa::Instruction, registers: &BTreeMap<Place, Slot>) -> Part {
+/// The instructions of a program as graph nodes, each merged into registers that have slots of their own.
+pub(crate) struct Parts {
+    /// One for each instruction.
+    pub(crate) parts: Vec<Part>,
+    /// The slot of each register component that the program writes.
+    pub(crate) registers: BTreeMap<Place, Slot>,
+    /// The first slot that no register has.
+    pub(crate) first_free: Slot,
+}
+
+impl Parts {
+    pub(crate) fn new(program: &Program, t: &mut Translator<'_>) -> Self {
+        let mut registers = BTreeMap::new();
+        let mut next = FIRST_REGISTER;
+        for place in written(program) {
+            registers.entry(place).or_insert_with(|| {
+                let node = t.make.graph.node(Kind::Held(next));
+                t.registers.insert(place, node);
+                next += 1;
+                next - 1
+            });
+        }
+        t.loop_counter = Some(COUNTER);
+        let parts = program.instructions.iter().map(|i| part(t, i, &registers)).collect();
+        Self { parts, registers, first_free: next }
+    }
+}
+
+/// What an instruction computes and where it goes.
+pub(crate) struct Part {
+    pub(crate) roots: Vec<Node>,
+    pub(crate) to: Vec<Slot>,
+    pub(crate) sampler: Option<usize>,
+}
+
+fn part(t: &mut Translator<'_>, instruction: &Instruction, registers: &BTreeMap<Place, Slot>) -> Part {
     const MASK: Arith = Arith::Single;
     let active = t.make.graph.node(Kind::Held(ACTIVE));
     let mut part = Part { roots: Vec::new(), to: Vec::new(), sampler: None };

@@ -13,35 +13,35 @@
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
-mod arith;
+pub(in crate::exec) mod arith;
 mod evaluate;
 mod fetch;
 mod fixed;
 mod float;
-mod flow;
+pub(in crate::exec) mod flow;
 mod flow_run;
 mod fuse;
-mod graph;
+pub(in crate::exec) mod graph;
 mod ieee;
 mod lane;
 mod lanes;
 mod macros;
 mod odd;
-mod ops;
+pub(in crate::exec) mod ops;
 mod output;
 mod power;
-mod program;
+pub(in crate::exec) mod program;
 mod raster;
 mod schedule;
 mod shader;
 mod simd;
-mod slots;
+pub(in crate::exec) mod slots;
 mod steps;
 mod surfaces;
 mod targets;
 mod tile;
 mod trace;
-mod translate;
+pub(in crate::exec) mod translate;
 mod translate_texture;
 mod vertex;
 

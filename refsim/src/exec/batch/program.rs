@@ -35,9 +35,9 @@ pub(crate) struct StraightProgram {
 /// What a straight pixel program leaves behind.
 #[derive(Debug)]
 pub(crate) struct Ends {
-    colors: [Option<[Node; 4]>; 4],
-    killed: Option<Node>,
-    depth: Option<(Arith, Node)>,
+    pub(crate) colors: [Option<[Node; 4]>; 4],
+    pub(crate) killed: Option<Node>,
+    pub(crate) depth: Option<(Arith, Node)>,
 }
 
 /// A straight program scheduled for triangles that have certain components constant.

@@ -36,6 +36,11 @@ var<private> q_covered: vec4<bool>;
 // Where the program's registers lie: value `slot` at scratch[slot * q_stride + q_invocation].
 var<private> q_invocation: u32;
 var<private> q_stride: u32;
+// Where the program's words begin in `code`.
+var<private> q_code: u32;
+// The lane that is followed, counted from 1; 0 for none. And how many words were put down about it.
+var<private> q_trace: u32;
+var<private> q_traced: u32;
 
 // Left by the program. Colours in the main format. Depth is the interpolated one in single precision before the program
 // runs; a program that decides depth in the main format says so lane by lane.
@@ -45,3 +50,5 @@ var<private> q_depth_is_main: vec4<bool>;
 var<private> q_killed: vec4<bool>;
 // Texture reads of covered lanes by sampler; the kernel clears and adds up.
 var<private> q_fetched: array<u32, 16>;
+// Instruction slots executed by covered lanes.
+var<private> q_executed: u32;

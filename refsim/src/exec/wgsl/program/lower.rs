@@ -1,0 +1,291 @@
+//! Programs on their way to a GPU: the batch executor's graph, and what becomes of its values.
+
+use crate::device::Rules;
+use crate::exec::batch::arith::Formats;
+use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts, loop_counter};
+use crate::exec::batch::graph::{Arith, Graph, Kind, Node};
+use crate::exec::batch::ops::Code;
+use crate::exec::batch::program::{Ends, decode, has_flow, one};
+use crate::exec::batch::slots::{Slot, TRUE};
+use crate::exec::batch::translate::{Effect, Place, Translator};
+use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
+use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
+use std::collections::BTreeMap;
+
+/// What becomes of values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Use {
+    /// A component of a colour: target, component.
+    Color(u16, u16),
+    /// The mask of killed lanes.
+    Killed,
+    /// Depth and the mask of lanes that have it.
+    Depth(Arith),
+    /// A word of a vertex.
+    Output(u16),
+    /// What an instruction wrote: up to four values and as many masks; which components they are.
+    Trace(usize, Mask),
+    /// Merged into the slot of a register where the mask holds: value, mask.
+    Merge(Slot),
+    /// Moved into a slot.
+    Move(Slot),
+    /// The mask of a condition.
+    Condition,
+}
+
+/// A use and the values that it takes.
+#[derive(Clone, Debug)]
+pub(super) struct Sink {
+    pub(super) what: Use,
+    pub(super) nodes: Vec<Node>,
+}
+
+impl Sink {
+    fn new(what: Use, nodes: impl Into<Vec<Node>>) -> Self {
+        Self { what, nodes: nodes.into() }
+    }
+}
+
+/// An instruction of a program with flow control.
+#[derive(Clone, Debug)]
+pub(super) struct Step {
+    pub(super) opcode: Opcode,
+    /// Where it leads, as in [`FlowMap::target`].
+    pub(super) target: usize,
+    /// What it computes; a condition stands alone.
+    pub(super) sinks: Vec<Sink>,
+    /// The sampler that it reads.
+    pub(super) sampler: Option<usize>,
+    /// Slots that it counts for.
+    pub(super) cost: u32,
+    /// The integer constant of a loop.
+    pub(super) counter: [i32; 4],
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Body {
+    /// All values at once: what becomes of them; texture reads of each fragment by sampler; slots it counts for.
+    Straight { sinks: Vec<Sink>, fetches: Vec<usize>, cost: u32 },
+    /// Instruction by instruction, registers in the slots below `first_free`; and what is done at the end.
+    Flow { steps: Vec<Step>, first_free: Slot, end: Vec<Sink> },
+}
+
+/// A program as values and their uses.
+#[derive(Clone, Debug)]
+pub(super) struct Lowered {
+    pub(super) graph: Graph,
+    pub(super) body: Body,
+    /// Float constants, raw, for relative numbers; empty if the program has none.
+    pub(super) table: Vec<[u32; 4]>,
+}
+
+fn cost(instruction: &Instruction, program: &Program) -> u32 {
+    let cost = instruction.opcode.info().slot_cost(program.version);
+    u32::from(cost.arithmetic) + u32::from(cost.texture)
+}
+
+/// Whether an instruction is one of those that a trace tells about.
+fn makes_step(instruction: &Instruction) -> bool {
+    let class = instruction.opcode.info().class;
+    instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
+}
+
+/// The components of a destination that an effect's places stand for.
+fn written_mask(instruction: &Instruction, components: impl Iterator<Item = u8>) -> Mask {
+    match instruction.destination {
+        Some(d) if d.register.file == RegisterFile::DepthOut => Mask(d.mask.0 & d.mask.0.wrapping_neg()),
+        _ => Mask(components.fold(0, |mask, c| mask | 1 << c)),
+    }
+}
+
+impl Lowered {
+    /// A pixel program; with `traced` every instruction's results are told.
+    pub(super) fn pixel(
+        program: &Program,
+        rules: &Rules,
+        formats: &Formats,
+        bindings: &PixelBindings<'_>,
+        traced: bool,
+    ) -> Self {
+        let constants = ResolvedConstants::pixel(program, rules, bindings.constants);
+        let mut t = Translator::new(program, rules, formats.clone(), &constants, Some(bindings));
+        let body = match has_flow(program) {
+            false => straight(&mut t, program, traced),
+            true => {
+                let parts = Parts::new(program, &mut t);
+                let end = color_sinks(&mut t, program, &parts.registers);
+                flow(&mut t, program, parts, end, traced)
+            }
+        };
+        Self::finish(t, body, &constants, formats)
+    }
+
+    /// A vertex program.
+    pub(super) fn vertex(program: &Program, rules: &Rules, formats: &Formats, constants: &ResolvedConstants) -> Self {
+        let mut t = Translator::new(program, rules, formats.clone(), constants, None);
+        let body = match has_flow(program) {
+            false => {
+                for instruction in &program.instructions {
+                    let mut effects = Vec::new();
+                    one(&mut t, instruction, &mut effects);
+                    for effect in effects {
+                        if let Effect::Write(place, value, _) = effect {
+                            t.registers.insert(place, value);
+                        }
+                    }
+                }
+                let known = t.registers.clone();
+                let sinks = output_sinks(&mut t, |_, place| known.get(&place).copied());
+                let cost = program.instructions.iter().map(|i| cost(i, program)).sum();
+                Body::Straight { sinks, fetches: Vec::new(), cost }
+            }
+            true => {
+                let parts = Parts::new(program, &mut t);
+                let end = output_sinks(&mut t, |t, place| {
+                    parts.registers.get(&place).map(|&slot| t.make.graph.node(Kind::Held(slot)))
+                });
+                flow(&mut t, program, parts, end, false)
+            }
+        };
+        Self::finish(t, body, constants, formats)
+    }
+
+    fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: &Formats) -> Self {
+        let graph = t.make.graph;
+        let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(Node(i)), Kind::Relative(..)));
+        let main = formats.lane(Arith::Main);
+        let table = constants.float.iter().filter(|_| relative).map(|c| c.map(|bits| main.decode(bits))).collect();
+        Self { graph, body, table }
+    }
+}
+
+fn straight(t: &mut Translator<'_>, program: &Program, traced: bool) -> Body {
+    let mut taps: Vec<Sink> = Vec::new();
+    let mut written: Vec<(usize, Vec<u8>, Vec<Node>)> = Vec::new();
+    let ends = decode(t, program, |at, effects| {
+        let values = effects.iter().filter_map(|effect| match effect {
+            Effect::Write((_, _, component), value, _) => Some((*component, *value)),
+            _ => None,
+        });
+        let (components, nodes): (Vec<u8>, Vec<Node>) = values.unzip();
+        written.push((at, components, nodes));
+    });
+    if traced {
+        let all = t.make.graph.constant(TRUE);
+        for (at, components, mut nodes) in written {
+            let Some(instruction) = program.instructions.get(at).filter(|i| makes_step(i)) else { continue };
+            let mask = written_mask(instruction, components.into_iter());
+            nodes.extend(vec![all; nodes.len()]);
+            taps.push(Sink::new(Use::Trace(at, mask), nodes));
+        }
+    }
+    let mut sinks = end_sinks(t, &ends);
+    sinks.append(&mut taps);
+    let cost = program.instructions.iter().map(|i| cost(i, program)).sum();
+    Body::Straight { sinks, fetches: std::mem::take(&mut t.fetches), cost }
+}
+
+fn end_sinks(t: &mut Translator<'_>, ends: &Ends) -> Vec<Sink> {
+    let mut sinks = Vec::new();
+    for (target, color) in (0u16..).zip(&ends.colors) {
+        for (component, &node) in (0u16..).zip(color.iter().flatten()) {
+            sinks.push(Sink::new(Use::Color(target, component), [node]));
+        }
+    }
+    sinks.extend(ends.killed.map(|mask| Sink::new(Use::Killed, [mask])));
+    if let Some((arith, value)) = ends.depth {
+        let all = t.make.graph.constant(TRUE);
+        sinks.push(Sink::new(Use::Depth(arith), [value, all]));
+    }
+    sinks
+}
+
+/// Where a pixel program with flow control leaves its results.
+fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<Place, Slot>) -> Vec<Sink> {
+    let mut sinks = Vec::new();
+    let named = colors_written(program);
+    for target in (0u16..4).filter(|i| named >> i & 1 == 1) {
+        for component in 0u16..4 {
+            if let Some(&slot) = registers.get(&(RegisterFile::ColorOut, target, component as u8)) {
+                let held = t.make.graph.node(Kind::Held(slot));
+                sinks.push(Sink::new(Use::Color(target, component), [held]));
+            }
+        }
+    }
+    let killed = t.make.graph.node(Kind::Held(KILLED));
+    sinks.push(Sink::new(Use::Killed, [killed]));
+    if let Some(&slot) = registers.get(&(RegisterFile::DepthOut, 0, 0)) {
+        let nodes = [slot, DECIDED].map(|slot| t.make.graph.node(Kind::Held(slot)));
+        sinks.push(Sink::new(Use::Depth(Arith::Main), nodes));
+    }
+    sinks
+}
+
+/// The words of a vertex: position, two colours clamped to [0, 1], eight sets of coordinates, fog, point size; single
+/// precision. What the program does not write stays zero.
+fn output_sinks(t: &mut Translator<'_>, mut held: impl FnMut(&mut Translator<'_>, Place) -> Option<Node>) -> Vec<Sink> {
+    let vector = |file, index: u16| (0u8..4).map(move |c| (file, index, c));
+    let places = vector(RegisterFile::PositionOut, 0)
+        .chain((0u16..2).flat_map(|i| vector(RegisterFile::DiffuseOut, i)))
+        .chain((0u16..8).flat_map(|i| vector(RegisterFile::TexCoordOut, i)))
+        .chain([(RegisterFile::FogOut, 0, 0), (RegisterFile::PointSizeOut, 0, 0)]);
+    let mut sinks = Vec::new();
+    for (word, place) in (0u16..).zip(places) {
+        let Some(mut node) = held(t, place) else { continue };
+        if place.0 == RegisterFile::DiffuseOut {
+            node = t.make.unary(Arith::Main, Code::Saturate, node);
+        }
+        let single = t.make.convert(Arith::Main, Arith::Single, node);
+        sinks.push(Sink::new(Use::Output(word), [single]));
+    }
+    sinks
+}
+
+fn flow(t: &mut Translator<'_>, program: &Program, parts: Parts, end: Vec<Sink>, traced: bool) -> Body {
+    let map = FlowMap::new(program);
+    let Parts { parts, registers: _, first_free } = parts;
+    let mut steps = Vec::with_capacity(parts.len());
+    for (at, (instruction, part)) in program.instructions.iter().zip(parts).enumerate() {
+        let sampler = part.sampler;
+        let sinks = match instruction.opcode.info().class {
+            OpcodeClass::Flow => part.roots.iter().map(|&root| Sink::new(Use::Condition, [root])).collect(),
+            _ => merges(t, at, instruction, part, traced),
+        };
+        steps.push(Step {
+            opcode: instruction.opcode,
+            target: map.target(at),
+            sinks,
+            sampler,
+            cost: cost(instruction, program),
+            counter: loop_counter(instruction, t.constants),
+        });
+    }
+    Body::Flow { steps, first_free, end }
+}
+
+/// What an instruction under lane masks does with its results.
+fn merges(t: &mut Translator<'_>, at: usize, instruction: &Instruction, part: Part, traced: bool) -> Vec<Sink> {
+    let (mut sinks, mut values, mut masks) = (Vec::new(), Vec::new(), Vec::new());
+    for (&root, &to) in part.roots.iter().zip(&part.to) {
+        let old = t.make.graph.node(Kind::Held(to));
+        match t.make.graph.kind(root) {
+            Kind::Compute(_, Code::Select, [mask, value, kept]) if kept == old => {
+                values.push(value);
+                masks.push(mask);
+                sinks.push(Sink::new(Use::Merge(to), [value, mask]));
+            }
+            _ => sinks.push(Sink::new(Use::Move(to), [root])),
+        }
+    }
+    if traced && makes_step(instruction) {
+        // Every write is a merge: the destination's components in order.
+        let components = instruction.destination.map_or(Mask(0), |d| d.mask);
+        let mask = written_mask(instruction, components.components().take(values.len()).map(|c| c as u8));
+        values.append(&mut masks);
+        sinks.insert(0, Sink::new(Use::Trace(at, mask), values));
+    }
+    sinks
+}
+
+/// The mask of active lanes.
+pub(super) const ACTIVE_SLOT: Slot = ACTIVE;

@@ -1,0 +1,548 @@
+//! Programs as words for the machine of `vm.wgsl`, which says what they mean.
+
+use super::ProgramError;
+use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Step, Use};
+use crate::exec::batch::graph::{Arith, Detail, Graph, Kind, Node};
+use crate::exec::batch::ops::Code;
+use crate::exec::batch::slots::Slot;
+use crate::isa::Opcode;
+use std::collections::BTreeMap;
+
+/// Operands from here on are constants, then input components.
+const FIRST_CONSTANT: usize = 0x8000;
+const FIRST_INPUT: u16 = 0xff00;
+/// Words before the first instruction.
+const HEADER: usize = 8;
+/// No operand.
+const NONE: u16 = 0xffff;
+/// Passes of a loop at most, as in the other executors.
+const LOOP_LIMIT: i32 = 255;
+
+/// Operations of the machine; below 32 `vm.wgsl: shade`, the others `vm_flow`.
+mod op {
+    pub(super) const END: u32 = 0;
+    pub(super) const ALU: u32 = 1;
+    pub(super) const BITWISE: u32 = 2;
+    pub(super) const DOT: u32 = 3;
+    pub(super) const CONVERT: u32 = 4;
+    pub(super) const STEPS: u32 = 5;
+    pub(super) const RELATIVE: u32 = 6;
+    pub(super) const FETCH: u32 = 7;
+    pub(super) const COLOR: u32 = 8;
+    pub(super) const KILLED: u32 = 9;
+    pub(super) const DEPTH: u32 = 10;
+    pub(super) const FETCHED: u32 = 11;
+    pub(super) const STEP: u32 = 12;
+    pub(super) const ZERO: u32 = 13;
+    pub(super) const TRACE: u32 = 14;
+    pub(super) const OUTPUT: u32 = 15;
+    pub(super) const IF: u32 = 32;
+    pub(super) const ELSE: u32 = 33;
+    pub(super) const END_IF: u32 = 34;
+    pub(super) const LOOP: u32 = 35;
+    pub(super) const END_LOOP: u32 = 36;
+    pub(super) const BREAK: u32 = 37;
+    pub(super) const CALL: u32 = 38;
+    pub(super) const RET: u32 = 39;
+    pub(super) const LABEL: u32 = 40;
+    /// Variants of `BITWISE`.
+    pub(super) const COPY: u32 = 0;
+    pub(super) const AND: u32 = 1;
+    pub(super) const OR: u32 = 2;
+    pub(super) const AND_NOT: u32 = 3;
+    pub(super) const SELECT: u32 = 4;
+}
+
+/// A program for the machine of `vm.wgsl`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Microcode {
+    /// What the binding `code` holds from `q_code` on.
+    pub words: Vec<u32>,
+    /// Rows of `scratch` that an invocation needs: `scratch` has this many times `q_stride` entries.
+    pub slots: usize,
+}
+
+/// Words of a program.
+pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
+    let first = match &program.body {
+        Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
+        Body::Flow { first_free, .. } => *first_free,
+    };
+    let mut maker =
+        Assembler { graph: &program.graph, words: vec![0; HEADER], pool: BTreeMap::new(), first, next: first.into() };
+    let mut frames = 0;
+    maker.words[0] = HEADER as u32;
+    match &program.body {
+        Body::Straight { sinks, fetches, cost } => {
+            maker.block(sinks);
+            let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
+            for &sampler in fetches {
+                *counts.entry(sampler).or_default() += 1;
+            }
+            for (sampler, count) in counts {
+                maker.words.extend([op::FETCHED | (sampler as u32) << 16, count]);
+            }
+            let here = maker.words.len() as u32;
+            maker.words.extend([op::STEP, here + 3, (*cost).min(0xffff) | u32::from(NONE) << 16]);
+        }
+        Body::Flow { steps, first_free, end } => {
+            // Slot 0 is the machine's own.
+            maker.words.extend([op::ZERO, 1, u32::from(*first_free) - 1]);
+            maker.steps(steps);
+            maker.words[1] = maker.words.len() as u32;
+            maker.block(end);
+            frames = 2 * deepest(steps);
+        }
+    }
+    maker.words.push(op::END);
+    maker.finish(frames, &program.table)
+}
+
+struct Assembler<'g> {
+    graph: &'g Graph,
+    words: Vec<u32>,
+    /// Constants and their numbers.
+    pool: BTreeMap<u32, usize>,
+    /// The first slot that holds no register.
+    first: Slot,
+    /// Slots used.
+    next: usize,
+}
+
+/// The values of one block on their way through slots.
+struct Places {
+    at: BTreeMap<Node, u16>,
+    /// Reads still to come.
+    left: BTreeMap<Node, u32>,
+    free: Vec<u16>,
+    next: usize,
+    texels: BTreeMap<Node, Vec<(u8, Node)>>,
+}
+
+impl Places {
+    fn fresh(&mut self) -> u16 {
+        self.free.pop().unwrap_or_else(|| {
+            self.next += 1;
+            (self.next - 1) as u16
+        })
+    }
+
+    fn of(&self, node: Node) -> u16 {
+        self.at.get(&node).copied().unwrap_or(NONE)
+    }
+}
+
+impl Assembler<'_> {
+    fn finish(mut self, frames: usize, table: &[[u32; 4]]) -> Result<Microcode, ProgramError> {
+        let constants = self.pool.len();
+        let slots = self.next + frames;
+        if slots > FIRST_CONSTANT || constants > usize::from(FIRST_INPUT) - FIRST_CONSTANT {
+            return Err(ProgramError::TooLarge { slots, constants });
+        }
+        self.words[2] = self.words.len() as u32;
+        let mut pool = vec![0; constants];
+        for (raw, i) in self.pool {
+            pool[i] = raw;
+        }
+        self.words.extend(pool);
+        self.words[3] = self.words.len() as u32;
+        self.words[4] = table.len() as u32;
+        self.words.extend(table.iter().flatten());
+        self.words[5] = self.next as u32;
+        self.words[6] = slots as u32;
+        Ok(Microcode { words: self.words, slots })
+    }
+
+    fn constant(&mut self, raw: u32) -> u16 {
+        let number = self.pool.len();
+        let number = *self.pool.entry(raw).or_insert(number);
+        // Too many are found out at the end.
+        (FIRST_CONSTANT + number).min(usize::from(FIRST_INPUT) - 1) as u16
+    }
+
+    /// Computes what the sinks need and gives it to them, each as soon as it has everything.
+    fn block(&mut self, sinks: &[Sink]) -> Places {
+        let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
+        let needed: Vec<Node> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| Node(i)).collect();
+        let next = usize::from(self.first);
+        let mut places =
+            Places { at: BTreeMap::new(), left: BTreeMap::new(), free: Vec::new(), next, texels: BTreeMap::new() };
+        let mut reads = |n: Node| *places.left.entry(n).or_default() += 1;
+        for &node in &needed {
+            self.graph.kind(node).needs(&mut reads);
+        }
+        sinks.iter().flat_map(|s| s.nodes.iter().copied()).for_each(reads);
+        for &node in &needed {
+            if let Kind::Texel(fetch, component) = self.graph.kind(node) {
+                places.texels.entry(fetch).or_default().push((component, node));
+            }
+            self.leaf(node, &mut places);
+        }
+        // A sink is served after the last of its values. Merges come last, in order.
+        let mut order: Vec<(Option<Node>, &Sink)> = Vec::with_capacity(sinks.len());
+        let mut traced = None;
+        for sink in sinks {
+            let mut last = sink.nodes.iter().copied().max();
+            match sink.what {
+                Use::Merge(_) | Use::Move(_) | Use::Condition => last = Some(Node(u32::MAX)),
+                Use::Trace(..) => {
+                    last = last.max(traced);
+                    traced = last;
+                }
+                _ => {}
+            }
+            order.push((last, sink));
+        }
+        order.sort_by_key(|&(last, _)| last);
+        let mut waiting = order.into_iter().peekable();
+        for &node in &needed {
+            if places.of(node) == NONE {
+                self.node(node, &mut places);
+            }
+            while let Some((_, sink)) = waiting.next_if(|&(last, _)| last <= Some(node)) {
+                self.sink(sink, &mut places);
+            }
+        }
+        let (last, early): (Vec<&Sink>, Vec<&Sink>) = waiting
+            .map(|(_, sink)| sink)
+            .partition(|s| matches!(s.what, Use::Merge(_) | Use::Move(_) | Use::Condition));
+        for sink in early {
+            self.sink(sink, &mut places);
+        }
+        self.merge(&last, &mut places);
+        self.next = self.next.max(places.next);
+        places
+    }
+
+    fn leaf(&mut self, node: Node, places: &mut Places) {
+        let at = match self.graph.kind(node) {
+            Kind::Constant(raw) => self.constant(raw),
+            Kind::Held(slot) => slot,
+            Kind::Input(component) => FIRST_INPUT + component,
+            _ => return,
+        };
+        places.at.insert(node, at);
+    }
+
+    /// One read of each of these values is done; slots nobody reads any more are free.
+    fn release(&self, nodes: &[Node], places: &mut Places) {
+        for node in nodes {
+            let Some(left) = places.left.get_mut(node) else { continue };
+            *left = left.saturating_sub(1);
+            let kept =
+                matches!(self.graph.kind(*node), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
+            if *left == 0 && !kept && places.of(*node) != NONE {
+                places.free.push(places.of(*node));
+            }
+        }
+    }
+
+    fn release_operands(&self, node: Node, places: &mut Places) {
+        let mut operands = Vec::new();
+        self.graph.kind(node).needs(|n| operands.push(n));
+        self.release(&operands, places);
+    }
+
+    /// A slot for the value, after its operands were read for the last time.
+    fn result(&mut self, node: Node, places: &mut Places) -> u16 {
+        self.release_operands(node, places);
+        let to = places.fresh();
+        places.at.insert(node, to);
+        to
+    }
+
+    fn emit(&mut self, word: u32, to: u16, [a, b, c]: [u16; 3]) {
+        self.words.extend([word, pair(to, a), pair(b, c)]);
+    }
+
+    fn bitwise(&mut self, variant: u32, to: u16, args: [u16; 3]) {
+        self.emit(op::BITWISE | variant << 16, to, args);
+    }
+
+    fn node(&mut self, node: Node, places: &mut Places) {
+        match self.graph.kind(node) {
+            Kind::Compute(k, code, args) => self.compute(node, k, code, args.map(|n| places.of(n)), places),
+            Kind::Dot(k, terms, a, b) => {
+                let mut operands = [0; 8];
+                for i in 0..usize::from(terms.min(4)) {
+                    (operands[2 * i], operands[2 * i + 1]) = (places.of(a[i]), places.of(b[i]));
+                }
+                let to = self.result(node, places);
+                let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
+                self.words.push(op::DOT | (k as u32) << 8 | u32::from(terms) << 16);
+                self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
+            }
+            Kind::Convert(from, into, a) => {
+                let a = places.of(a);
+                let to = self.result(node, places);
+                self.words.extend([op::CONVERT | (from as u32) << 8 | (into as u32) << 16, pair(to, a)]);
+            }
+            Kind::Steps(steps, a) => {
+                let a = places.of(a);
+                let to = self.result(node, places);
+                self.words.extend([op::STEPS | steps << 16, pair(to, a)]);
+            }
+            Kind::Relative(base, component, a) => {
+                let a = places.of(a);
+                let to = self.result(node, places);
+                self.words.extend([op::RELATIVE | u32::from(component) << 16, pair(to, a), base.cast_unsigned()]);
+            }
+            Kind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
+            Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
+        }
+    }
+
+    fn compute(&mut self, node: Node, k: Arith, code: Code, args: [u16; 3], places: &mut Places) {
+        let [a, b, c] = args;
+        let word = |code: Code| alu_word(k, code);
+        match code {
+            Code::Mad | Code::SelectNonNegative | Code::SelectAboveHalf => {
+                let zero = self.constant(0);
+                let between = places.fresh();
+                match code {
+                    Code::Mad => self.emit(word(Code::Mul), between, [a, b, a]),
+                    Code::SelectNonNegative => self.emit(word(Code::LessEqual), between, [zero, a, a]),
+                    _ => self.emit(word(Code::SelectAboveHalf), between, [a, a, a]),
+                }
+                let to = self.result(node, places);
+                match code {
+                    Code::Mad => self.emit(word(Code::Add), to, [between, c, c]),
+                    _ => self.bitwise(op::SELECT, to, [between, b, c]),
+                }
+                places.free.push(between);
+            }
+            Code::And | Code::Or | Code::AndNot | Code::Select => {
+                let variant = match code {
+                    Code::And => op::AND,
+                    Code::Or => op::OR,
+                    Code::AndNot => op::AND_NOT,
+                    _ => op::SELECT,
+                };
+                let to = self.result(node, places);
+                self.bitwise(variant, to, args);
+            }
+            Code::Scale(shift) => {
+                let shift = self.constant(i32::from(shift).cast_unsigned());
+                let to = self.result(node, places);
+                self.emit(word(code), to, [a, shift, a]);
+            }
+            _ => {
+                let to = self.result(node, places);
+                self.emit(word(code), to, args);
+            }
+        }
+    }
+
+    fn fetch(&mut self, node: Node, sampler: u8, coordinates: [Node; 4], detail: Detail, places: &mut Places) {
+        let [u, v, w, q] = coordinates.map(|n| places.of(n));
+        let (number, more) = match detail {
+            Detail::Implicit => (0, vec![]),
+            Detail::Biased(bias) => (1, vec![places.of(bias).into()]),
+            Detail::Gradients(x, y) => {
+                let all: Vec<u16> = x.iter().chain(&y).map(|&n| places.of(n)).collect();
+                (2, all.chunks_exact(2).map(|p| pair(p[0], p[1])).collect())
+            }
+        };
+        // Coordinates are read before anything is written.
+        self.release_operands(node, places);
+        let mut to = [NONE; 4];
+        for (component, texel) in places.texels.remove(&node).unwrap_or_default() {
+            let slot = places.fresh();
+            places.at.insert(texel, slot);
+            to[usize::from(component & 3)] = slot;
+        }
+        places.at.insert(node, 0);
+        self.words.push(op::FETCH | u32::from(sampler) << 16 | number << 24);
+        self.words.extend([pair(u, v), pair(w, q), pair(to[0], to[1]), pair(to[2], to[3])]);
+        self.words.extend(more);
+    }
+
+    fn sink(&mut self, sink: &Sink, places: &mut Places) {
+        let operands: Vec<u16> = sink.nodes.iter().map(|&n| places.of(n)).collect();
+        let first = operands.first().copied().unwrap_or(NONE);
+        match sink.what {
+            Use::Color(target, c) => {
+                self.words.extend([op::COLOR | u32::from(4 * target + c) << 16, first.into()]);
+            }
+            Use::Killed => self.words.extend([op::KILLED, first.into()]),
+            Use::Depth(arith) => {
+                let decided = operands.get(1).copied().unwrap_or(first);
+                self.words.extend([op::DEPTH | (arith as u32) << 16, pair(first, decided)]);
+            }
+            Use::Output(word) => self.words.extend([op::OUTPUT | u32::from(word) << 16, first.into()]),
+            Use::Trace(at, mask) => {
+                let (mut values, mut masks) = ([NONE; 4], [NONE; 4]);
+                let half = operands.len() / 2;
+                for (i, c) in mask.components().enumerate() {
+                    values[c] = operands.get(i).copied().unwrap_or(NONE);
+                    masks[c] = operands.get(half + i).copied().unwrap_or(NONE);
+                }
+                self.words.extend([op::TRACE, at as u32]);
+                self.words.extend([values, masks].iter().flat_map(|o| [pair(o[0], o[1]), pair(o[2], o[3])]));
+            }
+            Use::Merge(_) | Use::Move(_) | Use::Condition => {}
+        }
+        self.release(&sink.nodes, places);
+    }
+
+    /// Writes registers. A register that a later write reads is kept for it first.
+    fn merge(&mut self, sinks: &[&Sink], places: &mut Places) {
+        let target = |sink: &Sink| match sink.what {
+            Use::Merge(to) | Use::Move(to) => Some(to),
+            _ => None,
+        };
+        let mut operands: Vec<Vec<u16>> =
+            sinks.iter().map(|s| s.nodes.iter().map(|&n| places.of(n)).collect()).collect();
+        let mut kept: BTreeMap<u16, u16> = BTreeMap::new();
+        for i in 0..sinks.len() {
+            for j in 0..operands[i].len() {
+                let from = operands[i][j];
+                if sinks[..i].iter().any(|s| target(s) == Some(from)) {
+                    operands[i][j] = *kept.entry(from).or_insert_with(|| {
+                        let copy = places.fresh();
+                        self.bitwise(op::COPY, copy, [from; 3]);
+                        copy
+                    });
+                }
+            }
+        }
+        for (sink, operands) in sinks.iter().zip(&operands) {
+            match (sink.what, operands.as_slice()) {
+                (Use::Merge(to), &[value, mask]) => self.bitwise(op::SELECT, to, [mask, value, to]),
+                (Use::Move(to), &[value]) => self.bitwise(op::COPY, to, [value; 3]),
+                _ => {}
+            }
+        }
+    }
+
+    fn steps(&mut self, steps: &[Step]) {
+        let (mut starts, mut jumps) = (Vec::with_capacity(steps.len()), Vec::new());
+        for (at, step) in steps.iter().enumerate() {
+            starts.push(self.words.len() as u32);
+            let sampler = step.sampler.map_or(u32::from(NONE), |s| s as u32);
+            let enter = self.words.len();
+            self.words.extend([op::STEP, 0, step.cost.min(0xffff) | sampler << 16]);
+            let places = self.block(&step.sinks);
+            let condition = match step.sinks.first() {
+                Some(Sink { what: Use::Condition, nodes }) => places.of(nodes[0]),
+                _ => ACTIVE_SLOT,
+            };
+            if let Some((jump, to)) = self.flow(step, at, steps.len(), condition) {
+                jumps.push((jump, to));
+                self.words[enter + 1] = enter as u32 + 3;
+            } else if is_flow(step.opcode) {
+                self.words[enter + 1] = enter as u32 + 3;
+            } else {
+                self.words[enter + 1] = self.words.len() as u32;
+            }
+        }
+        starts.push(self.words.len() as u32);
+        self.words.extend([op::LABEL, 0, 0]);
+        for (word, to) in jumps {
+            self.words[word] = starts[to.min(steps.len())];
+        }
+    }
+
+    /// The flow control of an instruction; the word that holds its target, and the instruction that that is.
+    fn flow(&mut self, step: &Step, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
+        let target_word = self.words.len() + 1;
+        let mut emit = |op: u32| self.words.extend([op, 0, condition.into()]);
+        match step.opcode {
+            Opcode::If | Opcode::IfC => emit(op::IF),
+            Opcode::Else => emit(op::ELSE),
+            Opcode::EndIf => {
+                emit(op::END_IF);
+                return None;
+            }
+            Opcode::Rep | Opcode::Loop => {
+                let counted = step.opcode == Opcode::Loop;
+                let [passes, start, grows, _] = step.counter;
+                let grows = if counted { grows } else { 0 };
+                let passes = passes.clamp(0, LOOP_LIMIT).cast_unsigned();
+                let words = [op::LOOP, 0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()];
+                self.words.extend(words);
+                return Some((target_word, step.target + 1));
+            }
+            Opcode::EndRep | Opcode::EndLoop => {
+                emit(op::END_LOOP);
+                return Some((target_word, step.target + 1));
+            }
+            Opcode::Break | Opcode::BreakC | Opcode::BreakP => {
+                emit(op::BREAK);
+                return None;
+            }
+            Opcode::Call | Opcode::CallNz => {
+                emit(op::CALL);
+                // A call that leads back, or nowhere, is passed over.
+                let forward = step.target > at && step.target < count;
+                return forward.then_some((target_word, step.target + 1));
+            }
+            Opcode::Ret => {
+                emit(op::RET);
+                return None;
+            }
+            Opcode::Label => {
+                emit(op::LABEL);
+                return None;
+            }
+            _ => return None,
+        }
+        Some((target_word, step.target))
+    }
+}
+
+fn is_flow(opcode: Opcode) -> bool {
+    opcode.info().class == crate::isa::OpcodeClass::Flow
+}
+
+fn pair(low: u16, high: u16) -> u32 {
+    u32::from(low) | u32::from(high) << 16
+}
+
+/// The first word of an arithmetic operation; one bit of it says that the result is a mask.
+fn alu_word(k: Arith, code: Code) -> u32 {
+    let quad = match code {
+        Code::DifferenceX => 1,
+        Code::DifferenceY => 2,
+        _ => 0,
+    };
+    let is_mask = matches!(code, Code::Less | Code::LessEqual | Code::Equal | Code::SelectAboveHalf);
+    op::ALU | (k as u32) << 8 | quad << 12 | alu_code(code) << 16 | u32::from(is_mask) << 31
+}
+
+/// How many blocks and calls can be open at a time.
+fn deepest(steps: &[Step]) -> usize {
+    // Calls lead forward: a subroutine's own need is known before that of its callers.
+    let mut needs = vec![0; steps.len() + 1];
+    let mut most = 0;
+    for start in (0..=steps.len()).rev() {
+        let begins = start == 0 || matches!(steps.get(start - 1), Some(s) if s.opcode == Opcode::Label);
+        if !begins {
+            continue;
+        }
+        let (mut open, mut need) = (0usize, 0usize);
+        for (at, step) in steps.iter().enumerate().skip(start) {
+            match step.opcode {
+                Opcode::Label => break,
+                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => open += 1,
+                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => open = open.saturating_sub(1),
+                Opcode::Call | Opcode::CallNz if step.target > at && step.target < steps.len() => {
+                    need = need.max(open + 1 + needs[step.target + 1]);
+                }
+                _ => {}
+            }
+            need = need.max(open);
+        }
+        needs[start] = need;
+        most = most.max(need);
+    }
+    most
+}
+
+fn alu_code(code: Code) -> u32 {
+    match code {
+        Code::Add => 0,
+        Code::Sub | Code::DifferenceX | Code::DifferenceY => 1,
+        _ => 2,
+    }
+}
