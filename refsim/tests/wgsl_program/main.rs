@@ -10,4 +10,6 @@ mod random;
 
 mod cases;
 mod modules;
+#[cfg(feature = "wgpu")]
+mod runs;
 mod texts;

@@ -1,20 +1,20 @@
 //! Modules around programs.
 
+use refsim::exec::wgsl::number::{NativeOperations, NumberMode, library};
 use refsim::exec::wgsl::{INTERFACE, program};
 
-/// Arithmetic that is none: for texts that are only looked at.
-const HOLLOW: &str = include_str!("hollow.wgsl");
 /// A texture that is none.
 const BLANK: &str = include_str!("blank.wgsl");
 
 /// A pixel module of a program text.
-pub(crate) fn pixel(shade: &str) -> String {
-    [HOLLOW, INTERFACE, BLANK, program::NO_OUTPUT, program::NO_TRACE, shade].concat()
+pub(crate) fn pixel(mode: NumberMode, shade: &str) -> String {
+    let numbers = library(mode, NativeOperations::all());
+    [&numbers, INTERFACE, BLANK, program::NO_OUTPUT, program::NO_TRACE, shade].concat()
 }
 
 /// The module of all vertex programs.
-pub(crate) fn vertex(shade: &str) -> String {
-    [HOLLOW, program::vertex_kernel(), shade].concat()
+pub(crate) fn vertex(mode: NumberMode, shade: &str) -> String {
+    [&library(mode, NativeOperations::all()), program::vertex_kernel(), shade].concat()
 }
 
 /// Parses and validates.

@@ -4,6 +4,7 @@ use crate::cases::{self, FORMATS, PIXEL, VERTEX, ideal, seeds};
 use crate::modules;
 use crate::random::Random;
 use refsim::device::Profile;
+use refsim::exec::wgsl::NumberMode;
 use refsim::exec::wgsl::program::{self, Microcode, PixelShader, VertexShader};
 use refsim::exec::{CheckedProgram, Constants, PixelBindings};
 use refsim::isa::Stage;
@@ -40,7 +41,7 @@ fn fault(code: &Microcode) -> Option<String> {
         }
         starts.push(at);
         let word = w(at);
-        if matches!(word & 0xff, 1..=6) {
+        if matches!(word & 0xff, 1..=3 | 6) {
             let to = w(at + 1) & 0xffff;
             if to >= code.slots {
                 return Some(format!("word {at}: writes slot {to} of {}", code.slots));
@@ -54,7 +55,7 @@ fn fault(code: &Microcode) -> Option<String> {
             0 => break,
             1 | 2 | 6 | 12 | 13 => 3,
             3 | 14 => 6,
-            4 | 5 | 8..=11 | 15 => 2,
+            8..=11 | 15 => 2,
             7 => 5 + [0, 1, 4][word >> 24],
             35 => 6,
             32..=40 => 3,
@@ -70,8 +71,10 @@ fn fault(code: &Microcode) -> Option<String> {
 
 #[test]
 fn the_machine_is_valid_in_both_modules() {
-    for text in [modules::pixel(program::machine()), modules::vertex(program::machine())] {
-        modules::validate(&text).unwrap_or_else(|e| panic!("{e}"));
+    for mode in [NumberMode::Integer, NumberMode::Native] {
+        for make in [modules::pixel, modules::vertex] {
+            modules::validate(&make(mode, program::machine())).unwrap_or_else(|e| panic!("{e}"));
+        }
     }
 }
 

@@ -74,6 +74,7 @@ pub(super) enum Body {
 #[derive(Clone, Debug)]
 pub(super) struct Lowered {
     pub(super) graph: Graph,
+    pub(super) formats: Formats,
     pub(super) body: Body,
     /// Float constants, raw, for relative numbers; empty if the program has none.
     pub(super) table: Vec<[u32; 4]>,
@@ -155,7 +156,7 @@ impl Lowered {
         let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(Node(i)), Kind::Relative(..)));
         let main = formats.lane(Arith::Main);
         let table = constants.float.iter().filter(|_| relative).map(|c| c.map(|bits| main.decode(bits))).collect();
-        Self { graph, body, table }
+        Self { graph, formats: formats.clone(), body, table }
     }
 }
 

@@ -2,9 +2,11 @@
 
 use super::ProgramError;
 use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Step, Use};
+use crate::exec::batch::arith::Formats;
 use crate::exec::batch::graph::{Arith, Detail, Graph, Kind, Node};
 use crate::exec::batch::ops::Code;
 use crate::exec::batch::slots::Slot;
+use crate::exec::wgsl::number::{Operation, source_word};
 use crate::isa::Opcode;
 use std::collections::BTreeMap;
 
@@ -24,8 +26,6 @@ mod op {
     pub(super) const ALU: u32 = 1;
     pub(super) const BITWISE: u32 = 2;
     pub(super) const DOT: u32 = 3;
-    pub(super) const CONVERT: u32 = 4;
-    pub(super) const STEPS: u32 = 5;
     pub(super) const RELATIVE: u32 = 6;
     pub(super) const FETCH: u32 = 7;
     pub(super) const COLOR: u32 = 8;
@@ -69,7 +69,14 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
         Body::Flow { first_free, .. } => *first_free,
     };
     let mut maker =
-        Assembler { graph: &program.graph, words: vec![0; HEADER], pool: BTreeMap::new(), first, next: first.into() };
+        Assembler {
+            graph: &program.graph,
+            formats: &program.formats,
+            words: vec![0; HEADER],
+            pool: BTreeMap::new(),
+            first,
+            next: first.into(),
+        };
     let mut frames = 0;
     maker.words[0] = HEADER as u32;
     match &program.body {
@@ -100,6 +107,7 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
 
 struct Assembler<'g> {
     graph: &'g Graph,
+    formats: &'g Formats,
     words: Vec<u32>,
     /// Constants and their numbers.
     pool: BTreeMap<u32, usize>,
@@ -273,14 +281,12 @@ impl Assembler<'_> {
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
             Kind::Convert(from, into, a) => {
-                let a = places.of(a);
-                let to = self.result(node, places);
-                self.words.extend([op::CONVERT | (from as u32) << 8 | (into as u32) << 16, pair(to, a)]);
+                let source = self.constant(source_word(&self.formats.format(from)));
+                self.alu(node, into, Operation::Convert, [places.of(a), source, source], places);
             }
             Kind::Steps(steps, a) => {
-                let a = places.of(a);
-                let to = self.result(node, places);
-                self.words.extend([op::STEPS | steps << 16, pair(to, a)]);
+                let steps = self.constant(steps);
+                self.alu(node, Arith::Main, Operation::Steps, [places.of(a), steps, steps], places);
             }
             Kind::Relative(base, component, a) => {
                 let a = places.of(a);
@@ -292,25 +298,14 @@ impl Assembler<'_> {
         }
     }
 
+    fn alu(&mut self, node: Node, k: Arith, operation: Operation, args: [u16; 3], places: &mut Places) {
+        let to = self.result(node, places);
+        self.emit(op::ALU | (k as u32) << 8 | operation.word() << 16, to, args);
+    }
+
     fn compute(&mut self, node: Node, k: Arith, code: Code, args: [u16; 3], places: &mut Places) {
-        let [a, b, c] = args;
-        let word = |code: Code| alu_word(k, code);
+        let a = args[0];
         match code {
-            Code::Mad | Code::SelectNonNegative | Code::SelectAboveHalf => {
-                let zero = self.constant(0);
-                let between = places.fresh();
-                match code {
-                    Code::Mad => self.emit(word(Code::Mul), between, [a, b, a]),
-                    Code::SelectNonNegative => self.emit(word(Code::LessEqual), between, [zero, a, a]),
-                    _ => self.emit(word(Code::SelectAboveHalf), between, [a, a, a]),
-                }
-                let to = self.result(node, places);
-                match code {
-                    Code::Mad => self.emit(word(Code::Add), to, [between, c, c]),
-                    _ => self.bitwise(op::SELECT, to, [between, b, c]),
-                }
-                places.free.push(between);
-            }
             Code::And | Code::Or | Code::AndNot | Code::Select => {
                 let variant = match code {
                     Code::And => op::AND,
@@ -323,12 +318,18 @@ impl Assembler<'_> {
             }
             Code::Scale(shift) => {
                 let shift = self.constant(i32::from(shift).cast_unsigned());
+                self.alu(node, k, Operation::Scale, [a, shift, shift], places);
+            }
+            Code::DifferenceX | Code::DifferenceY => {
+                let quad = if code == Code::DifferenceX { 1 } else { 2 };
                 let to = self.result(node, places);
-                self.emit(word(code), to, [a, shift, a]);
+                self.emit(op::ALU | (k as u32) << 8 | quad << 12 | Operation::Sub.word() << 16, to, [a; 3]);
             }
             _ => {
-                let to = self.result(node, places);
-                self.emit(word(code), to, args);
+                if let Some(operation) = operation(code) {
+                    let args: [u16; 3] = std::array::from_fn(|i| if i < code.arity() { args[i] } else { a });
+                    self.alu(node, k, operation, args, places);
+                }
             }
         }
     }
@@ -499,15 +500,36 @@ fn pair(low: u16, high: u16) -> u32 {
     u32::from(low) | u32::from(high) << 16
 }
 
-/// The first word of an arithmetic operation; one bit of it says that the result is a mask.
-fn alu_word(k: Arith, code: Code) -> u32 {
-    let quad = match code {
-        Code::DifferenceX => 1,
-        Code::DifferenceY => 2,
-        _ => 0,
-    };
-    let is_mask = matches!(code, Code::Less | Code::LessEqual | Code::Equal | Code::SelectAboveHalf);
-    op::ALU | (k as u32) << 8 | quad << 12 | alu_code(code) << 16 | u32::from(is_mask) << 31
+/// The number library's name for a plain operation.
+pub(super) fn operation(code: Code) -> Option<Operation> {
+    Some(match code {
+        Code::Add => Operation::Add,
+        Code::Sub => Operation::Sub,
+        Code::Mul => Operation::Mul,
+        Code::Div => Operation::Div,
+        Code::Mad => Operation::Mad,
+        Code::FusedMad => Operation::FusedMad,
+        Code::Min => Operation::Min,
+        Code::Max => Operation::Max,
+        Code::Neg => Operation::Neg,
+        Code::Abs => Operation::Abs,
+        Code::Floor => Operation::Floor,
+        Code::Frc => Operation::Frc,
+        Code::Rcp => Operation::Rcp,
+        Code::Rsq => Operation::Rsq,
+        Code::Exp2 => Operation::Exp2,
+        Code::Log2 => Operation::Log2,
+        Code::Saturate => Operation::Saturate,
+        Code::Factor => Operation::Factor,
+        Code::SelectNonNegative => Operation::SelectNonNegative,
+        Code::SelectAboveHalf => Operation::SelectAboveHalf,
+        Code::Less => Operation::Less,
+        Code::LessEqual => Operation::LessEqual,
+        Code::Equal => Operation::Equal,
+        Code::AddressFloor => Operation::AddressFloor,
+        Code::AddressNearest => Operation::AddressNearest,
+        _ => return None,
+    })
 }
 
 /// How many blocks and calls can be open at a time.
@@ -537,12 +559,4 @@ fn deepest(steps: &[Step]) -> usize {
         most = most.max(need);
     }
     most
-}
-
-fn alu_code(code: Code) -> u32 {
-    match code {
-        Code::Add => 0,
-        Code::Sub | Code::DifferenceX | Code::DifferenceY => 1,
-        _ => 2,
-    }
 }

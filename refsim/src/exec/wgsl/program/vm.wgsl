@@ -281,13 +281,10 @@ fn vm_alu(word: u32, at: u32) {
         default: {}
     }
     let f = format((word >> 8u) & 15u);
-    let operation = (word >> 16u) & 0x7fffu;
+    let operation = word >> 16u;
     var result: vec4<u32>;
     for (var i = 0u; i < 4u; i += 1u) {
         result[i] = n_alu(operation, f, a[i], b[i], c[i]);
-    }
-    if (word >> 31u != 0u) {
-        result = select(vec4<u32>(0u), vec4<u32>(0xffffffffu), result != vec4<u32>(0u));
     }
     vm_write(code[at + 1u] & 0xffffu, result);
 }
@@ -327,27 +324,6 @@ fn vm_bitwise(word: u32, at: u32) {
             result = (a & b) | (~a & vm_read(second >> 16u));
         }
         default: {}
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-fn vm_convert(word: u32, at: u32) {
-    let a = vm_read(code[at + 1u] >> 16u);
-    let from_format = format((word >> 8u) & 15u);
-    let to_format = format(word >> 16u);
-    var result: vec4<u32>;
-    for (var i = 0u; i < 4u; i += 1u) {
-        result[i] = n_convert(from_format, to_format, a[i]);
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-fn vm_steps(word: u32, at: u32) {
-    let a = vm_read(code[at + 1u] >> 16u);
-    let f = format(MAIN);
-    var result: vec4<u32>;
-    for (var i = 0u; i < 4u; i += 1u) {
-        result[i] = n_unorm(f, word >> 16u, a[i]);
     }
     vm_write(code[at + 1u] & 0xffffu, result);
 }
@@ -394,14 +370,6 @@ fn shade() {
             case 3u: {
                 vm_dot(word, at);
                 next += 6u;
-            }
-            case 4u: {
-                vm_convert(word, at);
-                next += 2u;
-            }
-            case 5u: {
-                vm_steps(word, at);
-                next += 2u;
             }
             case 6u: {
                 vm_relative(word, at);

@@ -1,0 +1,268 @@
+//! Programs on an adapter against the scalar executor, bit for bit: nothing but `shade()`, on random inputs.
+
+use crate::cases::{self, FORMATS, PIXEL, VERTEX, ideal, seeds};
+use crate::modules;
+use crate::random::Random;
+use refsim::device::{Profile, Rules};
+use refsim::exec::gpu::{Access, Buffer, Gpu, GpuError, Pipeline, testing};
+use refsim::exec::scalar::{PixelProgram, VertexProgram};
+use refsim::exec::wgsl::NumberMode;
+use refsim::exec::wgsl::number::format_words;
+use refsim::exec::wgsl::program::{self, ATTRIBUTE_WORDS, PixelShader, VERTEX_WORDS, VertexShader};
+use refsim::exec::{CheckedProgram, Constants, PixelBindings};
+use refsim::isa::Version;
+use refsim::num::{Format, Overflow, ops};
+use refsim::raster::FragmentInput;
+use std::sync::Arc;
+
+/// Quads of one run: a workgroup.
+const QUADS: usize = 64;
+/// Words of a quad's inputs and of its results.
+const INPUT_WORDS: usize = 41 * 4 + 2;
+const RESULT_WORDS: usize = 64 + 4 + 4 + 4 + 16 + 1;
+
+fn done<T>(result: Result<T, GpuError>) -> T {
+    result.unwrap_or_else(|e| panic!("{e}"))
+}
+
+pub(crate) fn gpu() -> Option<Arc<Gpu>> {
+    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
+    if gpu.is_none() {
+        println!("ignored: no adapter");
+    }
+    gpu
+}
+
+/// The formats table of a draw.
+pub(crate) fn formats(rules: &Rules) -> Vec<u32> {
+    let main = rules.format;
+    let all =
+        [main, rules.partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), rules.iterator_format];
+    all.iter().flat_map(format_words).collect()
+}
+
+/// A single precision pattern with NaN canonical.
+fn clean(bits: u32) -> u32 {
+    ops::convert(&Format::FP32, Format::FP32, bits).bits
+}
+
+/// What a test program was run on, and what each lane ought to leave behind.
+struct Quads {
+    inputs: Vec<[FragmentInput; 4]>,
+    covered: Vec<u8>,
+}
+
+impl Quads {
+    fn random(r: &mut Random) -> Self {
+        let mut inputs = Vec::with_capacity(QUADS);
+        let mut covered = Vec::with_capacity(QUADS);
+        for quad in 0..QUADS {
+            r.tame = quad % 3 != 0;
+            let base: Vec<u32> = (0..41).map(|_| clean(r.number())).collect();
+            // Some components are the same all over the quad.
+            let same = r.next();
+            inputs.push([0; 4].map(|_: u32| {
+                let mut input = FragmentInput::default();
+                let mut value = |i: usize| if same >> i & 1 == 1 { base[i] } else { clean(r.number()) };
+                for i in 0..32 {
+                    input.t[i / 4][i % 4] = value(i);
+                }
+                for i in 32..40 {
+                    input.v[(i - 32) / 4][i % 4] = value(i);
+                }
+                input
+            }));
+            covered.push(1 + r.below(15) as u8);
+        }
+        Self { inputs, covered }
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let mut out = Vec::with_capacity(QUADS * INPUT_WORDS);
+        for (inputs, &covered) in self.inputs.iter().zip(&self.covered) {
+            for i in 0..41 {
+                out.extend(inputs.iter().map(|input| match i {
+                    40 => input.fog,
+                    32.. => input.v[(i - 32) / 4][i % 4],
+                    _ => input.t[i / 4][i % 4],
+                }));
+            }
+            out.extend([15, covered.into()]);
+        }
+        out
+    }
+}
+
+/// What the scalar executor leaves behind, in the order of `runs.wgsl`; depth as raw words.
+fn expected(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, quads: &Quads) -> Vec<u32> {
+    let scalar = PixelProgram::new(checked, rules, bindings);
+    let raw = |format: Format, bits: u32| {
+        // Raw values: sign-extended integers, or single precision patterns.
+        if format.is_fixed() {
+            let spare = 32 - format.width();
+            ((bits << spare).cast_signed() >> spare).cast_unsigned()
+        } else {
+            ops::convert(&format, Format::FP32, bits).bits
+        }
+    };
+    let mut out = Vec::new();
+    for (inputs, &covered) in quads.inputs.iter().zip(&quads.covered) {
+        let mut fetches = [0; 16];
+        let results = scalar.run(inputs, covered, &mut fetches);
+        for target in 0..4 {
+            for c in 0..4 {
+                out.extend(results.iter().map(|result| raw(rules.format, result.colors[target][c])));
+            }
+        }
+        out.extend(results.iter().map(|result| result.depth.map_or(0, |d| raw(d.format, d.bits))));
+        // In single precision both ways of saying it are the same.
+        let is_main = |f: Format| rules.format != Format::FP32 && f == rules.format;
+        out.extend(results.iter().map(|result| u32::from(result.depth.is_some_and(|d| is_main(d.format)))));
+        out.extend(results.iter().map(|result| u32::from(result.killed)));
+        out.extend(fetches.map(|f| f as u32));
+        out.push(0);
+    }
+    out
+}
+
+pub(crate) struct Runner {
+    gpu: Arc<Gpu>,
+    pipeline: Pipeline,
+}
+
+impl Runner {
+    /// For a module that defines `shade`.
+    pub(crate) fn new(gpu: &Arc<Gpu>, mode: NumberMode, shade: &str) -> Self {
+        let text = modules::pixel(mode, shade) + include_str!("runs.wgsl");
+        let access = [4, 6, 7].iter().fold(vec![Access::Read; 8], |mut all, &i| {
+            all[i] = Access::ReadWrite;
+            all
+        });
+        let pipeline = gpu.pipeline(&text, "run", &access).unwrap_or_else(|e| panic!("{e}"));
+        Self { gpu: Arc::clone(gpu), pipeline }
+    }
+
+    fn run(&self, rules: &Rules, inputs: &[u32], code: &[u32], slots: usize, trace: u32) -> (Vec<u32>, Vec<u32>) {
+        let of = |words: &[u32]| done(self.gpu.buffer_of(words));
+        let mut draw = formats(rules);
+        draw.push(trace);
+        let zeros = |words: usize| done(self.gpu.buffer(words));
+        let (results, traced) = (zeros(QUADS * RESULT_WORDS), zeros(1 << 16));
+        let buffers =
+            [of(&draw), of(inputs), of(&[0]), of(&[0]), results, of(code), zeros(slots * QUADS * 4), traced];
+        let all: Vec<&Buffer> = buffers.iter().collect();
+        done(self.gpu.dispatch(&self.pipeline, &all, [1, 1, 1]));
+        let results = done(self.gpu.read(&buffers[4], 0..QUADS * RESULT_WORDS));
+        (results, done(self.gpu.read(&buffers[7], 0..1 << 16)))
+    }
+}
+
+fn random_constants(r: &mut Random, count: usize) -> Constants {
+    let mut constants = Constants::default();
+    constants.float = (0..count).map(|_| [0; 4].map(|_: u32| clean(r.number()))).collect();
+    constants.int = (0..4).map(|_| [r.below(4) as i32, r.below(3) as i32, 1, 0]).collect();
+    constants.boolean = (0..4).map(|_| r.one_in(2)).collect();
+    constants
+}
+
+/// The first word that differs, in words.
+fn difference(found: &[u32], wanted: &[u32]) -> Option<String> {
+    let at = found.iter().zip(wanted).position(|(f, w)| f != w)?;
+    let (quad, word) = (at / RESULT_WORDS, at % RESULT_WORDS);
+    let what = match word {
+        0..64 => format!("oC{}.{} lane {}", word / 16, word / 4 % 4, word % 4),
+        64..68 => format!("depth lane {}", word - 64),
+        68..72 => format!("kind of depth lane {}", word - 68),
+        72..76 => format!("killed lane {}", word - 72),
+        _ => format!("reads of sampler {}", word - 76),
+    };
+    Some(format!("quad {quad}, {what}: found {:#010x}, expected {:#010x}", found[at], wanted[at]))
+}
+
+fn random_case(seed: u64, size: usize) -> (Profile, String, CheckedProgram, Random) {
+    let mut r = Random::new(seed);
+    let version: Version = PIXEL[seed as usize % PIXEL.len()];
+    let profile = ideal(FORMATS[(seed as usize / PIXEL.len()) % FORMATS.len()]);
+    let (text, program) = cases::random(version, size, &profile, &mut r);
+    (profile, text, program, r)
+}
+
+fn constants_cleared(mut words: Vec<u32>) -> Vec<u32> {
+    for quad in words.chunks_mut(RESULT_WORDS) {
+        quad[RESULT_WORDS - 1] = 0;
+    }
+    words
+}
+
+#[test]
+fn the_machine_runs_random_programs() {
+    let Some(gpu) = gpu() else { return };
+    let start = std::time::Instant::now();
+    let runner = Runner::new(&gpu, NumberMode::Integer, program::machine());
+    println!("the machine is compiled in {:?} on {}", start.elapsed(), gpu.adapter().name);
+    for seed in seeds(140) {
+        let (profile, text, checked, mut r) = random_case(seed, 2);
+        let constants = random_constants(&mut r, 32);
+        let bindings = PixelBindings::new(&constants);
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let quads = Quads::random(&mut r);
+        let wanted = expected(&checked, &profile.rules, &bindings, &quads);
+        let (found, _) = runner.run(&profile.rules, &quads.words(), &code.words, code.slots, 0);
+        if let Some(difference) = difference(&constants_cleared(found), &wanted) {
+            panic!("seed {seed}, {}:\n{text}\n{difference}", profile.name);
+        }
+    }
+}
+
+#[test]
+fn the_machine_runs_vertex_programs() {
+    let Some(gpu) = gpu() else { return };
+    let text = modules::vertex(NumberMode::Integer, program::machine());
+    let access = [Access::Read, Access::Read, Access::Read, Access::ReadWrite, Access::ReadWrite];
+    let pipeline = gpu.pipeline(&text, "vertex_main", &access).unwrap_or_else(|e| panic!("{e}"));
+    const COUNT: usize = 301;
+    for seed in seeds(40) {
+        let mut r = Random::new(seed ^ 0x5eed);
+        let mut profile = ideal("fp32");
+        profile.rules.vertex_format =
+            FORMATS[(seed / 2) as usize % FORMATS.len()].parse().unwrap_or_else(|e| panic!("{e}"));
+        let (text, checked) = cases::random(VERTEX[seed as usize % 2], 2, &profile, &mut r);
+        let constants = random_constants(&mut r, 40);
+        let shader = VertexShader::new(&checked, &profile.rules, &constants).unwrap_or_else(|e| panic!("{e}"));
+        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let attributes: Vec<[[u32; 4]; 16]> = (0..COUNT)
+            .map(|i| {
+                r.tame = i % 2 == 0;
+                [0; 16].map(|_: u32| [0; 4].map(|_: u32| r.number()))
+            })
+            .collect();
+        let mut draw = formats(&profile.rules);
+        draw[..8].copy_from_slice(&format_words(&profile.rules.vertex_format));
+        draw.push(COUNT as u32);
+        let words: Vec<u32> = attributes.iter().flatten().flatten().copied().collect();
+        assert_eq!(words.len(), COUNT * ATTRIBUTE_WORDS);
+        let of = |words: &[u32]| done(gpu.buffer_of(words));
+        let zeros = |words: usize| done(gpu.buffer(words));
+        let buffers =
+            [of(&draw), of(&words), of(&code.words), zeros(code.slots * 64 * 4), zeros(COUNT * VERTEX_WORDS)];
+        let all: Vec<&Buffer> = buffers.iter().collect();
+        done(gpu.dispatch(&pipeline, &all, [1, 1, 1]));
+        let found = done(gpu.read(&buffers[4], 0..COUNT * VERTEX_WORDS));
+        let scalar = VertexProgram::new(&checked, &profile.rules, &constants);
+        let mut slots = [0u64; 2];
+        for (i, (given, found)) in attributes.iter().zip(found.chunks(VERTEX_WORDS)).enumerate() {
+            let result = scalar.run(given);
+            let vertex = result.vertex;
+            let flat = vertex.position.into_iter().chain(vertex.colors.into_iter().flatten());
+            let flat = flat.chain(vertex.texcoords.into_iter().flatten()).chain([vertex.fog, vertex.point_size]);
+            for (word, (wanted, &found)) in flat.zip(found).enumerate() {
+                let wanted = clean(wanted);
+                assert_eq!(found, wanted, "seed {seed}, vertex {i}, word {word}: {found:#x}, {wanted:#x}\n{text}");
+            }
+            slots[0] += result.slots;
+            slots[1] += u64::from(found[VERTEX_WORDS - 1]);
+        }
+        assert_eq!(slots[0], slots[1], "seed {seed}: instruction slots\n{text}");
+    }
+}
