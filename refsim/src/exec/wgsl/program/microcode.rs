@@ -68,15 +68,14 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
         Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
         Body::Flow { first_free, .. } => *first_free,
     };
-    let mut maker =
-        Assembler {
-            graph: &program.graph,
-            formats: &program.formats,
-            words: vec![0; HEADER],
-            pool: BTreeMap::new(),
-            first,
-            next: first.into(),
-        };
+    let mut maker = Assembler {
+        graph: &program.graph,
+        formats: &program.formats,
+        words: vec![0; HEADER],
+        pool: BTreeMap::new(),
+        first,
+        next: first.into(),
+    };
     let mut frames = 0;
     maker.words[0] = HEADER as u32;
     match &program.body {
