@@ -24,45 +24,45 @@ macro_rules! shared {
 
 shared! {
     /// Words of a sampler in the table.
-    SAMPLER_WORDS = 96;
-    /// Kind of texture: `KIND_*`.
-    SAMPLER_KIND = 0;
-    /// 1 if the level of detail matters to a read.
-    SAMPLER_DETAIL = 1;
-    /// Filter where texels are smaller than pixels: `FILTER_*`.
-    SAMPLER_MIN = 2;
-    /// Filter elsewhere.
-    SAMPLER_MAG = 3;
-    /// Filter between levels: `MIP_*`.
-    SAMPLER_MIP = 4;
-    /// Address modes of the three axes, as the kind of texture lets them be: `ADDRESS_*`.
-    SAMPLER_ADDRESS = 5;
+    SAMPLER_WORDS = 80;
+    /// Small things in one word, from the bits named `FLAG_*` on.
+    SAMPLER_FLAGS = 0;
+    /// The largest level that may be read (bits 0 to 7), the smallest one (8 to 15).
+    SAMPLER_LEVEL_RANGE = 1;
     /// Bias of the level of detail, FP32 bits.
-    SAMPLER_LOD_BIAS = 8;
-    /// The largest level that may be read.
-    SAMPLER_FIRST_LEVEL = 9;
-    /// The smallest level.
-    SAMPLER_LAST_LEVEL = 10;
-    /// Fraction bits of filter weights, at most 12.
-    SAMPLER_FILTER_BITS = 11;
-    /// Fraction bits of the level of detail, at most 8.
-    SAMPLER_LOD_BITS = 12;
-    /// Words of a texel: 1, 2 or 4.
-    SAMPLER_TEXEL_WORDS = 13;
-    /// 1 if every stored channel is floating-point.
-    SAMPLER_FLOAT = 14;
-    /// Axes along which texels lie; 0 where nothing is bound.
-    SAMPLER_AXES = 15;
-    /// 1 if coordinates go from 0 to 1, 0 if they count texels.
-    SAMPLER_NORMALISED = 16;
+    SAMPLER_LOD_BIAS = 2;
     /// Texels of level 0 along the axes for a coordinate of 1, FP32 bits.
-    SAMPLER_SCALES = 17;
+    SAMPLER_SCALES = 4;
     /// The four components: class (`TEXEL_*`, bits 0 to 7), shift (8 to 15), width (from 16 on).
-    SAMPLER_COMPONENTS = 20;
+    SAMPLER_COMPONENTS = 8;
     /// The border texel as it would be stored, four words.
-    SAMPLER_BORDER = 24;
+    SAMPLER_BORDER = 12;
     /// The levels, four words each.
-    SAMPLER_LEVELS = 32;
+    SAMPLER_LEVELS = 16;
+    /// Kind of texture (3 bits): `KIND_*`.
+    FLAG_KIND = 0;
+    /// Filter between levels (2 bits): `MIP_*`.
+    FLAG_MIP = 3;
+    /// Address modes of the three axes, as the kind of texture lets them be (2 bits each): `ADDRESS_*`.
+    FLAG_ADDRESS = 5;
+    /// Fraction bits of filter weights, at most 12 (4 bits).
+    FLAG_FILTER_BITS = 11;
+    /// Fraction bits of the level of detail, at most 8 (4 bits).
+    FLAG_LOD_BITS = 15;
+    /// Words of a texel: 1, 2 or 4 (3 bits).
+    FLAG_TEXEL_WORDS = 19;
+    /// Axes along which texels lie; 0 where nothing is bound (2 bits).
+    FLAG_AXES = 22;
+    /// Linear filtering where texels are smaller than pixels.
+    FLAG_MIN = 24;
+    /// Linear filtering elsewhere.
+    FLAG_MAG = 25;
+    /// The level of detail matters to a read.
+    FLAG_DETAIL = 26;
+    /// Every stored channel is floating-point.
+    FLAG_FLOAT = 27;
+    /// Coordinates go from 0 to 1; else they count texels.
+    FLAG_NORMALISED = 28;
     /// First word of a level in `video`.
     LEVEL_OFFSET = 0;
     /// Texels of a row.
@@ -81,10 +81,6 @@ shared! {
     KIND_CUBE = 3;
     /// A block.
     KIND_VOLUME = 4;
-    /// The texel that holds the point.
-    FILTER_NEAREST = 0;
-    /// The nearest two along each axis.
-    FILTER_LINEAR = 1;
     /// Only the largest level allowed.
     MIP_NONE = 0;
     /// The nearest level.
@@ -154,34 +150,36 @@ pub fn sampler_words(
     first_word: u32,
 ) -> [u32; SAMPLER_WORDS] {
     let mut words = [0; SAMPLER_WORDS];
-    words[SAMPLER_FILTER_BITS] = u32::from(rules.filter_fraction_bits.min(12));
-    words[SAMPLER_LOD_BITS] = u32::from(rules.lod_fraction_bits.min(8));
-    words[SAMPLER_TEXEL_WORDS] = 1;
+    let flag = |value: u32, at: usize| value << at;
+    words[SAMPLER_FLAGS] = flag(u32::from(rules.filter_fraction_bits.min(12)), FLAG_FILTER_BITS)
+        | flag(u32::from(rules.lod_fraction_bits.min(8)), FLAG_LOD_BITS);
     words[SAMPLER_COMPONENTS + 3] = TEXEL_ONE as u32;
-    let Some(binding) = binding else { return words };
+    let Some(binding) = binding else {
+        words[SAMPLER_FLAGS] |= flag(1, FLAG_TEXEL_WORDS);
+        return words;
+    };
     let (image, state) = (binding.image, &binding.state);
-    let format = image.format();
+    let (format, kind) = (image.format(), image.kind());
     let last = image.levels().len().min(MOST_LEVELS) as u32 - 1;
-    let filter = |f: Filter| f as u32;
-    words[SAMPLER_KIND] = kind_word(image.kind());
-    words[SAMPLER_DETAIL] = u32::from(binding.needs_detail());
-    words[SAMPLER_MIN] = filter(state.min);
-    words[SAMPLER_MAG] = filter(state.mag);
-    words[SAMPLER_MIP] = match state.mip {
+    let mip = match state.mip {
         MipFilter::None => MIP_NONE,
         MipFilter::Nearest => MIP_NEAREST,
         MipFilter::Linear => MIP_LINEAR,
-    } as u32;
-    for (axis, mode) in [state.address_u, state.address_v, state.address_w].into_iter().enumerate() {
-        words[SAMPLER_ADDRESS + axis] = address_word(image.kind(), mode);
-    }
+    };
+    words[SAMPLER_FLAGS] |= flag(kind_word(kind), FLAG_KIND)
+        | flag(mip as u32, FLAG_MIP)
+        | flag(address_word(kind, state.address_u), FLAG_ADDRESS)
+        | flag(address_word(kind, state.address_v), FLAG_ADDRESS + 2)
+        | flag(address_word(kind, state.address_w), FLAG_ADDRESS + 4)
+        | flag(texel_words(format) as u32, FLAG_TEXEL_WORDS)
+        | flag(axes(kind), FLAG_AXES)
+        | flag(u32::from(state.min == Filter::Linear), FLAG_MIN)
+        | flag(u32::from(state.mag == Filter::Linear), FLAG_MAG)
+        | flag(u32::from(binding.needs_detail()), FLAG_DETAIL)
+        | flag(u32::from(format.record().is_float()), FLAG_FLOAT)
+        | flag(u32::from(kind != TextureKind::Rectangle), FLAG_NORMALISED);
+    words[SAMPLER_LEVEL_RANGE] = u32::from(state.max_mip_level).min(last) | last << 8;
     words[SAMPLER_LOD_BIAS] = state.lod_bias;
-    words[SAMPLER_FIRST_LEVEL] = u32::from(state.max_mip_level).min(last);
-    words[SAMPLER_LAST_LEVEL] = last;
-    words[SAMPLER_TEXEL_WORDS] = texel_words(format) as u32;
-    words[SAMPLER_FLOAT] = u32::from(format.record().is_float());
-    words[SAMPLER_AXES] = axes(image.kind());
-    words[SAMPLER_NORMALISED] = u32::from(image.kind() != TextureKind::Rectangle);
     words[SAMPLER_SCALES..][..3].copy_from_slice(&scales(image));
     words[SAMPLER_COMPONENTS..][..4].copy_from_slice(&component_words(format, rules.signed_texel_minimum));
     let border = encode(format, Format::FP32, state.border, TargetRounding::Nearest);

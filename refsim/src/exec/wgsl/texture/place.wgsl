@@ -3,6 +3,28 @@
 const TEXTURE_ONE: u32 = 0x3f800000u;
 const TEXTURE_HALF: u32 = 0x3f000000u;
 
+// What a sampler's words say, read once a quad.
+struct TextureState {
+    base: u32,
+    flags: u32,
+    level_range: u32,
+    lod_bias: u32,
+    components: vec4<u32>,
+}
+
+fn texture_state(number: u32) -> TextureState {
+    let base = number * SAMPLER_WORDS;
+    let c = base + SAMPLER_COMPONENTS;
+    return TextureState(
+        base, samplers[base + SAMPLER_FLAGS], samplers[base + SAMPLER_LEVEL_RANGE], samplers[base + SAMPLER_LOD_BIAS],
+        vec4<u32>(samplers[c], samplers[c + 1u], samplers[c + 2u], samplers[c + 3u]),
+    );
+}
+
+fn texture_flag(s: TextureState, at: u32, width: u32) -> u32 {
+    return extractBits(s.flags, at, width);
+}
+
 struct TexturePlace {
     coordinates: vec3<u32>,
     face: u32,
@@ -62,20 +84,21 @@ const TEXTURE_STEP_SHIFT: u32 = 16u;
 const TEXTURE_STEP_FACE: u32 = 17u;
 const TEXTURE_STEP_END: u32 = 18u;
 
+// Derivatives that the program gives: x, y, z and w along x, then along y.
+var<private> texture_gradients: array<vec4<u32>, 8>;
+
 // All single precision arithmetic before the texels are read goes through the one s_alu below: an inlining compiler
 // then makes one copy of it.
 fn texture_place(
-    base: u32, lane: u32, u: vec4<u32>, v: vec4<u32>, w: vec4<u32>, detail: u32, bias: vec4<u32>,
-    gradients: array<vec4<u32>, 8>,
+    s: TextureState, lane: u32, u: vec4<u32>, v: vec4<u32>, w: vec4<u32>, detail: u32, bias: vec4<u32>,
 ) -> TexturePlace {
-    var given = gradients;
     let at = vec3<u32>(u[lane], v[lane], w[lane]);
-    let cube = samplers[base + SAMPLER_KIND] == KIND_CUBE;
-    let axes = samplers[base + SAMPLER_AXES];
+    let cube = texture_flag(s, FLAG_KIND, 3u) == KIND_CUBE;
+    let axes = texture_flag(s, FLAG_AXES, 2u);
     let start = vec3<u32>(texture_finite(at.x), texture_finite(at.y), texture_finite(at.z));
     let face = texture_face(start);
     let own = texture_face_axes(face, start); // of a cube: both minor axes and the magnitude of the major one
-    var place = TexturePlace(at, 0u, samplers[base + SAMPLER_LOD_BIAS]);
+    var place = TexturePlace(at, 0u, s.lod_bias);
     if (cube) { place = TexturePlace(vec3<u32>(own.x, own.y, 0u), face, place.wanted); }
 
     var change = vec3<u32>(0u);
@@ -89,14 +112,14 @@ fn texture_place(
     var x = 0u;
     var y = 0u;
     var step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, cube);
-    if (samplers[base + SAMPLER_DETAIL] != 0u) { step = TEXTURE_STEP_AXES; }
+    if (texture_flag(s, FLAG_DETAIL, 1u) != 0u) { step = TEXTURE_STEP_AXES; }
     loop {
         if (step == TEXTURE_STEP_AXES) {
             sum = 0u;
             axis = 0u;
             if (detail == DETAIL_GRADIENTS) {
                 let first = 4u * direction;
-                change = vec3<u32>(given[first][lane], given[first + 1u][lane], given[first + 2u][lane]);
+                for (var i = 0u; i < 3u; i++) { change[i] = texture_gradients[first + i][lane]; }
                 step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_MOVE, cube);
             } else {
                 let from_lane = lane & ~(1u << direction);
@@ -107,29 +130,29 @@ fn texture_place(
             }
         }
         if (step == TEXTURE_STEP_END) { break; }
-        var code = N_MUL;
+        var op = N_MUL;
         var a = x;
         var b = x;
         switch step {
-            case TEXTURE_STEP_CHANGE: { code = N_SUB; a = high[axis]; b = low[axis]; }
-            case TEXTURE_STEP_MOVE: { code = N_ADD; a = start[axis]; b = change[axis]; }
-            case TEXTURE_STEP_QUOTIENT: { code = N_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_MINOR: { code = N_SUB; a = moved[axis]; b = own[axis]; }
-            case TEXTURE_STEP_MAJOR: { code = N_SUB; a = moved.z; b = own.z; }
+            case TEXTURE_STEP_CHANGE: { op = N_SUB; a = high[axis]; b = low[axis]; }
+            case TEXTURE_STEP_MOVE: { op = N_ADD; a = start[axis]; b = change[axis]; }
+            case TEXTURE_STEP_QUOTIENT: { op = N_DIV; a = own[axis]; b = own.z; }
+            case TEXTURE_STEP_MINOR: { op = N_SUB; a = moved[axis]; b = own[axis]; }
+            case TEXTURE_STEP_MAJOR: { op = N_SUB; a = moved.z; b = own.z; }
             case TEXTURE_STEP_TURN: { a = y; b = low.x; }
-            case TEXTURE_STEP_SLOPE: { code = N_SUB; a = x; b = y; }
-            case TEXTURE_STEP_SHRINK: { code = N_DIV; b = own.z; }
+            case TEXTURE_STEP_SLOPE: { op = N_SUB; a = x; b = y; }
+            case TEXTURE_STEP_SHRINK: { op = N_DIV; b = own.z; }
             case TEXTURE_STEP_HALVE: { b = TEXTURE_HALF; }
-            case TEXTURE_STEP_SCALE: { a = select(change[axis], x, cube); b = samplers[base + SAMPLER_SCALES + axis]; }
+            case TEXTURE_STEP_SCALE: { a = select(change[axis], x, cube); b = samplers[s.base + SAMPLER_SCALES + axis]; }
             case TEXTURE_STEP_SQUARE: { }
-            case TEXTURE_STEP_SUM: { code = N_ADD; a = sum; }
-            case TEXTURE_STEP_BIAS: { code = N_ADD; a = place.wanted; b = bias[lane]; }
-            case TEXTURE_STEP_STATE: { code = N_ADD; a = place.wanted; b = samplers[base + SAMPLER_LOD_BIAS]; }
-            case TEXTURE_STEP_DIVIDE: { code = N_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_SHIFT: { code = N_ADD; b = TEXTURE_ONE; }
+            case TEXTURE_STEP_SUM: { op = N_ADD; a = sum; }
+            case TEXTURE_STEP_BIAS: { op = N_ADD; a = place.wanted; b = bias[lane]; }
+            case TEXTURE_STEP_STATE: { op = N_ADD; a = place.wanted; b = s.lod_bias; }
+            case TEXTURE_STEP_DIVIDE: { op = N_DIV; a = own[axis]; b = own.z; }
+            case TEXTURE_STEP_SHIFT: { op = N_ADD; b = TEXTURE_ONE; }
             default: { b = TEXTURE_HALF; }
         }
-        let r = s_alu(code, a, b);
+        let r = s_alu(op, a, b);
         switch step {
             case TEXTURE_STEP_CHANGE: {
                 change[axis] = r;
@@ -163,7 +186,7 @@ fn texture_place(
                     axis = 0u;
                     step = TEXTURE_STEP_AXES;
                     if (direction == 2u) {
-                        place.wanted = texture_half_log2(largest, samplers[base + SAMPLER_LOD_BITS]);
+                        place.wanted = texture_half_log2(largest, texture_flag(s, FLAG_LOD_BITS, 4u));
                         step = select(TEXTURE_STEP_STATE, TEXTURE_STEP_BIAS, detail == DETAIL_BIASED);
                     }
                 }

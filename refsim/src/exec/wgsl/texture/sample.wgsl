@@ -1,13 +1,13 @@
 // Texture reads: refsim::texture::sample over the sampler table.
 
 struct TextureLevels {
-    filter_linear: bool,
-    level: array<u32, 2>,
-    weight: u32, // of the second level, in units of 2^-SAMPLER_LOD_BITS
+    linear: bool, // the filter within a level
+    level: vec2<u32>,
+    weight: u32, // of the second level, in units of 2^-FLAG_LOD_BITS
 }
 
-fn texture_levels(base: u32, wanted: u32) -> TextureLevels {
-    let bits = samplers[base + SAMPLER_LOD_BITS];
+fn texture_levels(s: TextureState, wanted: u32) -> TextureLevels {
+    let bits = texture_flag(s, FLAG_LOD_BITS, 4u);
     var lambda = 0;
     if ((wanted & 0x7fffffffu) <= 0x7f800000u) {
         // 1024 stands for all that is larger, infinity included.
@@ -15,11 +15,11 @@ fn texture_levels(base: u32, wanted: u32) -> TextureLevels {
         let position = texture_position(near, 0x44800000u, 1u, bits, false);
         lambda = clamp(bitcast<i32>(position.x), -(128 << bits), 128 << bits);
     }
-    let first = i32(samplers[base + SAMPLER_FIRST_LEVEL]);
-    let last = i32(samplers[base + SAMPLER_LAST_LEVEL]);
+    let first = i32(s.level_range & 0xffu);
+    let last = i32(s.level_range >> 8u);
     var level = first;
     var weight = 0u;
-    switch samplers[base + SAMPLER_MIP] {
+    switch texture_flag(s, FLAG_MIP, 2u) {
         case MIP_NEAREST: { level = clamp((lambda + i32((1u << bits) >> 1u)) >> bits, first, last); }
         case MIP_LINEAR: {
             let clamped = clamp(lambda, first << bits, last << bits);
@@ -28,79 +28,60 @@ fn texture_levels(base: u32, wanted: u32) -> TextureLevels {
         }
         default: { }
     }
-    let filter_word = select(SAMPLER_MAG, SAMPLER_MIN, lambda > 0);
-    let levels = array<u32, 2>(u32(level), u32(min(level + 1, last)));
-    return TextureLevels(samplers[base + filter_word] == FILTER_LINEAR, levels, weight);
+    let linear = texture_flag(s, select(FLAG_MAG, FLAG_MIN, lambda > 0), 1u) != 0u;
+    return TextureLevels(linear, vec2<u32>(u32(level), u32(min(level + 1, last))), weight);
 }
 
-// The taps of up to two levels: by level and axis, two indices and the weight of the second.
-struct TextureTaps {
-    index: array<vec2<u32>, 6>,
-    weight: array<u32, 6>,
-}
-
-fn texture_taps(base: u32, place: TexturePlace, levels: TextureLevels) -> TextureTaps {
-    var pick = levels;
-    var taps: TextureTaps;
-    let axes = samplers[base + SAMPLER_AXES];
-    let fraction = select(0u, samplers[base + SAMPLER_FILTER_BITS], levels.filter_linear);
+// Both taps along an axis, x and y, and the weight of the second, z.
+fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: bool) -> vec3<u32> {
+    let scale = select(1u, size, texture_flag(s, FLAG_NORMALISED, 1u) != 0u);
+    let mode = texture_flag(s, FLAG_ADDRESS + 2u * axis, 2u);
+    let fraction = select(0u, texture_flag(s, FLAG_FILTER_BITS, 4u), linear);
     let half_up = fraction != 0u;
-    for (var slot = 0u; slot < 6u; slot++) {
-        let row = slot / 3u;
-        let axis = slot - 3u * row;
-        if (row == 1u && levels.weight == 0u) { break; }
-        if (axis >= axes) {
-            taps.index[slot] = vec2<u32>(select(0u, place.face, axis == 2u));
-            continue;
-        }
-        let size = samplers[base + SAMPLER_LEVELS + 4u * pick.level[row] + LEVEL_WIDTH + axis];
-        let scale = select(1u, size, samplers[base + SAMPLER_NORMALISED] != 0u);
-        let mode = samplers[base + SAMPLER_ADDRESS + axis];
-        // From 2^24 on every FP32 number is an even integer: all of one sign address alike.
-        var position = texture_position(place.coordinates[axis], 0x4b800000u, scale, fraction, half_up);
-        if (half_up) {
-            position = texture_add(position, texture_negated(vec2<u32>(1u << (fraction - 1u), 0u)));
-        }
-        let weight = position.x & ((1u << fraction) - 1u);
-        let sign = bitcast<u32>(bitcast<i32>(position.y) >> 31u);
-        var whole = texture_right(position, fraction);
-        if (fraction != 0u) { whole.y |= sign << (32u - fraction); }
-        for (var tap = 0u; tap < 2u; tap++) {
-            taps.index[slot][tap] = texture_resolved(mode, whole, size);
-            if (weight == 0u) { break; }
-            whole = texture_add(whole, vec2<u32>(1u, 0u));
-        }
-        taps.weight[slot] = weight;
+    // From 2^24 on every FP32 number is an even integer: all of one sign address alike.
+    var position = texture_position(coordinate, 0x4b800000u, scale, fraction, half_up);
+    if (half_up) {
+        position = texture_add(position, texture_negated(vec2<u32>(1u << (fraction - 1u), 0u)));
     }
-    return taps;
+    let weight = position.x & ((1u << fraction) - 1u);
+    let sign = bitcast<u32>(bitcast<i32>(position.y) >> 31u);
+    var whole = texture_right(position, fraction);
+    if (fraction != 0u) { whole.y |= sign << (32u - fraction); }
+    var index = vec2<u32>(0u);
+    for (var tap = 0u; tap < 2u; tap++) {
+        index[tap] = texture_resolved(mode, whole, size);
+        if (weight == 0u) { break; }
+        whole = texture_add(whole, vec2<u32>(1u, 0u));
+    }
+    return vec3<u32>(index, weight);
 }
 
-// The stored words of the texel at a column, row and slice of a level.
-fn texture_words(base: u32, level: u32, x: u32, y: u32, slice: u32) -> vec4<u32> {
-    if (max(max(x, y), slice) == TEXTURE_BORDER) {
-        let border = base + SAMPLER_BORDER;
+// The stored words of the texel at a column, row and slice of a level (`row` is the level's in the table).
+fn texture_words(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
+    if (max(max(at.x, at.y), at.z) == TEXTURE_BORDER) {
+        let border = s.base + SAMPLER_BORDER;
         return vec4<u32>(samplers[border], samplers[border + 1u], samplers[border + 2u], samplers[border + 3u]);
     }
-    let row = base + SAMPLER_LEVELS + 4u * level;
-    let size = samplers[base + SAMPLER_TEXEL_WORDS];
-    let number = (slice * samplers[row + LEVEL_HEIGHT] + y) * samplers[row + LEVEL_WIDTH] + x;
-    let at = samplers[row + LEVEL_OFFSET] + number * size;
-    var words = vec4<u32>(video[at], 0u, 0u, 0u);
-    if (size > 1u) { words.y = video[at + 1u]; }
-    if (size > 2u) { words.z = video[at + 2u]; words.w = video[at + 3u]; }
+    let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
+    let first = row[LEVEL_OFFSET] + ((at.z * row[LEVEL_HEIGHT] + at.y) * row[LEVEL_WIDTH] + at.x) * size;
+    var words = vec4<u32>(video[first], 0u, 0u, 0u);
+    if (size > 1u) { words.y = video[first + 1u]; }
+    if (size > 2u) { words.z = video[first + 2u]; words.w = video[first + 3u]; }
     return words;
 }
 
 // a + w (b - a) along each axis and between the levels, single precision; a weight of 0 gives a itself.
-fn texture_blend(base: u32, taps: TextureTaps, level_weight: u32, texels: ptr<function, array<vec4<u32>, 16>>) {
-    var weights = taps.weight;
+fn texture_blend(
+    s: TextureState, axis_weights: array<vec3<u32>, 2>, level_weight: u32, texels: ptr<function, array<vec4<u32>, 16>>,
+) {
+    var weights = axis_weights;
     for (var axis = 0u; axis < 4u; axis++) {
         for (var pair = 0u; pair < (8u >> axis); pair++) {
             var weight = level_weight;
-            var bits = samplers[base + SAMPLER_LOD_BITS];
+            var bits = texture_flag(s, FLAG_LOD_BITS, 4u);
             if (axis < 3u) {
-                weight = weights[3u * (pair >> (2u - axis)) + axis];
-                bits = samplers[base + SAMPLER_FILTER_BITS];
+                weight = weights[pair >> (2u - axis)][axis];
+                bits = texture_flag(s, FLAG_FILTER_BITS, 4u);
             }
             var a = (*texels)[2u * pair];
             if (weight != 0u) {
@@ -109,11 +90,11 @@ fn texture_blend(base: u32, taps: TextureTaps, level_weight: u32, texels: ptr<fu
                 for (var c = 0u; c < 4u; c++) {
                     var x = b[c];
                     for (var k = 0u; k < 3u; k++) {
-                        var code = N_ADD;
+                        var op = N_ADD;
                         var other = a[c];
-                        if (k == 0u) { code = N_SUB; }
-                        if (k == 1u) { code = N_MUL; other = single; }
-                        x = s_alu(code, x, other);
+                        if (k == 0u) { op = N_SUB; }
+                        if (k == 1u) { op = N_MUL; other = single; }
+                        x = s_alu(op, x, other);
                     }
                     a[c] = x;
                 }
@@ -124,38 +105,46 @@ fn texture_blend(base: u32, taps: TextureTaps, level_weight: u32, texels: ptr<fu
 }
 
 // One lane's texel: texels that are integers are summed exactly and rounded once, floats blended in single precision.
-fn texture_texel(base: u32, place: TexturePlace) -> vec4<u32> {
-    var levels = texture_levels(base, place.wanted);
-    var taps = texture_taps(base, place, levels);
-    let floats = samplers[base + SAMPLER_FLOAT] != 0u;
-    let filter_bits = samplers[base + SAMPLER_FILTER_BITS];
-    let lod_bits = samplers[base + SAMPLER_LOD_BITS];
+fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
+    let levels = texture_levels(s, place.wanted);
+    let floats = texture_flag(s, FLAG_FLOAT, 1u) != 0u;
+    let filter_bits = texture_flag(s, FLAG_FILTER_BITS, 4u);
+    let lod_bits = texture_flag(s, FLAG_LOD_BITS, 4u);
+    let axes = texture_flag(s, FLAG_AXES, 2u);
+    let components = s.components;
     var sums = array<vec2<u32>, 4>();
-    var texels = array<vec4<u32>, 16>();
+    var texels: array<vec4<u32>, 16>;
+    var weights = array<vec3<u32>, 2>();
     let rows = select(1u, 2u, levels.weight != 0u);
-    for (var row = 0u; row < rows; row++) {
-        var part = levels.weight;
-        if (row == 0u) { part = (1u << lod_bits) - part; }
-        let slot = 3u * row;
-        let second = vec3<u32>(taps.weight[slot], taps.weight[slot + 1u], taps.weight[slot + 2u]);
+    for (var r = 0u; r < rows; r++) {
+        let at = s.base + SAMPLER_LEVELS + 4u * levels.level[r];
+        let row = vec4<u32>(samplers[at], samplers[at + 1u], samplers[at + 2u], samplers[at + 3u]);
+        var near = vec3<u32>(0u, 0u, place.face);
+        var far = vec3<u32>(0u);
+        var second = vec3<u32>(0u);
+        for (var axis = 0u; axis < axes; axis++) {
+            let taps = texture_taps(s, place.coordinates[axis], axis, row[LEVEL_WIDTH + axis], levels.linear);
+            near[axis] = taps.x;
+            far[axis] = taps.y;
+            second[axis] = taps.z;
+        }
+        weights[r] = second;
+        let part = select(levels.weight, (1u << lod_bits) - levels.weight, r == 0u);
         let used = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), second != vec3<u32>(0u));
         let mask = used.x | used.y | used.z;
         for (var corner = 0u; corner <= mask; corner++) {
             if ((corner & ~mask) != 0u) { continue; }
-            let side = vec3<u32>(corner & 1u, (corner >> 1u) & 1u, corner >> 2u);
-            let words = texture_words(
-                base, levels.level[row], taps.index[slot][side.x], taps.index[slot + 1u][side.y],
-                taps.index[slot + 2u][side.z],
-            );
-            let weights = select(vec3<u32>(1u << filter_bits) - second, second, side == vec3<u32>(1u));
-            let weight = texture_wide(weights.x * weights.y, weights.z * part); // at most 2^44
+            let side = (vec3<u32>(corner) & vec3<u32>(1u, 2u, 4u)) != vec3<u32>(0u);
+            let words = texture_words(s, row, select(near, far, side));
+            let factors = select(vec3<u32>(1u << filter_bits) - second, second, side);
+            let weight = texture_wide(factors.x * factors.y, factors.z * part); // at most 2^44
+            var single = vec4<u32>(0u);
             for (var c = 0u; c < 4u; c++) {
-                let component = samplers[base + SAMPLER_COMPONENTS + c];
-                let bits = texel_bits(component, words);
+                let bits = texel_bits(components[c], words);
                 if (floats) {
-                    texels[8u * row + corner][c] = texel_single(component, bits);
+                    single[c] = texel_single(components[c], bits);
                 } else {
-                    let numerator = texel_numerator(component, bits); // at most 2^16
+                    let numerator = texel_numerator(components[c], bits); // at most 2^16
                     let size = u32(abs(numerator));
                     var product = texture_wide(weight.x, size);
                     product.y += weight.y * size;
@@ -163,20 +152,25 @@ fn texture_texel(base: u32, place: TexturePlace) -> vec4<u32> {
                     sums[c] = texture_add(sums[c], product);
                 }
             }
+            texels[8u * r + corner] = single;
         }
     }
-    if (floats) { texture_blend(base, taps, levels.weight, &texels); }
     let f = format(MAIN);
-    var out = vec4<u32>(0u);
-    // Single precision keeps what is single precision.
-    if (floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return texels[0]; }
+    var out = texels[0];
+    if (floats) {
+        if (any((weights[0] | weights[1]) != vec3<u32>(0u)) || levels.weight != 0u) {
+            texture_blend(s, weights, levels.weight, &texels);
+            out = texels[0];
+        }
+        // Single precision keeps what is single precision.
+        if (f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return out; }
+    }
     for (var c = 0u; c < 4u; c++) {
         var parts: TexelParts;
         if (floats) {
-            parts = texel_parts_of_single(texels[0][c]);
+            parts = texel_parts_of_single(out[c]);
         } else {
-            let component = samplers[base + SAMPLER_COMPONENTS + c];
-            parts = texel_parts_of_ratio(sums[c], texel_denominator(component), 3u * filter_bits + lod_bits);
+            parts = texel_parts_of_ratio(sums[c], texel_denominator(components[c]), 3u * filter_bits + lod_bits);
         }
         out[c] = texel_rounded(f, parts);
     }
@@ -189,11 +183,12 @@ fn texture_read(
     number: u32, u: vec4<u32>, v: vec4<u32>, w: vec4<u32>, q: vec4<u32>, detail: u32, bias: vec4<u32>,
     gradients: array<vec4<u32>, 8>, run: vec4<bool>,
 ) -> array<vec4<u32>, 4> {
-    let base = number * SAMPLER_WORDS;
+    let s = texture_state(number);
+    if (detail == DETAIL_GRADIENTS) { texture_gradients = gradients; }
     var out = array<vec4<u32>, 4>();
     for (var lane = 0u; lane < 4u; lane++) {
         if (!run[lane]) { continue; }
-        let texel = texture_texel(base, texture_place(base, lane, u, v, w, detail, bias, gradients));
+        let texel = texture_texel(s, texture_place(s, lane, u, v, w, detail, bias));
         for (var c = 0u; c < 4u; c++) { out[c][lane] = texel[c]; }
     }
     return out;
