@@ -13,7 +13,9 @@ Examples:
   crossbar devices r200
       all figures of the Radeon 8500 with sources, and the open questions as switches
   crossbar devices ideal-fp24 --json
-      an unlimited card with 24-bit floats, for machines";
+      an unlimited card with 24-bit floats, for machines
+  crossbar devices --adapters
+      the GPUs of this computer that the wgpu executor can use";
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]
@@ -21,14 +23,55 @@ Examples:
 pub(super) struct Args {
     /// A device, or ideal-FORMAT; all devices if left out
     name: Option<String>,
+    /// The GPU adapters of this computer instead
+    #[arg(long, conflicts_with = "name")]
+    adapters: bool,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if args.adapters {
+        adapters(out)?;
+        return Ok(Verdict::Done);
+    }
     match &args.name {
         Some(name) => one(&Profile::named(name)?, out)?,
         None => all(out)?,
     }
     Ok(Verdict::Done)
+}
+
+/// The GPUs of this computer.
+#[cfg(feature = "wgpu")]
+fn adapters(out: &mut Out) -> miette::Result<()> {
+    let adapters = refsim::exec::gpu::adapters();
+    if out.json() {
+        return Ok(out.document(&adapters)?);
+    }
+    if adapters.is_empty() {
+        out.line("no GPU adapter found: install a Vulkan driver (a software one will do, such as Mesa's lavapipe)")?;
+        return Ok(());
+    }
+    let mut table = Table::new("GPU adapters", &["adapter", "kind", "through", "driver", "largest buffer (bytes)"]);
+    for adapter in adapters {
+        table.push([
+            adapter.name.into(),
+            adapter.kind.to_string().into(),
+            adapter.backend.into(),
+            adapter.driver.into(),
+            adapter.largest_buffer.to_string().into(),
+        ]);
+    }
+    show(&table, out)?;
+    Ok(())
+}
+
+#[cfg(not(feature = "wgpu"))]
+fn adapters(_: &mut Out) -> miette::Result<()> {
+    let problem = super::Problem::usage(
+        "this build knows no GPU adapters: the feature `wgpu` is off",
+        "build with `cargo build --release --features wgpu`",
+    );
+    Err(problem.into())
 }
 
 /// The cards side by side.

@@ -2,6 +2,7 @@
 
 use super::GpuError;
 use serde::Serialize;
+use std::fmt;
 
 /// What an adapter is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -17,6 +18,18 @@ pub enum AdapterKind {
     Software,
     /// The driver does not say.
     Other,
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Software => "software",
+            Self::Other => "other",
+        })
+    }
 }
 
 /// An adapter of this computer.
