@@ -158,9 +158,13 @@ fn the_shared_ground_knows_nothing_of_cards() {
 fn the_emulator_depends_on_nothing_heavy() {
     let manifest = fs::read_to_string(root().join("refsim/Cargo.toml")).expect("refsim's manifest");
     let (dependencies, _) = manifest.split_once("[dev-dependencies]").expect("both tables");
-    for banned in ["crossbar", "nalgebra", "wgpu", "image", "clap"] {
+    for banned in ["crossbar", "nalgebra", "image", "clap"] {
         assert!(!dependencies.contains(banned), "refsim depends on `{banned}`");
     }
+    // The GPU's driver side comes only to who asks for it.
+    let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
+    assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
+    assert!(!dependencies.contains("default = ["), "refsim has default features");
     let lock = fs::read_to_string(root().join("Cargo.lock")).expect("the lock file");
     assert!(!lock.contains("name = \"matrixmultiply\""), "nalgebra's run-time dispatched product is back in the tree");
 }
