@@ -28,13 +28,13 @@ fn draw(case: &Case, programs: &Programs, executor: &Executor) -> Result<Outcome
     }
 }
 
-/// What the reference draws, and every executor that draws something else.
-pub(crate) fn compare(case: &Case, seed: u64) -> Result<(Outcome, Vec<Difference>), String> {
+/// What the reference draws, and every executor whose `turn` it is that draws something else.
+pub(crate) fn compare(case: &Case, turn: u64) -> Result<(Outcome, Vec<Difference>), String> {
     let programs = case.build()?;
     let expected = draw(case, &programs, &REFERENCE)?;
     let mut differences = Vec::new();
     for (executor, other) in EXECUTORS.iter().enumerate() {
-        if other.draws(&case.scene.profile, seed)
+        if other.draws(&case.scene.profile, turn)
             && let Some(what) = differs(&expected, draw(case, &programs, other), other)
         {
             differences.push(Difference { executor, what });
@@ -67,15 +67,17 @@ fn seeds(suite: &Suite) -> std::ops::Range<u64> {
 
 /// Runs a suite in its short form.
 pub(crate) fn run(suite: &Suite) {
+    let one = std::env::var_os("CROSSBAR_SEED").is_some();
     let mut fragments = 0;
     for seed in seeds(suite) {
-        match compare(&suite.case(seed), seed) {
+        // A case that was asked for is everybody's.
+        let turn = if one { 0 } else { suite.turn(seed) };
+        match compare(&suite.case(seed), turn) {
             Ok((drawn, differences)) if differences.is_empty() => fragments += drawn.fragments(),
             Ok((_, differences)) => panic!("{}", report(suite, seed, &differences[0])),
             Err(error) => panic!("seed {seed} of {} is no legal case: {error}", suite.name),
         }
     }
-    let one = std::env::var_os("CROSSBAR_SEED").is_some();
     assert!(one || fragments > 0, "the scenes of {} cover nothing", suite.name);
 }
 

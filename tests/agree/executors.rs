@@ -25,10 +25,10 @@ impl Executor {
         Ok(machine)
     }
 
-    /// Whether the executor is to draw this seed of a suite for this device. A native float mode, for example, serves
-    /// one format only.
-    pub(crate) fn draws(&self, _profile: &Profile, seed: u64) -> bool {
-        seed.is_multiple_of(self.every)
+    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for everybody. A
+    /// native float mode, for example, serves one format only.
+    pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
+        turn.is_multiple_of(self.every)
     }
 }
 

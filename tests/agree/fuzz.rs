@@ -69,7 +69,8 @@ fn fuzz() {
 /// One case.
 fn one(suite: &Suite, seed: u64, counts: &Mutex<Counts>) {
     let case = suite.case(seed);
-    let result = compare(&case, seed);
+    let turn = suite.turn(seed);
+    let result = compare(&case, turn);
     let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
     let (drawn, differences) = match result {
         Ok(compared) => compared,
@@ -83,7 +84,7 @@ fn one(suite: &Suite, seed: u64, counts: &Mutex<Counts>) {
     counts.draws += draws;
     counts.fragments += fragments;
     for (entry, executor) in counts.executors.iter_mut().zip(EXECUTORS.iter()) {
-        if executor.draws(&case.scene.profile, seed) {
+        if executor.draws(&case.scene.profile, turn) {
             entry.0 += draws;
             entry.1 += fragments;
         }

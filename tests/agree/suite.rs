@@ -59,6 +59,11 @@ impl Suite {
         Self { name: name.into(), kind, seeds }
     }
 
+    /// Whose turn a seed is among executors that draw only some cases: spread over suites and seeds alike.
+    pub(crate) fn turn(&self, seed: u64) -> u64 {
+        Random::named(&self.name, seed).next()
+    }
+
     /// The case of a seed.
     pub(crate) fn case(&self, seed: u64) -> Case {
         let mut random = Random::named(&self.name, seed);
