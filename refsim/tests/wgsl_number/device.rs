@@ -16,8 +16,21 @@ fn text(entry: &str) -> String {
     library(NumberMode::Integer, NativeOperations::empty()) + entry
 }
 
+/// Every operation in single precision, with some of them left to the device.
+pub(crate) fn check_native(gpu: &Gpu, native: NativeOperations) {
+    let formats = [Format::FP32, Format::FP16];
+    let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
+    let shader = library(NumberMode::Native, native) + include_str!("operations.wgsl");
+    let mut words = Words(2);
+    for operation in Operation::ALL.into_iter().filter(|&o| tried(o)) {
+        let items: Vec<Item> =
+            (0..8000).map(|i| random_item(&mut words, &formats, &all, operation, usize::from(i % 8 == 0))).collect();
+        check_with(gpu, &shader, &formats, &items);
+    }
+}
+
 /// The adapter, or `None` after saying that there is none.
-fn adapter() -> Option<Arc<Gpu>> {
+pub(crate) fn adapter() -> Option<Arc<Gpu>> {
     let gpu = testing::shared().expect("an adapter that can be opened");
     if gpu.is_none() {
         println!("ignored: no adapter");
@@ -57,12 +70,16 @@ impl Item {
 
 /// Runs the items and names what differs.
 fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
+    check_with(gpu, &text(include_str!("operations.wgsl")), formats, items);
+}
+
+/// The same with a text that defines `run_operations`.
+fn check_with(gpu: &Gpu, shader: &str, formats: &[Format], items: &[Item]) {
     let table: Vec<u32> = formats.iter().flat_map(format_words).collect();
-    let shader = text(include_str!("operations.wgsl"));
     for part in items.chunks(1 << 18) {
         let words: Vec<u32> = part.iter().flat_map(|i| i.words(formats)).collect();
         let groups = [part.len().div_ceil(64) as u32, 1, 1];
-        let found = gpu.compute(&shader, "run_operations", &[&table, &words], part.len(), groups);
+        let found = gpu.compute(shader, "run_operations", &[&table, &words], part.len(), groups);
         let found = found.expect("the shader runs");
         for (item, bits) in part.iter().zip(found) {
             let Some(expected) = item.expected(formats) else { continue };

@@ -2,12 +2,14 @@
 //! or, where a device was found exact, single precision in its own floats. No GPU is needed to make or check the text.
 //!
 //! - `interface`: what the parts share. `kernel`: rasterisation, interpolation, tests, blending, targets.
+//! - [`accuracy`]: what WGSL allows a device's own floats.
 //! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads out of a storage buffer.
 //!   [`program`]: pixel and vertex programs.
 //!
 //! Values are as the batch executor's slots hold them ("raw"): a fixed-point number is its two's complement integer,
 //! sign-extended; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
 
+pub mod accuracy;
 pub mod number;
 pub mod program;
 pub mod texture;

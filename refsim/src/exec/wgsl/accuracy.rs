@@ -1,0 +1,268 @@
+//! What WGSL lets a device's own `f32` operations give.
+//!
+//! Source: "WebGPU Shading Language", sections 15.7 (floating point evaluation: subnormal numbers may be flushed on the way
+//! in and out, results of infinite or NaN operands and of overflow are indeterminate, multiply and add may be fused) and
+//! 15.7.4 (accuracy: add, subtract, multiply correctly rounded, which means either neighbour of an inexact result; divide 2.5
+//! ULP for divisors from 2^-126 to 2^126; `inverseSqrt` 2 ULP; `sqrt` as `1 / inverseSqrt`).
+
+use serde::Serialize;
+
+use super::number::{NativeOperations, Operation};
+use crate::num::{Format, Rounding, from_ratio, ops};
+
+const FP32: Format = Format::FP32;
+/// Neighbours below and above an exact result.
+const BELOW: Format = FP32.with_rounding(Rounding::Down);
+
+/// A single precision operation of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[repr(u32)]
+pub enum SingleOperation {
+    /// `a + b`
+    Add,
+    /// `a - b`
+    Sub,
+    /// `a b`
+    Mul,
+    /// `a b + c` as a shader writes it: two roundings, unless the compiler fuses them.
+    MulAdd,
+    /// `a / b`
+    Div,
+    /// `1 / a`
+    Rcp,
+    /// Square root.
+    Sqrt,
+    /// The integer below.
+    Floor,
+    /// The number of an `i32`.
+    FromInteger,
+    /// The smaller number.
+    Min,
+    /// The larger number.
+    Max,
+}
+
+impl SingleOperation {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [SingleOperation; 11] = [
+        Self::Add,
+        Self::Sub,
+        Self::Mul,
+        Self::MulAdd,
+        Self::Div,
+        Self::Rcp,
+        Self::Sqrt,
+        Self::Floor,
+        Self::FromInteger,
+        Self::Min,
+        Self::Max,
+    ];
+
+    /// How many operands it has.
+    pub const fn arity(self) -> usize {
+        match self {
+            Self::Rcp | Self::Sqrt | Self::Floor | Self::FromInteger => 1,
+            Self::MulAdd => 3,
+            _ => 2,
+        }
+    }
+
+    /// As the report names it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Add => "add",
+            Self::Sub => "sub",
+            Self::Mul => "mul",
+            Self::MulAdd => "mul then add",
+            Self::Div => "div",
+            Self::Rcp => "reciprocal",
+            Self::Sqrt => "sqrt",
+            Self::Floor => "floor",
+            Self::FromInteger => "from integer",
+            Self::Min => "min",
+            Self::Max => "max",
+        }
+    }
+
+    /// The part of native mode that needs it exact.
+    pub const fn native(self) -> NativeOperations {
+        match self {
+            Self::Add | Self::Sub => NativeOperations::ADD,
+            Self::Mul => NativeOperations::MUL,
+            Self::MulAdd => NativeOperations::MUL_ADD,
+            Self::Div | Self::Rcp => NativeOperations::DIV,
+            Self::Sqrt => NativeOperations::SQRT,
+            Self::Floor => NativeOperations::FLOOR,
+            Self::FromInteger => NativeOperations::CONVERT,
+            Self::Min | Self::Max => NativeOperations::MIN_MAX,
+        }
+    }
+
+    /// The library's operation of the same meaning.
+    pub const fn operation(self) -> Operation {
+        match self {
+            Self::Add => Operation::Add,
+            Self::Sub => Operation::Sub,
+            Self::Mul => Operation::Mul,
+            Self::MulAdd => Operation::Mad,
+            Self::Div => Operation::Div,
+            Self::Rcp => Operation::Rcp,
+            Self::Sqrt => Operation::Sqrt,
+            Self::Floor => Operation::Floor,
+            Self::FromInteger => Operation::Convert,
+            Self::Min => Operation::Min,
+            Self::Max => Operation::Max,
+        }
+    }
+
+    /// What IEEE 754 gives, a NaN in its one form, as [`crate::num::ops`] has it.
+    pub fn exact(self, [a, b, c]: [u32; 3]) -> u32 {
+        self.rounded(&FP32, [a, b, c])
+    }
+
+    /// The operation, rounded as `format` says; the steps of [`Self::MulAdd`] too.
+    fn rounded(self, format: &Format, [a, b, c]: [u32; 3]) -> u32 {
+        let outcome = match self {
+            Self::Add => ops::add(format, a, b),
+            Self::Sub => ops::sub(format, a, b),
+            Self::Mul => ops::mul(format, a, b),
+            Self::MulAdd => ops::mad(format, a, b, c),
+            Self::Div => ops::div(format, a, b),
+            Self::Rcp => ops::rcp(format, a),
+            Self::Sqrt => ops::sqrt(format, a),
+            Self::Floor => ops::floor(format, a),
+            Self::FromInteger => {
+                let value = a.cast_signed();
+                from_ratio(format, value < 0, value.unsigned_abs().into(), 1)
+            }
+            Self::Min => ops::min(format, a, b),
+            Self::Max => ops::max(format, a, b),
+        };
+        outcome.bits
+    }
+}
+
+/// The results that WGSL allows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Allowed {
+    /// Any bits at all.
+    Any,
+    /// The numbers from the first to the second of any of these pairs, by [`order`]; both zeros are one.
+    Within(Vec<(i64, i64)>),
+}
+
+impl Allowed {
+    /// Whether the bits of a result are among them.
+    pub fn contains(&self, bits: u32) -> bool {
+        match self {
+            Allowed::Any => true,
+            Allowed::Within(ranges) => {
+                !FP32.is_nan(bits) && ranges.iter().any(|&(low, high)| (low..=high).contains(&order(bits)))
+            }
+        }
+    }
+}
+
+/// Consecutive integers for consecutive single precision numbers; both zeros give 0. The difference of two is their
+/// distance in units in the last place.
+pub fn order(bits: u32) -> i64 {
+    let magnitude = i64::from(bits & 0x7fff_ffff);
+    if bits >> 31 == 1 { -magnitude } else { magnitude }
+}
+
+/// The bits of a place in that order.
+fn at(order: i64) -> u32 {
+    let magnitude = order.unsigned_abs() as u32;
+    if order < 0 { magnitude | 1 << 31 } else { magnitude }
+}
+
+fn negated(bits: u32) -> u32 {
+    bits ^ 1 << 31
+}
+
+/// The neighbours of the exact result, the same twice if it is a number. Rounding up is rounding the negative down.
+fn neighbours(operation: SingleOperation, [a, b, c]: [u32; 3]) -> (i64, i64) {
+    use SingleOperation as Op;
+    let low = operation.rounded(&BELOW, [a, b, c]);
+    let mirrored = match operation {
+        Op::Add | Op::Sub => [negated(a), negated(b), c],
+        Op::Mul | Op::Div | Op::Rcp => [negated(a), b, c],
+        Op::MulAdd => [negated(a), b, negated(c)],
+        // Handled by what is known of them: see below.
+        Op::Sqrt | Op::Floor | Op::Min | Op::Max => return (order(low), order(low)),
+        Op::FromInteger => [a.wrapping_neg(), b, c],
+    };
+    (order(low), -order(operation.rounded(&BELOW, mirrored)))
+}
+
+/// So many units in the last place around a pair of neighbours, plus half a unit where `half`.
+///
+/// Units are those of the larger binade at hand; below a power of two numbers lie twice as close.
+fn widened((low, high): (i64, i64), units: i64, half: bool) -> (i64, i64) {
+    let close = |place: i64| if (place.unsigned_abs() & 0x007f_ffff) <= 4 { 2 } else { 1 };
+    let reach = if low == high { units } else { units - 1 + i64::from(half) };
+    (low - reach * close(low), high + reach * close(high))
+}
+
+/// The results of finite operands without flushing.
+fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
+    let magnitude = |bits: u32| bits & 0x7fff_ffff;
+    // 2^-126 and 2^126.
+    let divisible = |bits: u32| (0x0080_0000..=0x7e80_0000).contains(&magnitude(bits));
+    match operation {
+        SingleOperation::Div => divisible(operands[1]).then(|| widened(neighbours(operation, operands), 2, true)),
+        SingleOperation::Rcp => divisible(operands[0]).then(|| widened(neighbours(operation, operands), 2, true)),
+        SingleOperation::Sqrt if magnitude(operands[0]) == 0 => Some((0, 0)),
+        SingleOperation::Sqrt => {
+            if operands[0] >> 31 == 1 {
+                return None;
+            }
+            let low = order(ops::rsq(&BELOW, operands[0]).bits);
+            let exact = order(ops::rsq(&FP32.with_rounding(Rounding::NearestEven), operands[0]).bits);
+            let inverse = widened((low, low.max(exact).max(low + i64::from(exact == low))), 2, false);
+            let reciprocal = |place| widened(neighbours(SingleOperation::Rcp, [at(place), 0, 0]), 2, true);
+            Some((reciprocal(inverse.1).0, reciprocal(inverse.0).1))
+        }
+        _ => Some(neighbours(operation, operands)),
+    }
+}
+
+/// What WGSL allows for an operation on these bits (of `i32` for [`SingleOperation::FromInteger`]).
+pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
+    let used = &operands[..operation.arity()];
+    let integer = operation == SingleOperation::FromInteger;
+    if !integer && used.iter().any(|&bits| !FP32.is_finite(bits)) {
+        return Allowed::Any;
+    }
+    let mut ranges = Vec::new();
+    // Each subnormal operand as it is, and flushed.
+    for flushed in 0..1u32 << used.len() {
+        let mut taken = operands;
+        for (i, operand) in taken.iter_mut().enumerate().take(used.len()) {
+            if flushed >> i & 1 == 1 && !integer {
+                if !FP32.is_subnormal(*operand) {
+                    continue;
+                }
+                *operand &= 1 << 31;
+            }
+        }
+        let Some((low, high)) = plain(operation, taken) else { return Allowed::Any };
+        let infinity = order(0x7f80_0000);
+        if low <= -infinity || high >= infinity {
+            return Allowed::Any;
+        }
+        ranges.push((low, high));
+        // A subnormal result may be flushed.
+        let normal = order(0x0080_0000);
+        if low < normal && high > -normal {
+            ranges.push((0, 0));
+        }
+    }
+    if matches!(operation, SingleOperation::Min | SingleOperation::Max) && used.iter().all(|&b| FP32.is_subnormal(b)) {
+        ranges.extend(used.iter().map(|&b| (order(b), order(b))));
+    }
+    ranges.sort_unstable();
+    ranges.dedup();
+    Allowed::Within(ranges)
+}
