@@ -1,5 +1,5 @@
 //! The batch executor: programs on whole tiles of fragments, in vector code of the host. Equal to
-//! [`super::scalar`] bit for bit; `refsim/tests/agree_*.rs` prove it. The two share no arithmetic.
+//! [`super::scalar`] bit for bit; `tests/agree` and `refsim/tests/agree_lanes.rs` prove it. They share no arithmetic.
 //!
 //! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`,
 //!   `power`: exact results squeezed into doubles; `lanes`: which format gets which.
