@@ -12,6 +12,14 @@ pub(crate) fn pixel(mode: NumberMode, shade: &str) -> String {
     [&numbers, INTERFACE, BLANK, program::NO_OUTPUT, program::NO_TRACE, shade].concat()
 }
 
+/// Where a followed lane's words go in [`followed`].
+const TRACE: &str = "fn trace_put(at: u32, word: u32) {\n    atomicStore(&counts[at + 1u], word);\n}\n";
+
+/// A pixel module that puts down what the followed lane does, from word 1 of `counts` on.
+pub(crate) fn followed(mode: NumberMode, shade: &str) -> String {
+    pixel(mode, shade).replace(program::NO_TRACE, TRACE)
+}
+
 /// The module of all vertex programs.
 pub(crate) fn vertex(mode: NumberMode, shade: &str) -> String {
     [&library(mode, NativeOperations::all()), program::vertex_kernel(), shade].concat()

@@ -7,11 +7,11 @@ use refsim::device::{Profile, Rules};
 use refsim::exec::gpu::{Access, Buffer, Gpu, GpuError, Pipeline, testing};
 use refsim::exec::scalar::{PixelProgram, VertexProgram};
 use refsim::exec::wgsl::NumberMode;
-use refsim::exec::wgsl::number::format_words;
+use refsim::exec::wgsl::number::{NativeOperations, format_words};
 use refsim::exec::wgsl::program::{self, ATTRIBUTE_WORDS, PixelShader, VERTEX_WORDS, VertexShader};
-use refsim::exec::{CheckedProgram, Constants, PixelBindings};
-use refsim::isa::Version;
-use refsim::num::{Format, Overflow, ops};
+use refsim::exec::{CheckedProgram, Constants, PixelBindings, Step, Trace};
+use refsim::isa::{RegisterFile, Version};
+use refsim::num::{Flags, Format, Overflow, ops};
 use refsim::raster::FragmentInput;
 use std::sync::Arc;
 
@@ -133,7 +133,12 @@ pub(crate) struct Runner {
 impl Runner {
     /// For a module that defines `shade`.
     pub(crate) fn new(gpu: &Arc<Gpu>, mode: NumberMode, shade: &str) -> Self {
-        let text = modules::pixel(mode, shade) + include_str!("runs.wgsl");
+        Self::of_module(gpu, modules::pixel(mode, shade))
+    }
+
+    /// For a module that can do everything but start.
+    fn of_module(gpu: &Arc<Gpu>, module: String) -> Self {
+        let text = module + include_str!("runs.wgsl");
         let access = [4, 6, 7].iter().fold(vec![Access::Read; 8], |mut all, &i| {
             all[i] = Access::ReadWrite;
             all
@@ -267,4 +272,92 @@ fn the_machine_runs_vertex_programs() {
         }
         assert_eq!(slots[0], slots[1], "seed {seed}: instruction slots\n{text}");
     }
+}
+
+/// Programs written out, each compiled by itself: short ones in integers, longer ones in the device's own floats.
+fn written_out(mode: NumberMode, formats: &[&str], size: usize, count: u64, most: usize) {
+    let Some(gpu) = gpu() else { return };
+    let (mut compared, mut slowest) = (0, std::time::Duration::ZERO);
+    for seed in seeds(count) {
+        let mut r = Random::new(seed ^ 0x07e7);
+        let version = PIXEL[seed as usize % PIXEL.len()];
+        let profile = ideal(formats[seed as usize / PIXEL.len() % formats.len()]);
+        let (text, checked) = cases::random(version, size, &profile, &mut r);
+        let constants = random_constants(&mut r, 32);
+        let bindings = PixelBindings::new(&constants);
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+        let Some(unrolled) = shader.unrolled(mode, NativeOperations::all()) else { continue };
+        if unrolled.soft_calls > most {
+            continue;
+        }
+        let quads = Quads::random(&mut r);
+        let wanted = expected(&checked, &profile.rules, &bindings, &quads);
+        let start = std::time::Instant::now();
+        let runner = Runner::new(&gpu, mode, &unrolled.text);
+        slowest = slowest.max(start.elapsed());
+        let (found, _) = runner.run(&profile.rules, &quads.words(), &unrolled.words, 1, 0);
+        if let Some(difference) = difference(&comparable(found, &profile.rules), &wanted) {
+            panic!("seed {seed}, {}:\n{text}\n{difference}\n{}", profile.name, unrolled.text);
+        }
+        compared += 1;
+    }
+    println!("{compared} programs, the slowest compiled in {slowest:?}");
+    assert!(compared > 0 || std::env::var_os("CROSSBAR_SEED").is_some(), "some are short enough");
+}
+
+#[test]
+fn short_programs_run_written_out_in_integers() {
+    written_out(NumberMode::Integer, &FORMATS, 0, 14, 10);
+}
+
+#[test]
+fn programs_run_written_out_in_the_devices_floats() {
+    written_out(NumberMode::Native, &["fp32"], 1, 42, 24);
+}
+
+#[test]
+fn the_machine_tells_what_instructions_write() {
+    let Some(gpu) = gpu() else { return };
+    let runner = Runner::of_module(&gpu, modules::followed(NumberMode::Integer, program::machine()));
+    let mut told = 0;
+    for seed in seeds(70) {
+        let (profile, text, checked, mut r) = random_case(seed ^ 0x7ace, 2);
+        let constants = random_constants(&mut r, 32);
+        let bindings = PixelBindings::new(&constants);
+        let shader = PixelShader::traced(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let quads = Quads::random(&mut r);
+        let lane = r.below(4);
+        let (_, words) = runner.run(&profile.rules, &quads.words(), &code.words, code.slots, lane as u32 + 1);
+        let count = words[0] as usize;
+        let found = program::trace_steps(&words[1..=count], &checked, &profile.rules, lane);
+        let mut trace = Trace::of_lane(lane);
+        let scalar = PixelProgram::new(&checked, &profile.rules, &bindings);
+        scalar.run_observed(&quads.inputs[0], quads.covered[0], &mut [0; 16], &mut trace);
+        let wanted: Vec<_> = trace.steps.into_iter().map(|step| written(step, &checked, &profile.rules)).collect();
+        for (found, wanted) in found.iter().zip(&wanted) {
+            assert_eq!(found, wanted, "seed {seed}, {}:\n{text}", profile.name);
+        }
+        assert_eq!(found.len(), wanted.len(), "seed {seed}, {}:\n{text}", profile.name);
+        told += found.len();
+    }
+    assert!(told > 0);
+}
+
+/// A step of the scalar executor without what only it knows: flags, payloads of NaN, components that are not written.
+fn written(mut step: Step, checked: &CheckedProgram, rules: &Rules) -> Step {
+    let destination = checked.instructions[step.instruction].destination;
+    let file = destination.map(|d| d.register.file);
+    if file == Some(RegisterFile::DepthOut) {
+        step.mask.0 &= step.mask.0.wrapping_neg();
+    }
+    step.flags = Flags::empty();
+    for (c, value) in step.value.iter_mut().enumerate() {
+        if !step.mask.contains(c) {
+            *value = 0;
+        } else if file != Some(RegisterFile::Predicate) {
+            *value = ops::convert(&rules.format, rules.format, *value).bits;
+        }
+    }
+    step
 }

@@ -14,7 +14,11 @@ fn run(@builtin(local_invocation_index) invocation: u32) {
     q_run = (vec4<u32>(setups[from_word + 164u]) & bits) != vec4<u32>(0u);
     q_covered = (vec4<u32>(setups[from_word + 165u]) & bits) != vec4<u32>(0u);
     q_depth = vec4<u32>(0u);
+    q_trace = select(0u, draw[40], invocation == 0u);
     shade();
+    if (q_trace != 0u) {
+        atomicStore(&counts[0], q_traced);
+    }
     let to_word = invocation * 93u;
     for (var lane = 0u; lane < 4u; lane += 1u) {
         for (var i = 0u; i < 16u; i += 1u) {
@@ -27,5 +31,5 @@ fn run(@builtin(local_invocation_index) invocation: u32) {
     for (var i = 0u; i < 16u; i += 1u) {
         video[to_word + 76u + i] = q_fetched[i];
     }
-    video[to_word + 92u] = q_executed + samplers[0] + tiles[0] + atomicLoad(&counts[0]);
+    video[to_word + 92u] = q_executed + samplers[0] + tiles[0];
 }

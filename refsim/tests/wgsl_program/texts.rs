@@ -4,8 +4,8 @@ use crate::cases::{self, FORMATS, PIXEL, VERTEX, ideal, seeds};
 use crate::modules;
 use crate::random::Random;
 use refsim::device::Profile;
-use refsim::exec::wgsl::NumberMode;
 use refsim::exec::wgsl::program::{self, Microcode, PixelShader, VertexShader};
+use refsim::exec::wgsl::{NativeOperations, NumberMode};
 use refsim::exec::{CheckedProgram, Constants, PixelBindings};
 use refsim::isa::Stage;
 
@@ -106,5 +106,50 @@ fn random_programs_become_sound_words() {
         for code in words(&text, &program, &profile) {
             assert_eq!(fault(&code), None, "seed {seed}:\n{text}");
         }
+    }
+}
+
+/// Programs written out, in both modes, are valid WGSL.
+fn check_text(name: &str, program: &CheckedProgram, profile: &Profile) {
+    let constants = Constants::default();
+    let bindings = PixelBindings::new(&constants);
+    for mode in [NumberMode::Integer, NumberMode::Native] {
+        let all = NativeOperations::all();
+        let (unrolled, make): (_, fn(NumberMode, &str) -> String) = match cases::stage(program) {
+            Stage::Pixel => {
+                let shader = PixelShader::new(program, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+                (shader.unrolled(mode, all), modules::pixel)
+            }
+            Stage::Vertex => {
+                let shader = VertexShader::new(program, &profile.rules, &constants).unwrap_or_else(|e| panic!("{e}"));
+                (shader.unrolled(mode, all), modules::vertex)
+            }
+        };
+        if let Some(unrolled) = unrolled {
+            let text = make(mode, &unrolled.text);
+            modules::validate(&text).unwrap_or_else(|e| panic!("{name}, {mode:?}: {e}\n{}", unrolled.text));
+        }
+    }
+}
+
+#[test]
+fn files_become_valid_texts() {
+    for format in ["fp32", "s3.12"] {
+        let profile = ideal(format);
+        for (name, program) in cases::files(&profile) {
+            check_text(&name, &program, &profile);
+        }
+    }
+}
+
+#[test]
+fn random_programs_become_valid_texts() {
+    for seed in seeds(120) {
+        let mut r = Random::new(seed ^ 0x7e87);
+        let versions = [&PIXEL[..], &VERTEX[..]].concat();
+        let version = versions[seed as usize % versions.len()];
+        let profile = ideal(FORMATS[seed as usize / versions.len() % FORMATS.len()]);
+        let (text, program) = cases::random(version, 3, &profile, &mut r);
+        check_text(&format!("seed {seed}:\n{text}"), &program, &profile);
     }
 }

@@ -8,14 +8,19 @@
 
 mod lower;
 mod microcode;
+mod text;
+mod trace;
 
 use crate::device::Rules;
 use crate::exec::batch::program::{pixel_formats, vertex_formats};
+use crate::exec::wgsl::number::{NativeOperations, NumberMode};
 use crate::exec::{CheckedProgram, Constants, PixelBindings, ResolvedConstants, program};
 use crate::num::Format;
 use lower::Lowered;
 pub use microcode::Microcode;
+pub use text::Unrolled;
 use thiserror::Error;
+pub use trace::{TRACE_WORDS, trace_steps};
 
 /// The function for vertex outputs in a module that has none.
 pub const NO_OUTPUT: &str = "fn output_put(word: u32, row: vec4<u32>) {\n}\n";
@@ -27,6 +32,20 @@ pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";
 pub const VERTEX_WORDS: usize = 47;
 /// Words of a vertex that `vertex_main` reads: `v0` to `v15`.
 pub const ATTRIBUTE_WORDS: usize = 64;
+
+/// Calls of integer arithmetic that a text may have to be worth compiling.
+const SOFT_CALLS: usize = 24;
+/// Texture reads, likewise.
+const READS: usize = 2;
+
+/// How a program is run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Strategy {
+    /// On the [`machine`].
+    Microcode,
+    /// Written out as WGSL.
+    Unrolled(Unrolled),
+}
 
 /// Why a program has no form for GPUs.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -103,6 +122,21 @@ impl PixelShader {
     pub fn microcode(&self) -> Result<Microcode, ProgramError> {
         microcode::assemble(&self.lowered)
     }
+
+    /// The program written out as WGSL; `None` if it has flow control. `native` counts in native mode only.
+    pub fn unrolled(&self, mode: NumberMode, native: NativeOperations) -> Option<Unrolled> {
+        text::unroll(&self.lowered, mode, native)
+    }
+
+    /// How the program is best run: written out where nearly all of it is the device's own arithmetic, or where it is
+    /// short; on the machine otherwise. Compilers that put every function in place take minutes over hundreds of calls of integer
+    /// arithmetic.
+    pub fn strategy(&self, mode: NumberMode, native: NativeOperations) -> Strategy {
+        match self.unrolled(mode, native) {
+            Some(text) if text.soft_calls <= SOFT_CALLS && text.reads <= READS => Strategy::Unrolled(text),
+            _ => Strategy::Microcode,
+        }
+    }
 }
 
 /// A vertex program ready to be put into words.
@@ -130,5 +164,10 @@ impl VertexShader {
     /// [`ProgramError::TooLarge`].
     pub fn microcode(&self) -> Result<Microcode, ProgramError> {
         microcode::assemble(&self.lowered)
+    }
+
+    /// The program written out as WGSL; `None` if it has flow control. `native` counts in native mode only.
+    pub fn unrolled(&self, mode: NumberMode, native: NativeOperations) -> Option<Unrolled> {
+        text::unroll(&self.lowered, mode, native)
     }
 }
