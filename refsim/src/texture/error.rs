@@ -45,7 +45,7 @@ pub enum TextureError {
     /// The data do not have the size of the image.
     #[error("expected {expected} {unit} of texel data, found {found}")]
     DataSize {
-        /// What is counted: bytes or texels.
+        /// What is counted: bytes, texels or 32-bit words.
         unit: &'static str,
         /// Size that fits.
         expected: usize,
