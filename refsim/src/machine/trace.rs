@@ -8,7 +8,7 @@ use crate::exec::batch::{BatchTracer, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelTracer, Shading, TileDraw};
 use crate::output::{MOST_TARGETS, TargetTile};
-use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
+use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
 
@@ -114,7 +114,7 @@ impl Machine {
 
     /// Takes all triangles of a call to all pixels, in rounds as the draw does.
     fn follow(&self, call: &DrawCall<'_>, plan: &Plan, tracer: &dyn PixelTracer, followed: &mut [Followed]) {
-        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd));
+        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd), ComponentMask::ALL);
         let rules = raster_rules(&self.profile);
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;

@@ -4,9 +4,9 @@ use super::validate::Plan;
 use super::{DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, StepRate, VertexSource, VertexStreams};
 use crate::device::{Profile, Rules};
 use crate::event::PrimitiveCounts;
-use crate::exec::batch::{BatchVertices, SimdLevel};
+use crate::exec::batch::{BatchVertices, SimdLevel, VertexRows};
 use crate::exec::scalar::VertexProgram;
-use crate::raster::{RasterRules, TriangleSetup, Vertex, setup};
+use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use rayon::prelude::*;
 
 /// Triangles that one worker sets up at a time.
@@ -30,12 +30,13 @@ impl<'a> VertexStage<'a> {
         call: &'a DrawCall<'a>,
         rules: &'a Rules,
         (kind, simd): (ExecutorKind, Option<SimdLevel>),
+        needed: ComponentMask,
     ) -> Self {
         match &call.vertices {
             VertexSource::Transformed(vertices) => Self::Transformed(vertices),
             VertexSource::Program { program, constants, streams } => {
                 if kind == ExecutorKind::Batch
-                    && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants)
+                    && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants, needed)
                 {
                     return Self::Batch(Box::new(batch.with_simd_level(simd)), streams);
                 }
@@ -61,29 +62,32 @@ impl<'a> VertexStage<'a> {
                     vertices: results.into_iter().map(|r| r.vertex).collect(),
                 }
             }
-            Self::Batch(program, streams) => Self::run_batch(program, streams, first, count, plan),
+            Self::Batch(..) => {
+                let rows = self.rows(first, count, plan, ComponentMask::ALL);
+                let at = |i: usize| (i % plan.vertex_count) * count + i / plan.vertex_count;
+                let vertices = (0..count * plan.vertex_count).map(|i| rows.vertex(at(i))).collect();
+                Batch { vertices, slots: rows.executed }
+            }
         }
     }
 
-    /// [`Self::run`] for a batch program, some 256 vertices to a worker.
-    fn run_batch(
-        program: &BatchVertices,
-        streams: &VertexStreams<'_>,
-        first: usize,
-        count: usize,
-        plan: &Plan,
-    ) -> Batch {
-        let total = count * plan.vertex_count;
-        let parts: Vec<_> = (0..total.div_ceil(SETUP_CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let range = chunk * SETUP_CHUNK..((chunk + 1) * SETUP_CHUNK).min(total);
-                let inputs: Vec<_> =
-                    range.map(|i| attributes(streams, first + i / plan.vertex_count, i % plan.vertex_count)).collect();
-                program.run(&inputs)
-            })
-            .collect();
-        Batch { slots: parts.iter().map(|p| p.1).sum(), vertices: parts.into_iter().flat_map(|p| p.0).collect() }
+    /// [`Self::run`] with the results in rows: vertex `v` of instance `first + i` stands at `v * count + i`.
+    pub(super) fn rows(&self, first: usize, count: usize, plan: &Plan, needed: ComponentMask) -> VertexRows {
+        match self {
+            Self::Batch(program, streams) => {
+                let fill = |register: usize, component: usize, at: usize, row: &mut [u32]| {
+                    fill_attribute(streams, (register, component), (first, count), at, row);
+                };
+                program.run(count * plan.vertex_count, &fill)
+            }
+            Self::Transformed(vertices) => VertexRows::from_vertices(vertices, needed),
+            Self::Program(..) => {
+                let batch = self.run(first, count, plan);
+                let at = |i: usize| (i % count) * plan.vertex_count + i / count;
+                let vertices: Vec<Vertex> = (0..batch.vertices.len()).map(|i| batch.vertices[at(i)]).collect();
+                VertexRows { executed: batch.slots, ..VertexRows::from_vertices(&vertices, needed) }
+            }
+        }
     }
 
     /// Bytes that one vertex reads, and bytes that one instance reads once.
@@ -111,6 +115,37 @@ fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[
         }
     }
     out
+}
+
+/// A component of an attribute of some vertices: those from `at` on, counted so that all instances of a vertex stand
+/// together. The instances are `first` to `first + count`.
+fn fill_attribute(
+    streams: &VertexStreams<'_>,
+    (register, component): (usize, usize),
+    (first, count): (usize, usize),
+    at: usize,
+    row: &mut [u32],
+) {
+    let Some(stream) = streams.streams.iter().find(|stream| stream.register == register) else {
+        return row.fill(DEFAULT_ATTRIBUTE[component]);
+    };
+    let value = |entry: usize| stream.data.get(entry).map_or(DEFAULT_ATTRIBUTE[component], |v| v[component]);
+    let mut rest = row;
+    let mut at = at;
+    while !rest.is_empty() {
+        let (vertex, instance) = (at / count, at % count);
+        let (run, more) = rest.split_at_mut((count - instance).min(rest.len()));
+        match stream.step {
+            StepRate::Vertex => run.fill(value(vertex)),
+            StepRate::Instance => {
+                for (slot, entry) in run.iter_mut().zip(first + instance..) {
+                    *slot = value(entry);
+                }
+            }
+        }
+        at += run.len();
+        rest = more;
+    }
 }
 
 /// What a device says about rasterising.

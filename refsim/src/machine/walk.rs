@@ -2,14 +2,14 @@
 
 use super::memory::Memory;
 use super::validate::Plan;
-use super::vertices::{VertexStage, set_up};
+use super::vertices::{VertexStage, raster_rules, set_up};
 use super::{DrawCall, ExecutorKind, MachineError, Tiles};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
-use crate::exec::batch::{SimdLevel, Surfaces};
+use crate::exec::batch::{Instances, SimdLevel, Surfaces};
 use crate::exec::{TILE, TileExecutor};
 use crate::output::TargetTile;
-use crate::raster::TriangleSetup;
+use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::Region;
 use rayon::prelude::*;
 
@@ -40,30 +40,40 @@ pub(super) fn draw(
     kind: (ExecutorKind, Option<SimdLevel>),
     executor: &Tiles<'_>,
 ) -> Result<Drawn, MachineError> {
-    let stage = VertexStage::new(call, &profile.rules, kind);
+    let needed = match executor {
+        Tiles::Scalar(_) => ComponentMask::ALL,
+        Tiles::Batch(tiles) => tiles.inputs(),
+    };
+    let stage = VertexStage::new(call, &profile.rules, kind, needed);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
     let mut work = tiles(plan.raster.scissor);
     let round = (ROUND / plan.triangles.len().max(1)).max(1);
     let mut first = 0;
     while first < plan.instance_count {
         let count = round.min(plan.instance_count - first);
-        let batch = stage.run(first, count, plan);
-        events.vertices += batch.vertices.len() as u64;
-        events.vertex_instructions += batch.slots;
-        let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
-        events.primitives += primitives;
-        for part in setups.chunks(ROUND) {
-            match executor {
-                Tiles::Scalar(tiles) => {
+        match executor {
+            Tiles::Scalar(tiles) => {
+                let batch = stage.run(first, count, plan);
+                events.vertices += batch.vertices.len() as u64;
+                events.vertex_instructions += batch.slots;
+                let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+                events.primitives += primitives;
+                for part in setups.chunks(ROUND) {
                     let run = |order: &[u32], tile: &mut TargetTile| tiles.run_tile(part, order, tile);
                     shade(memory, call, &|i| part.get(i), part.len(), &run, &mut work)?;
                 }
-                Tiles::Batch(tiles) => {
-                    let surfaces = Surfaces::from_setups(part, tiles.inputs());
-                    let round = tiles.round(&surfaces);
-                    let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile);
-                    shade(memory, call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
-                }
+            }
+            Tiles::Batch(tiles) => {
+                let rows = stage.rows(first, count, plan, needed);
+                events.vertices += (count * plan.vertex_count) as u64;
+                events.vertex_instructions += rows.executed;
+                let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
+                let rules = raster_rules(profile);
+                let (surfaces, primitives) = Surfaces::build(&instances, &plan.raster, &rules, needed, tiles.simd());
+                events.primitives += primitives;
+                let round = tiles.round(&surfaces);
+                let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile);
+                shade(memory, call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
             }
         }
         first += count;

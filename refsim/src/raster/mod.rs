@@ -22,4 +22,5 @@ pub use setup::{
     ClipSpace, Cull, Dropped, Edge, PixelCenter, Plane, RasterRules, RasterState, SetupReport, TriangleSetup, Viewport,
     setup,
 };
+pub(crate) use setup::{component_plane, unclipped};
 pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT, Vertex};

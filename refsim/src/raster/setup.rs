@@ -216,20 +216,26 @@ pub fn setup(
     rules: &RasterRules,
     out: &mut Vec<TriangleSetup>,
 ) -> SetupReport {
-    let dropped = |why| SetupReport { emitted: 0, dropped: Some(why) };
+    match unclipped(triangle, state, rules) {
+        Some(Ok(done)) => {
+            out.push(done);
+            SetupReport { emitted: 1, dropped: None }
+        }
+        Some(Err(why)) => SetupReport { emitted: 0, dropped: Some(why) },
+        None => clipped_setup(&clip(triangle, state.clip_space), state, rules, out),
+    }
+}
+
+/// Sets a triangle up if no clip plane cuts it; `None` if one does.
+pub(crate) fn unclipped(
+    triangle: [&Vertex; 3],
+    state: &RasterState,
+    rules: &RasterRules,
+) -> Option<Result<TriangleSetup, Dropped>> {
     if triangle.iter().any(|v| v.position.iter().any(|&p| value::is_not_finite(p))) {
-        return dropped(Dropped::NotFinite);
+        return Some(Err(Dropped::NotFinite));
     }
-    if is_inside(&triangle, state.clip_space) {
-        return match whole(&triangle.map(ClipVertex::new), state, rules) {
-            Ok(done) => {
-                out.push(done);
-                SetupReport { emitted: 1, dropped: None }
-            }
-            Err(why) => dropped(why),
-        };
-    }
-    clipped_setup(&clip(triangle, state.clip_space), state, rules, out)
+    is_inside(&triangle, state.clip_space).then(|| whole(&triangle.map(ClipVertex::new), state, rules))
 }
 
 /// A corner in window space.
@@ -365,21 +371,27 @@ fn plane(values: [u32; 3], format: Format) -> Plane {
     Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }
 }
 
+/// The plane of one component from its FP32 values at the vertices, and whether it is constant.
+pub(crate) fn component_plane(values: [u32; 3], format: Format) -> (Plane, bool) {
+    let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
+    let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
+    if values[0] == values[1] && values[1] == values[2] {
+        // Zero is zero in every format: the usual value of what a draw does not use.
+        let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
+        return (Plane { base, d1: 0, d2: 0 }, true);
+    }
+    (plane(values.map(into), format), false)
+}
+
 /// The planes of all components, and which of them are constant.
 fn planes(vertices: &[ClipVertex; 3], format: Format) -> ([Plane; COMPONENTS], ComponentMask) {
     let mut planes = [Plane::default(); COMPONENTS];
     let mut constant = ComponentMask::NONE;
-    let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
-    let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
     for (i, slot) in planes.iter_mut().enumerate() {
-        let values = [vertices[0].components[i], vertices[1].components[i], vertices[2].components[i]];
-        if values[0] == values[1] && values[1] == values[2] {
+        let same;
+        (*slot, same) = component_plane([0, 1, 2].map(|v: usize| vertices[v].components[i]), format);
+        if same {
             constant = constant.with(i);
-            // Zero is zero in every format: the usual value of what a draw does not use.
-            let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
-            *slot = Plane { base, d1: 0, d2: 0 };
-        } else {
-            *slot = plane(values.map(into), format);
         }
     }
     (planes, constant)

@@ -7,13 +7,15 @@
 //!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
 //!   reads, and with what only one operation reads as part of that.
 //! - `ops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
-//! - `surfaces`, `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
-//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `vertex`, `trace`: the ways in.
+//! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
+//! - `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
+//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
 pub(in crate::exec) mod arith;
+mod build;
 mod evaluate;
 mod fetch;
 mod fixed;
@@ -45,9 +47,10 @@ pub(in crate::exec) mod translate;
 mod translate_texture;
 mod vertex;
 
+pub use build::Instances;
 pub use evaluate::{LaneOperation, convert, evaluate};
 pub use simd::SimdLevel;
 pub use surfaces::Surfaces;
 pub use tile::{BatchTiles, Round};
 pub use trace::BatchTracer;
-pub use vertex::BatchVertices;
+pub use vertex::{AttributeRows, BatchVertices, VertexRows};

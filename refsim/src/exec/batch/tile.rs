@@ -110,6 +110,11 @@ impl<'a> BatchTiles<'a> {
         self
     }
 
+    /// The vector instructions in use.
+    pub fn simd(&self) -> SimdLevel {
+        self.formats.simd()
+    }
+
     /// The components that the program can read.
     pub fn inputs(&self) -> ComponentMask {
         self.inputs

@@ -1,40 +1,105 @@
-//! Vertex programs on batches of 256 vertices.
+//! Vertex programs on batches of 256 vertices: attributes in rows, results in rows.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
 
 use super::arith::Formats;
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, first_lanes};
-use super::graph::Arith;
+use super::graph::{Arith, Node};
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
-use super::program::vertex_formats;
+use super::ops::Code;
+use super::program::{has_flow, one, vertex_formats};
+use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
 use super::slots::{Slot, Slots};
-use super::steps::{Surroundings, raw_constants};
+use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
+use super::translate::{Effect, Place, Translator};
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::{Constants, ResolvedConstants};
 use crate::isa::{Program, RegisterFile};
 use crate::num::Format;
-use crate::raster::Vertex;
+use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
+
+/// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of `v#register`
+/// of the vertices from `first` on.
+pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f;
+
+/// Vertices as rows, single precision patterns: the position, and the components that were asked for.
+#[derive(Clone, Debug, Default)]
+pub struct VertexRows {
+    pub(crate) position: [Vec<u32>; 4],
+    /// By component, as in [`ComponentMask`]; empty where nobody asked.
+    pub(crate) components: Vec<Vec<u32>>,
+    /// Instruction slots executed, summed over the vertices.
+    pub executed: u64,
+}
+
+impl VertexRows {
+    fn new() -> Self {
+        Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0 }
+    }
+
+    /// Vertices given one by one.
+    pub fn from_vertices(vertices: &[Vertex], needed: ComponentMask) -> Self {
+        let mut rows = Self::new();
+        for (c, row) in rows.position.iter_mut().enumerate() {
+            *row = vertices.iter().map(|v| v.position[c]).collect();
+        }
+        for (component, row) in rows.components.iter_mut().enumerate().filter(|(c, _)| needed.has(*c)) {
+            *row = vertices.iter().map(|v| v.component(component)).collect();
+        }
+        rows
+    }
+
+    /// A vertex with what the rows have of it, and zeros.
+    pub(crate) fn vertex(&self, index: usize) -> Vertex {
+        let at = |row: &Vec<u32>| row.get(index).copied().unwrap_or_default();
+        let component = |i: usize| self.components.get(i).map_or(0, at);
+        Vertex {
+            position: [0, 1, 2, 3].map(|c: usize| at(&self.position[c])),
+            texcoords: std::array::from_fn(|set| std::array::from_fn(|c| component(4 * set + c))),
+            colors: std::array::from_fn(|i| std::array::from_fn(|c| component(COLOR_COMPONENT + 4 * i + c))),
+            fog: component(FOG_COMPONENT),
+            point_size: 0,
+        }
+    }
+}
 
 /// A vertex program ready to run on batches; equal to [`crate::exec::scalar::VertexProgram`].
 #[derive(Debug)]
 pub struct BatchVertices {
     formats: Formats,
     constants: Vec<[u32; 4]>,
-    plan: FlowPlan,
-    same_format: bool,
+    /// The components that are made, after the position's four.
+    components: Vec<usize>,
+    code: VertexCode,
+}
+
+/// A program with flow control or without.
+#[derive(Debug)]
+enum VertexCode {
+    /// Roots are the results, single precision; and the slots of an execution.
+    Straight(Block, u64),
+    Flow(Box<FlowPlan>),
 }
 
 impl BatchVertices {
-    /// Prepares a program, which must be a vertex program. `None` if the vertex format is none that
-    /// [`Format`] can be built with.
-    pub fn new(program: &Program, rules: &Rules, constants: &Constants) -> Option<Self> {
+    /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if
+    /// the vertex format is none that [`Format`] can be built with.
+    pub fn new(program: &Program, rules: &Rules, constants: &Constants, needed: ComponentMask) -> Option<Self> {
         let formats = vertex_formats(rules.vertex_format)?;
         let constants = ResolvedConstants::vertex(program, rules, constants);
-        let plan = FlowPlan::vertex(program, rules, &formats, &constants);
-        let raw = raw_constants(&constants.float, &formats);
-        Some(Self { constants: raw, plan, same_format: rules.vertex_format == Format::FP32, formats })
+        let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
+        let code = if has_flow(program) {
+            VertexCode::Flow(Box::new(FlowPlan::vertex(program, rules, &formats, &constants)))
+        } else {
+            straight(program, rules, &formats, &constants, &components)
+        };
+        Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
 
     /// The same with chosen vector instructions; `None` for the widest that there are.
@@ -44,44 +109,87 @@ impl BatchVertices {
         self
     }
 
-    /// Runs the program on the attributes `v0` to `v15` of each vertex, single precision patterns. Returns the vertices and
-    /// the instruction slots executed, summed over them.
-    pub fn run(&self, attributes: &[[[u32; 4]; 16]]) -> (Vec<Vertex>, u64) {
-        let mut vertices = Vec::with_capacity(attributes.len());
-        let mut slots = Slots::new(self.plan.slots());
-        self.plan.fill(&mut slots);
-        let around = Surroundings { formats: &self.formats, textures: &[], constants: &self.constants };
-        let single = self.formats.lane(Arith::Single);
-        let mut executed = 0;
-        for group in attributes.chunks(LANES) {
-            for &(component, slot) in self.plan.inputs() {
-                let (register, c) = (usize::from(component / 4), usize::from(component % 4));
-                for (value, vertex) in slots.row_mut(slot).iter_mut().zip(group) {
-                    *value = vertex.get(register).map_or(0, |v| single.decode(v[c]));
-                }
+    /// Runs the program on `total` vertices.
+    pub fn run(&self, total: usize, attributes: &AttributeRows<'_>) -> VertexRows {
+        let parts: Vec<_> = (0..total.div_ceil(LANES))
+            .into_par_iter()
+            .map_init(
+                || self.slots(),
+                |slots, i| self.group(i * LANES, (total - i * LANES).min(LANES), attributes, slots),
+            )
+            .collect();
+        let mut out = VertexRows::new();
+        for (values, executed) in parts {
+            let (position, rest) = values.split_at(4);
+            for (to, from) in out.position.iter_mut().zip(position) {
+                to.extend_from_slice(from);
             }
-            let lanes = first_lanes(group.len());
-            let mut run = FlowRun::new(&self.plan, &around, &lanes, &lanes);
-            run.run(&mut slots, &mut [0; SAMPLERS]);
-            executed += run.executed;
-            vertices.extend((0..group.len()).map(|lane| self.vertex(&slots, lane)));
+            for (&component, from) in self.components.iter().zip(rest) {
+                out.components[component].extend_from_slice(from);
+            }
+            out.executed += executed;
         }
-        (vertices, executed)
+        out
     }
 
-    fn vertex(&self, slots: &Slots, lane: usize) -> Vertex {
-        let held = |slot: Option<Slot>| slot.map_or(0, |s| slots.row(s)[lane]);
-        let vector =
-            |file, index: usize| std::array::from_fn(|c| held(self.plan.register(file, index as u16, c as u8)));
-        let main = self.formats.lane(Arith::Main);
-        let out = |raw: u32| self.single(raw);
-        Vertex {
-            position: vector(RegisterFile::PositionOut, 0).map(out),
-            colors: [0, 1].map(|i| vector(RegisterFile::DiffuseOut, i).map(|raw| out(saturated(main, raw)))),
-            texcoords: std::array::from_fn(|i| vector(RegisterFile::TexCoordOut, i).map(out)),
-            fog: out(vector(RegisterFile::FogOut, 0)[0]),
-            point_size: out(vector(RegisterFile::PointSizeOut, 0)[0]),
+    fn slots(&self) -> Slots {
+        match &self.code {
+            VertexCode::Straight(block, _) => {
+                let mut slots = Slots::new(block.slots);
+                fill_constants(block, &mut slots);
+                slots
+            }
+            VertexCode::Flow(plan) => {
+                let mut slots = Slots::new(plan.slots());
+                plan.fill(&mut slots);
+                slots
+            }
         }
+    }
+
+    /// Up to 256 vertices: position, components; and the instruction slots.
+    fn group(
+        &self,
+        first: usize,
+        count: usize,
+        attributes: &AttributeRows<'_>,
+        slots: &mut Slots,
+    ) -> (Vec<Vec<u32>>, u64) {
+        let inputs = match &self.code {
+            VertexCode::Straight(block, _) => &block.inputs,
+            VertexCode::Flow(plan) => plan.inputs(),
+        };
+        for &(component, slot) in inputs {
+            // A pattern is the number's host bits: single precision is the host's own.
+            let row = &mut slots.row_mut(slot)[..count];
+            attributes(usize::from(component / 4), usize::from(component % 4), first, row);
+        }
+        let around = Surroundings { formats: &self.formats, textures: &[], constants: &self.constants };
+        let lanes = first_lanes(count);
+        match &self.code {
+            VertexCode::Straight(block, cost) => {
+                run_steps(&block.steps, &around, &lanes, slots);
+                let values = block.roots.iter().map(|&root| canonical(&slots.row(root)[..count]));
+                (values.collect(), cost * count as u64)
+            }
+            VertexCode::Flow(plan) => {
+                let mut run = FlowRun::new(plan, &around, &lanes, &lanes);
+                run.run(slots, &mut [0; SAMPLERS]);
+                let places = outputs(&self.components);
+                let values =
+                    places.map(|place| self.held(plan.register(place.0, place.1, place.2), place, &slots, count));
+                (values.collect(), run.executed)
+            }
+        }
+    }
+
+    /// What a register component of a program with flow control holds at the end.
+    fn held(&self, slot: Option<Slot>, place: Place, slots: &Slots, count: usize) -> Vec<u32> {
+        let Some(slot) = slot else { return vec![0; count] };
+        let main = self.formats.lane(Arith::Main);
+        let color = place.0 == RegisterFile::DiffuseOut;
+        let value = |&raw: &u32| self.single(if color { saturated(main, raw) } else { raw });
+        slots.row(slot)[..count].iter().map(value).collect()
     }
 
     /// What a slot holds as a single precision pattern.
@@ -93,12 +201,65 @@ impl BatchVertices {
             lane.encode(lane.round_f64(x))
         }
         let (main, single) = (self.formats.lane(Arith::Main), self.formats.lane(Arith::Single));
-        if self.same_format {
+        if self.formats.format(Arith::Main) == Format::FP32 {
             return main.encode(raw);
         }
         let x = with_any_lane!(main, |lane| { wide(lane, raw) });
         with_any_lane!(single, |lane| { narrow(lane, x) })
     }
+}
+
+/// The output register components of a position and of components, in their order.
+fn outputs(components: &[usize]) -> impl Iterator<Item = Place> {
+    let position = (0..4).map(|c| (RegisterFile::PositionOut, 0, c));
+    position.chain(components.iter().map(|&component| match component {
+        FOG_COMPONENT => (RegisterFile::FogOut, 0, 0),
+        COLOR_COMPONENT.. => {
+            let i = component - COLOR_COMPONENT;
+            (RegisterFile::DiffuseOut, (i / 4) as u16, (i % 4) as u8)
+        }
+        _ => (RegisterFile::TexCoordOut, (component / 4) as u16, (component % 4) as u8),
+    }))
+}
+
+/// A program without flow control as one block that makes the outputs alone.
+fn straight(
+    program: &Program,
+    rules: &Rules,
+    formats: &Formats,
+    constants: &ResolvedConstants,
+    components: &[usize],
+) -> VertexCode {
+    let mut t = Translator::new(program, rules, formats.clone(), constants, None);
+    let mut cost = 0;
+    for instruction in &program.instructions {
+        let slots = instruction.opcode.info().slot_cost(program.version);
+        cost += u64::from(slots.arithmetic) + u64::from(slots.texture);
+        let mut effects = Vec::new();
+        one(&mut t, instruction, &mut effects);
+        for effect in effects {
+            if let Effect::Write(place, value, _) = effect {
+                t.registers.insert(place, value);
+            }
+        }
+    }
+    let zero = t.make.zero();
+    let roots: Vec<Node> = outputs(components)
+        .map(|place| {
+            let value = t.registers.get(&place).copied().unwrap_or(zero);
+            let value = match place.0 {
+                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, Code::Saturate, value),
+                _ => value,
+            };
+            t.make.convert(Arith::Main, Arith::Single, value)
+        })
+        .collect();
+    VertexCode::Straight(schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0), cost)
+}
+
+/// Single precision numbers as patterns: every NaN is the one.
+fn canonical(row: &[u32]) -> Vec<u32> {
+    row.iter().map(|&bits| if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { bits }).collect()
 }
 
 fn saturated(lane: &AnyLane, raw: u32) -> u32 {
