@@ -1,5 +1,7 @@
 //! The crossbar on an emulated card: every ray of a batch meets every triangle of a mesh.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
@@ -88,18 +90,23 @@ pub struct Crossbar {
     profile: Profile,
     executor: ExecutorKind,
     all_pairs: bool,
+    /// Programs that have been assembled and checked, by what they were chosen for.
+    kernels: Arc<Mutex<Vec<(KernelUse, Arc<Kernel>)>>>,
 }
+
+/// Whether the rays have one origin, and the sides that count.
+type KernelUse = (bool, Sides);
 
 impl Crossbar {
     /// A card of this profile.
-    pub const fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor, all_pairs: false }
+    pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
+        Self { profile, executor, all_pairs: false, kernels: Arc::default() }
     }
 
     /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
     /// every ray meets every triangle. Buckets are the default.
     #[must_use]
-    pub const fn all_pairs(mut self, all_pairs: bool) -> Self {
+    pub fn all_pairs(mut self, all_pairs: bool) -> Self {
         self.all_pairs = all_pairs;
         self
     }
@@ -112,6 +119,17 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET)
     }
 
+    /// The program for a use: chosen once.
+    fn kernel(&self, wanted: KernelUse) -> Result<Arc<Kernel>, EngineError> {
+        let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, kernel)) = known.iter().find(|(held, _)| *held == wanted) {
+            return Ok(Arc::clone(kernel));
+        }
+        let kernel = Arc::new(Kernel::choose(&self.profile, wanted.0, wanted.1)?);
+        known.push((wanted, Arc::clone(&kernel)));
+        Ok(kernel)
+    }
+
     fn intersect_in_buckets(
         &self,
         mesh: &Mesh,
@@ -119,7 +137,7 @@ impl Crossbar {
         sides: Sides,
         side: u32,
     ) -> Result<Answer, EngineError> {
-        let kernel = Kernel::choose(&self.profile, rays.common_origin().is_some(), sides)?;
+        let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         if mesh.len() > MOST_TRIANGLES {
             return Err(EngineError::TooManyTriangles { found: mesh.len() });
         }

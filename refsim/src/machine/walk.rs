@@ -72,7 +72,9 @@ pub(super) fn draw(
                 let (surfaces, primitives) = Surfaces::build(&instances, &plan.raster, &rules, needed, tiles.simd());
                 events.primitives += primitives;
                 let round = tiles.round(&surfaces);
-                let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile);
+                // Where there are fewer tiles than workers, some share one.
+                let hands = rayon::current_num_threads().div_ceil(work.len().max(1));
+                let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile, hands);
                 shade(memory, call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
             }
         }

@@ -7,12 +7,14 @@ use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
 use super::odd;
 use super::schedule::{FetchDetail, FetchStep};
+use super::simd::SimdLevel;
 use super::slots::{Row, Slots};
 use crate::exec::SamplerBinding;
 use crate::num::Format;
 use crate::num::ops;
 use crate::texture::{
-    AddressMode, ChannelValue, Lod, SampleRules, Texel, TextureKind, fetch_nearest, lod_from_derivatives, sample,
+    AddressMode, Channel, ChannelValue, ComponentSource, Image, Lod, SampleRules, TextureKind, decode_channel,
+    fetch_nearest, lod_from_derivatives, sample,
 };
 
 /// Texels of the largest image that gets a table: 4 MiB of it.
@@ -121,13 +123,7 @@ impl Table {
         if !binding.is_plain() || !plane || width as usize * height as usize > LARGEST_TABLE {
             return None;
         }
-        let mut texels = Vec::with_capacity((width * height) as usize + 1);
-        for y in 0..height {
-            for x in 0..width {
-                let texel = image.texel(0, 0, y, x, rules.signed_texel_minimum);
-                texels.push(in_slot(&texel, rules.format, lane));
-            }
-        }
+        let mut texels = all_texels(image, rules, lane);
         let state = &binding.state;
         let modes = match kind {
             TextureKind::Rectangle => [state.address_u, state.address_v]
@@ -199,12 +195,123 @@ fn each(coordinate: &Row, scale: f64, out: &mut [i32; LANES], number: impl Fn(f6
     }
 }
 
-/// A texel in the register format, as slots hold it.
-fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
+/// All texels of level 0 in the register format, as slots hold them, row by row.
+fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4]> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let record = image.format().record();
+    let mut texels = Vec::with_capacity(width * height + 1);
+    texels.resize(width * height, [0; 4]);
+    for (c, source) in record.components.into_iter().enumerate() {
+        let channel = match source {
+            ComponentSource::Channel(i) => record.channels[usize::from(i)],
+            ComponentSource::Zero | ComponentSource::One => {
+                let value = if source == ComponentSource::One { ChannelValue::ONE } else { ChannelValue::ZERO };
+                let raw = channel_in_slot(value, rules.format, lane);
+                texels.iter_mut().for_each(|texel| texel[c] = raw);
+                continue;
+            }
+        };
+        for (y, row) in texels.chunks_exact_mut(width).enumerate() {
+            let start = image.offset_of(0, 0, y as u32, 0).unwrap_or_default();
+            let bytes = image.bytes().get(start..).unwrap_or_default().chunks_exact(image.format().bytes());
+            for (texels, bytes) in row.chunks_mut(LANES).zip(Blocks(bytes)) {
+                decode_block(channel, &bytes, rules, lane, |i, raw| {
+                    if let Some(texel) = texels.get_mut(i) {
+                        texel[c] = raw;
+                    }
+                });
+            }
+        }
+    }
+    texels
+}
+
+/// A row's texels, 256 at a time.
+struct Blocks<I>(I);
+
+impl<'a, I: Iterator<Item = &'a [u8]>> Iterator for Blocks<I> {
+    type Item = Vec<&'a [u8]>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let block: Vec<_> = self.0.by_ref().take(LANES).collect();
+        (!block.is_empty()).then_some(block)
+    }
+}
+
+/// One channel of up to 256 texels: ratios of up to 24 bits and single precision in rows, the rest one by one.
+fn decode_block(
+    channel: Channel,
+    texels: &[&[u8]],
+    rules: &SampleRules,
+    lane: &AnyLane,
+    mut put: impl FnMut(usize, u32),
+) {
+    let mut values = [0.0; LANES];
+    let mut raw = [0; LANES];
+    let mut divisor = 1.0;
+    let narrow = channel.bits <= 24;
+    for (i, texel) in texels.iter().take(LANES).enumerate() {
+        let bits = channel_of(channel, texel);
+        match decode_channel(channel, bits, rules.signed_texel_minimum) {
+            ChannelValue::Ratio { numerator, denominator } if narrow => {
+                values[i] = numerator as f64;
+                divisor = f64::from(denominator);
+            }
+            ChannelValue::Float { format: Format::FP32, bits } => values[i] = f64::from(f32::from_bits(bits)),
+            other => {
+                put(i, channel_in_slot(other, rules.format, lane));
+                continue;
+            }
+        }
+        raw[i] = u32::MAX;
+    }
+    // Bits do not depend on the level, so the table is made with the widest there is.
+    let mut rounded = [0; LANES];
+    with_any_lane!(lane, |lane| {
+        SimdLevel::widest().run(
+            #[inline(always)]
+            || ratios(lane, &values, divisor, &mut rounded),
+        )
+    });
+    for (i, &value) in rounded.iter().enumerate().filter(|&(i, _)| raw[i] != 0) {
+        put(i, value);
+    }
+}
+
+/// Values divided by a number below 2^24, rounded into the format.
+#[inline(always)]
+fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut Row) {
+    if divisor == 1.0 {
+        for i in 0..LANES {
+            out[i] = L::store(lane.round_f64(values[i]));
+        }
+    } else {
+        for i in 0..LANES {
+            out[i] = L::store(lane.round_f64(odd::div_odd_long(values[i], divisor)));
+        }
+    }
+}
+
+/// The bits of a channel.
+fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
+    let first = usize::from(channel.shift / 8);
+    match (channel.shift % 8, channel.bits, texel.get(first..)) {
+        (0, 8, Some(&[a, ..])) => a.into(),
+        (0, 16, Some(&[a, b, ..])) => u16::from_le_bytes([a, b]).into(),
+        (0, 32, Some(&[a, b, c, d, ..])) => u32::from_le_bytes([a, b, c, d]),
+        _ => {
+            let raw = texel.iter().rev().fold(0u128, |raw, &byte| raw << 8 | u128::from(byte));
+            (raw >> channel.shift) as u32
+        }
+    }
+}
+
+/// A channel's value in the register format, as slots hold it.
+fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
     fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
         L::store(lane.round_f64(x))
     }
-    texel.0.map(|channel| match channel {
+    match channel {
         // Both below 2^24: one division, rounded to odd.
         ChannelValue::Ratio { numerator, denominator }
             if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 =>
@@ -213,5 +320,5 @@ fn in_slot(texel: &Texel, format: Format, lane: &AnyLane) -> [u32; 4] {
             with_any_lane!(lane, |lane| { rounded(lane, x) })
         }
         _ => lane.decode(channel.to_format(format)),
-    })
+    }
 }

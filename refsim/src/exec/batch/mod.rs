@@ -9,13 +9,14 @@
 //! - `ops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
 //! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
 //! - `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
-//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in.
+//! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in; `cache`: what was decoded.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
 pub(in crate::exec) mod arith;
 mod build;
+mod cache;
 mod evaluate;
 mod fetch;
 mod fixed;

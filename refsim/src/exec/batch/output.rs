@@ -47,6 +47,31 @@ pub(crate) struct Shaded<'a> {
     pub(crate) depth: &'a Row,
 }
 
+/// A fragment that the tests before the depth test left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fragment {
+    lane: u8,
+    /// As the depth buffer stores it.
+    depth: u32,
+    /// As slots hold them.
+    colors: [[u32; 4]; MOST_TARGETS],
+}
+
+impl Shaded<'_> {
+    fn fragment(&self, lane: usize, depth: u32) -> Fragment {
+        let value = |slot: Slot| self.slots.row(slot)[lane];
+        Fragment { lane: lane as u8, depth, colors: self.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value))) }
+    }
+
+    /// Appends the fragments that are left.
+    pub(crate) fn gather(&self, survivors: &Survivors, out: &mut Vec<Fragment>) {
+        if survivors.count > 0 {
+            let alive = (0..LANES).filter(|&lane| survivors.alive[lane] != 0);
+            out.extend(alive.map(|lane| self.fragment(lane, survivors.depth[lane])));
+        }
+    }
+}
+
 /// The lanes that the tests before the depth test left, with their depths as the depth buffer stores them.
 #[derive(Clone, Debug)]
 pub(crate) struct Survivors {
@@ -154,21 +179,60 @@ impl Output {
         self.merge_rest(shaded, survivors, targets);
     }
 
-    /// What rows don't do goes through the output room, its tests switched off.
+    /// What rows don't do goes through the output room.
     fn merge_rest(&self, shaded: Shaded<'_>, survivors: &Survivors, targets: &mut Targets<'_>) {
-        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
-        let written = here.fold(0, |bits, i| bits | (self.written & 1 << i));
+        let written = self.written_elsewhere(targets);
         if written == 0 {
             return;
         }
-        let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
-        let main = shaded.formats.lane(Arith::Main);
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
-            let value = |slot: Slot| main.encode(shaded.slots.row(slot)[lane]);
-            let colors = shaded.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value)));
-            let fragment = FragmentOutput { colors, written, depth: None, killed: false };
-            let (x, y) = super::raster::place(lane);
-            merge(targets.tile, (targets.origin.0 + x, targets.origin.1 + y), &fragment, 0, &state, &self.rules);
+            self.merge_elsewhere(written, &shaded.fragment(lane, 0), shaded.formats, targets);
+        }
+    }
+
+    /// The colours that are written and whose targets are not in rows.
+    fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
+        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
+        here.fold(0, |bits, i| bits | (self.written & 1 << i))
+    }
+
+    /// Takes a fragment through the output room, its tests switched off.
+    fn merge_elsewhere(&self, written: u8, fragment: &Fragment, formats: &Formats, targets: &mut Targets<'_>) {
+        let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
+        let main = formats.lane(Arith::Main);
+        let colors = fragment.colors.map(|c| c.map(|raw| main.encode(raw)));
+        let output = FragmentOutput { colors, written, depth: None, killed: false };
+        let (x, y) = super::raster::place(fragment.lane.into());
+        merge(targets.tile, (targets.origin.0 + x, targets.origin.1 + y), &output, 0, &state, &self.rules);
+    }
+
+    /// [`Self::merge`] for one fragment.
+    pub(crate) fn merge_one(
+        &self,
+        fragment: &Fragment,
+        formats: &Formats,
+        targets: &mut Targets<'_>,
+        counts: &mut FragmentCounts,
+    ) {
+        let lane = usize::from(fragment.lane);
+        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+            if !function.holds(Some(fragment.depth.cmp(&stored[lane]))) {
+                counts.depth_failed += 1;
+                return;
+            }
+            if self.state.depth.write {
+                stored[lane] = fragment.depth;
+            }
+        }
+        counts.passed += 1;
+        for (rows, colors) in targets.colors.iter_mut().zip(&fragment.colors) {
+            if let Some(rows) = rows {
+                write_lane(rows, colors, lane, formats);
+            }
+        }
+        let written = self.written_elsewhere(targets);
+        if written != 0 {
+            self.merge_elsewhere(written, fragment, formats, targets);
         }
     }
 
@@ -269,23 +333,28 @@ fn depth_test(function: CompareFunction, write: bool, new: &Row, alive: &mut Row
     }
 }
 
+/// Writes one texel.
+fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &Formats) {
+    let main = formats.lane(Arith::Main);
+    for (word, &bits) in rows.words.iter_mut().zip(&rows.packing.written) {
+        word[lane] &= !bits;
+    }
+    for channel in &rows.packing.channels {
+        let value = with_any_lane!(main, |l| { code(l, color[channel.component], channel.coding) });
+        rows.words[channel.word][lane] |= value << channel.shift;
+    }
+}
+
 /// Writes the texels of the lanes that are left.
 fn write_rows(rows: &mut ColorRows, colors: [&Row; 4], survivors: &Survivors, formats: &Formats) {
-    let (main, simd) = (formats.lane(Arith::Main), formats.simd());
-    let Packing { channels, written } = &rows.packing;
     if survivors.count <= FEW {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
-            for (word, &bits) in rows.words.iter_mut().zip(written) {
-                word[lane] &= !bits;
-            }
-            for channel in channels {
-                let raw = colors[channel.component][lane];
-                let value = with_any_lane!(main, |l| { code(l, raw, channel.coding) });
-                rows.words[channel.word][lane] |= value << channel.shift;
-            }
+            write_lane(rows, &colors.map(|row| row[lane]), lane, formats);
         }
         return;
     }
+    let (main, simd) = (formats.lane(Arith::Main), formats.simd());
+    let Packing { channels, written } = &rows.packing;
     let mut texels = [0; LANES];
     for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
         texels.fill(0);

@@ -12,7 +12,6 @@ use super::raster::{TileWeights, cover, lay_over, quads};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 use super::surfaces::Surfaces;
-use crate::output::TargetTile;
 use crate::raster::Plane;
 use crate::texture::Region;
 
@@ -80,9 +79,9 @@ impl Shader {
     }
 
     /// Goes to a tile. Nothing that belongs to another tile, or to other surfaces, is used again.
-    pub(crate) fn start(&mut self, tile: &TargetTile) {
-        self.origin = (tile.region.x & !15, tile.region.y & !15);
-        self.region = tile.region;
+    pub(crate) fn start(&mut self, region: Region) {
+        self.origin = (region.x & !15, region.y & !15);
+        self.region = region;
         self.used = 0;
         self.inputs_hold = false;
     }

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::arith::Formats;
+use super::cache::Cache;
 use super::fetch::BatchTexture;
 use super::flow::FlowPlan;
 use super::flow_run::FlowRun;
@@ -20,10 +21,18 @@ use super::slots::{Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use super::surfaces::Surfaces;
 use super::targets::Targets;
-use crate::event::FragmentCounts;
-use crate::exec::{ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read, sample_rules};
-use crate::output::TargetTile;
+use crate::device::Rules;
+use crate::event::{FragmentCounts, SAMPLERS};
+use crate::exec::{
+    BUMP_STAGES, BumpStage, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read, sample_rules,
+};
+use crate::isa::Program;
+use crate::output::{DepthFormat, TargetTile};
 use crate::raster::{ComponentMask, TriangleSetup};
+use crate::texture::{Region, TextureKind};
+
+/// Triangles a worker gets at least where several share a tile.
+const FEWEST_SHARED: usize = 16;
 
 /// The batch tile executor of one draw.
 #[derive(Debug)]
@@ -33,7 +42,7 @@ pub struct BatchTiles<'a> {
     constants: Vec<[u32; 4]>,
     output: Output,
     inputs: ComponentMask,
-    program: PixelCode,
+    program: Arc<PixelCode>,
     /// Workers' rows that are not in use, by the constant components of their plan.
     shaders: Mutex<Vec<(u64, Shader)>>,
 }
@@ -81,14 +90,7 @@ impl<'a> BatchTiles<'a> {
         let formats = pixel_formats(draw.rules)?;
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
-        let code = if has_flow(program) {
-            PixelCode::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings))
-        } else {
-            PixelCode::Straight(
-                StraightProgram::new(program, draw.rules, &formats, &constants, &draw.bindings),
-                Mutex::default(),
-            )
-        };
+        let code = decoded(program, draw, &formats, &constants);
         let main = formats.lane(Arith::Main);
         let textures =
             draw.bindings.samplers.iter().map(|s| s.map(|binding| BatchTexture::new(binding, rules, main))).collect();
@@ -127,7 +129,7 @@ impl<'a> BatchTiles<'a> {
     /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, a triangle a lane.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> Round<'s> {
         let constant = surfaces.all_constant() & self.inputs.0;
-        let (code, given) = match &self.program {
+        let (code, given) = match &*self.program {
             PixelCode::Straight(program, plans) => {
                 let plan = plan(program, plans, constant);
                 let given = self.uniforms(&plan.uniform, surfaces);
@@ -168,15 +170,52 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
+    /// Up to `hands` workers shade at a time; that changes nothing but the time it takes.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
-    pub fn draw(&self, round: &Round<'_>, order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
-        let mut shader = self.shader(round);
-        shader.start(tile);
-        let mut counts = FragmentCounts::default();
+    pub fn draw(&self, round: &Round<'_>, order: &[u32], tile: &mut TargetTile, hands: usize) -> FragmentCounts {
+        let region = tile.region;
+        let depth = tile.depth.as_ref().map(|buffer| buffer.format);
         let mut targets = Targets::load(tile, self.output.written, &self.output.state, &self.output.rules);
+        let mut counts = FragmentCounts::default();
+        // What shading leaves is kept as fragments until it is their turn: worth it where most are killed.
+        let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
+        if hands > 1 && few_left && order.len() >= FEWEST_SHARED * hands {
+            let share = order.len().div_ceil(hands).next_multiple_of(2);
+            let shares = order.par_chunks(share).map(|part| {
+                let (mut fragments, mut counts) = (Vec::new(), FragmentCounts::default());
+                self.shade_all(round, part, (region, depth), &mut counts, |shaded, survivors, _| {
+                    shaded.gather(survivors, &mut fragments);
+                });
+                (fragments, counts)
+            });
+            for (fragments, more) in shares.collect::<Vec<_>>() {
+                counts += more;
+                for fragment in &fragments {
+                    self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
+                }
+            }
+        } else {
+            self.shade_all(round, order, (region, depth), &mut counts, |shaded, survivors, counts| {
+                self.output.merge(shaded, survivors, &mut targets, counts);
+            });
+        }
+        targets.store();
+        counts
+    }
+
+    /// Runs the program for some triangles, part after part; `merge` gets what the tests before the depth test leave.
+    fn shade_all(
+        &self,
+        round: &Round<'_>,
+        order: &[u32],
+        (region, depth): (Region, Option<DepthFormat>),
+        counts: &mut FragmentCounts,
+        mut merge: impl FnMut(Shaded<'_>, &mut Survivors, &mut FragmentCounts),
+    ) {
+        let mut shader = self.shader(round);
+        shader.start(region);
         let mut survivors = Survivors::new();
-        let depth = targets.tile.depth.as_ref().map(|buffer| buffer.format);
         let manner = self.manner(round, depth.is_some());
         let mut at = 0;
         while at < order.len() {
@@ -185,7 +224,7 @@ impl<'a> BatchTiles<'a> {
             if shader.covered_count == 0 {
                 continue;
             }
-            self.shade(round, part[0] as usize, &mut shader, &mut counts);
+            self.shade(round, part[0] as usize, &mut shader, counts);
             let shaded = Shaded {
                 results: round.results(),
                 formats: &self.formats,
@@ -193,12 +232,10 @@ impl<'a> BatchTiles<'a> {
                 covered: &shader.covered,
                 depth: &shader.depth,
             };
-            self.output.test(shaded, depth, &mut survivors, &mut counts);
-            self.output.merge(shaded, &mut survivors, &mut targets, &mut counts);
+            self.output.test(shaded, depth, &mut survivors, counts);
+            merge(shaded, &mut survivors, counts);
         }
-        targets.store();
         self.shaders.lock().unwrap_or_else(PoisonError::into_inner).push((round.constant, shader));
-        counts
     }
 
     /// Rows for a plan, used before or new.
@@ -262,6 +299,41 @@ impl<'a> BatchTiles<'a> {
     }
 }
 
+/// What decoding depends on.
+#[derive(Debug)]
+struct Key {
+    program: Program,
+    rules: Rules,
+    constants: ResolvedConstants,
+    /// Of bound textures: whether reads need a level of detail, and the kind.
+    samplers: [Option<(bool, TextureKind)>; SAMPLERS],
+    bump: [BumpStage; BUMP_STAGES],
+}
+
+static DECODED: Cache<Key, PixelCode> = Cache::new();
+
+/// A pixel program, decoded now or before.
+fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants: &ResolvedConstants) -> Arc<PixelCode> {
+    let (rules, bindings) = (draw.rules, &draw.bindings);
+    let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
+    let matches = |key: &Key| {
+        key.samplers == samplers
+            && key.bump == bindings.bump
+            && key.program == *program
+            && key.constants == *constants
+            && key.rules == *rules
+    };
+    DECODED.get(matches, || {
+        let (program, constants) = (program.clone(), constants.clone());
+        let code = if has_flow(&program) {
+            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings))
+        } else {
+            PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
+        };
+        (Key { program, rules: rules.clone(), constants, samplers, bump: bindings.bump }, code)
+    })
+}
+
 /// The plan for triangles with these constant components, made once.
 fn plan(
     program: &StraightProgram,
@@ -275,6 +347,6 @@ fn plan(
 impl TileExecutor for BatchTiles<'_> {
     fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
         let surfaces = Surfaces::from_setups(triangles, self.inputs);
-        self.draw(&self.round(&surfaces), order, tile)
+        self.draw(&self.round(&surfaces), order, tile, 1)
     }
 }

@@ -1,10 +1,12 @@
 //! Vertex programs on batches of 256 vertices: attributes in rows, results in rows.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::arith::Formats;
+use super::cache::Cache;
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, first_lanes};
 use super::graph::{Arith, Node};
@@ -76,7 +78,7 @@ pub struct BatchVertices {
     constants: Vec<[u32; 4]>,
     /// The components that are made, after the position's four.
     components: Vec<usize>,
-    code: VertexCode,
+    code: Arc<VertexCode>,
 }
 
 /// A program with flow control or without.
@@ -87,6 +89,17 @@ enum VertexCode {
     Flow(Box<FlowPlan>),
 }
 
+/// What decoding depends on.
+#[derive(Debug)]
+struct Key {
+    program: Program,
+    rules: Rules,
+    constants: ResolvedConstants,
+    needed: ComponentMask,
+}
+
+static DECODED: Cache<Key, VertexCode> = Cache::new();
+
 impl BatchVertices {
     /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if
     /// the vertex format is none that [`Format`] can be built with.
@@ -94,11 +107,18 @@ impl BatchVertices {
         let formats = vertex_formats(rules.vertex_format)?;
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
-        let code = if has_flow(program) {
-            VertexCode::Flow(Box::new(FlowPlan::vertex(program, rules, &formats, &constants)))
-        } else {
-            straight(program, rules, &formats, &constants, &components)
+        let matches = |key: &Key| {
+            key.needed == needed && key.program == *program && key.constants == constants && key.rules == *rules
         };
+        let code = DECODED.get(matches, || {
+            let (program, rules, constants) = (program.clone(), rules.clone(), constants.clone());
+            let code = if has_flow(&program) {
+                VertexCode::Flow(Box::new(FlowPlan::vertex(&program, &rules, &formats, &constants)))
+            } else {
+                straight(&program, &rules, &formats, &constants, &components)
+            };
+            (Key { program, rules, constants, needed }, code)
+        });
         Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
 
@@ -133,7 +153,7 @@ impl BatchVertices {
     }
 
     fn slots(&self) -> Slots {
-        match &self.code {
+        match &*self.code {
             VertexCode::Straight(block, _) => {
                 let mut slots = Slots::new(block.slots);
                 fill_constants(block, &mut slots);
@@ -155,7 +175,7 @@ impl BatchVertices {
         attributes: &AttributeRows<'_>,
         slots: &mut Slots,
     ) -> (Vec<Vec<u32>>, u64) {
-        let inputs = match &self.code {
+        let inputs = match &*self.code {
             VertexCode::Straight(block, _) => &block.inputs,
             VertexCode::Flow(plan) => plan.inputs(),
         };
@@ -166,7 +186,7 @@ impl BatchVertices {
         }
         let around = Surroundings { formats: &self.formats, textures: &[], constants: &self.constants };
         let lanes = first_lanes(count);
-        match &self.code {
+        match &*self.code {
             VertexCode::Straight(block, cost) => {
                 run_steps(&block.steps, &around, &lanes, slots);
                 let values = block.roots.iter().map(|&root| canonical(&slots.row(root)[..count]));

@@ -1,0 +1,45 @@
+//! What was decoded stays decoded: programs as plans, kept over draws and machines for as long as they are among the last
+//! few in use. A key is compared in full, so a hit is what decoding would give again.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Entries kept.
+const KEPT: usize = 16;
+
+/// The last few values, by key.
+#[derive(Debug)]
+pub(crate) struct Cache<K, V> {
+    /// Latest use last.
+    entries: Mutex<Vec<(K, Arc<V>)>>,
+}
+
+impl<K, V> Cache<K, V> {
+    pub(crate) const fn new() -> Self {
+        Self { entries: Mutex::new(Vec::new()) }
+    }
+
+    /// The value whose key `matches`, or a new one.
+    pub(crate) fn get(&self, matches: impl Fn(&K) -> bool, make: impl FnOnce() -> (K, V)) -> Arc<V> {
+        if let Some(value) = self.find(matches) {
+            return value;
+        }
+        // Made without the lock: another thread may make the same meanwhile, which is a waste and no more.
+        let (key, value) = make();
+        let value = Arc::new(value);
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if entries.len() >= KEPT {
+            entries.remove(0);
+        }
+        entries.push((key, Arc::clone(&value)));
+        value
+    }
+
+    fn find(&self, matches: impl Fn(&K) -> bool) -> Option<Arc<V>> {
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = entries.iter().rposition(|(key, _)| matches(key))?;
+        let entry = entries.remove(found);
+        let value = Arc::clone(&entry.1);
+        entries.push(entry);
+        Some(value)
+    }
+}
