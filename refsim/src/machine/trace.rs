@@ -93,7 +93,7 @@ impl Machine {
         let Some(corners) = plan.triangles.get(triangle).filter(|_| instance < plan.instance_count) else {
             return Ok(None);
         };
-        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd));
+        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd), ComponentMask::ALL);
         let vertices = stage.run(instance, 1, &plan).vertices;
         let [a, b, c] = corners.map(|corner| vertices.get(corner).copied());
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))

@@ -1,5 +1,6 @@
 //! What was decoded stays decoded: programs as plans, kept over draws and machines for as long as they are among the last
-//! few in use. A key is compared in full, so a hit is what decoding would give again.
+//! few in use. A key is compared in full, so a hit is what decoding would give again. Rows that a worker has done with are
+//! kept for the next.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -41,5 +42,34 @@ impl<K, V> Cache<K, V> {
         let value = Arc::clone(&entry.1);
         entries.push(entry);
         Some(value)
+    }
+}
+
+/// Things kept for later use.
+#[derive(Debug)]
+pub(crate) struct Pool<T> {
+    idle: Mutex<Vec<T>>,
+}
+
+impl<T> Default for Pool<T> {
+    fn default() -> Self {
+        Self { idle: Mutex::default() }
+    }
+}
+
+impl<T> Pool<T> {
+    /// One that is `fit`, if there is one.
+    pub(crate) fn take(&self, fit: impl Fn(&T) -> bool) -> Option<T> {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = idle.iter().rposition(fit)?;
+        Some(idle.swap_remove(found))
+    }
+
+    /// Keeps one, unless there are enough.
+    pub(crate) fn keep(&self, item: T) {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        if idle.len() < KEPT {
+            idle.push(item);
+        }
     }
 }

@@ -78,6 +78,11 @@ impl Shader {
         }
     }
 
+    /// The vector instructions in use.
+    pub(crate) fn simd(&self) -> SimdLevel {
+        self.simd
+    }
+
     /// Goes to a tile. Nothing that belongs to another tile, or to other surfaces, is used again.
     pub(crate) fn start(&mut self, region: Region) {
         self.origin = (region.x & !15, region.y & !15);

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::arith::Formats;
-use super::cache::Cache;
+use super::cache::{Cache, Pool};
 use super::fetch::BatchTexture;
 use super::flow::FlowPlan;
 use super::flow_run::FlowRun;
@@ -42,9 +42,15 @@ pub struct BatchTiles<'a> {
     constants: Vec<[u32; 4]>,
     output: Output,
     inputs: ComponentMask,
-    program: Arc<PixelCode>,
-    /// Workers' rows that are not in use, by the constant components of their plan.
-    shaders: Mutex<Vec<(u64, Shader)>>,
+    program: Arc<Decoded>,
+}
+
+/// A decoded program, and workers' rows that are not in use, by the constant components of their plan.
+#[derive(Debug)]
+struct Decoded {
+    code: PixelCode,
+    shaders: Pool<(u64, Shader)>,
+    uniforms: Pool<(u64, Slots)>,
 }
 
 #[derive(Debug)]
@@ -101,7 +107,6 @@ impl<'a> BatchTiles<'a> {
             inputs: inputs_read(program),
             program: code,
             formats,
-            shaders: Mutex::default(),
         })
     }
 
@@ -129,10 +134,10 @@ impl<'a> BatchTiles<'a> {
     /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, a triangle a lane.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> Round<'s> {
         let constant = surfaces.all_constant() & self.inputs.0;
-        let (code, given) = match &*self.program {
+        let (code, given) = match &self.program.code {
             PixelCode::Straight(program, plans) => {
                 let plan = plan(program, plans, constant);
-                let given = self.uniforms(&plan.uniform, surfaces);
+                let given = self.uniforms(constant, &plan.uniform, surfaces);
                 (RoundCode::Straight(program, plan), given)
             }
             PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new()),
@@ -147,22 +152,31 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Computes what is constant over each triangle: for each root of the block a value by triangle.
-    fn uniforms(&self, block: &Block, surfaces: &Surfaces) -> Vec<Vec<u32>> {
+    fn uniforms(&self, constant: u64, block: &Block, surfaces: &Surfaces) -> Vec<Vec<u32>> {
         if block.roots.is_empty() {
             return Vec::new();
         }
-        let single = self.formats.lane(Arith::Single);
+        let idle = &self.program.uniforms;
         let groups = surfaces.triangles.par_chunks(LANES).map(|group| {
-            let mut slots = Slots::new(block.slots);
-            fill_constants(block, &mut slots);
+            let mut slots = idle.take(|known| known.0 == constant).map_or_else(
+                || {
+                    let mut slots = Slots::new(block.slots);
+                    fill_constants(block, &mut slots);
+                    slots
+                },
+                |known| known.1,
+            );
             for &(component, slot) in &block.inputs {
                 let Some(row) = surfaces.row(component) else { continue };
                 for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
-                    *value = single.decode(row.base[triangle.planes as usize]);
+                    // A pattern is the number's host bits: single precision is the host's own.
+                    *value = row.base[triangle.planes as usize];
                 }
             }
             run_steps(&block.steps, &self.around(), &[0; LANES], &mut slots);
-            block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>()
+            let values = block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>();
+            idle.keep((constant, slots));
+            values
         });
         let groups: Vec<_> = groups.collect();
         let whole = |root: usize| groups.iter().flat_map(|group| group[root].iter().copied()).collect();
@@ -235,16 +249,16 @@ impl<'a> BatchTiles<'a> {
             self.output.test(shaded, depth, &mut survivors, counts);
             merge(shaded, &mut survivors, counts);
         }
-        self.shaders.lock().unwrap_or_else(PoisonError::into_inner).push((round.constant, shader));
+        self.program.shaders.keep((round.constant, shader));
     }
 
     /// Rows for a plan, used before or new.
     fn shader(&self, round: &Round<'_>) -> Shader {
-        let mut idle = self.shaders.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(i) = idle.iter().position(|(constant, _)| *constant == round.constant) {
-            return idle.swap_remove(i).1;
+        let fit =
+            |(constant, shader): &(u64, Shader)| *constant == round.constant && shader.simd() == self.formats.simd();
+        if let Some((_, shader)) = self.program.shaders.take(fit) {
+            return shader;
         }
-        drop(idle);
         match &round.code {
             RoundCode::Flow(plan) => {
                 let mut shader = Shader::new(plan.slots(), self.formats.simd());
@@ -310,10 +324,10 @@ struct Key {
     bump: [BumpStage; BUMP_STAGES],
 }
 
-static DECODED: Cache<Key, PixelCode> = Cache::new();
+static DECODED: Cache<Key, Decoded> = Cache::new();
 
 /// A pixel program, decoded now or before.
-fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants: &ResolvedConstants) -> Arc<PixelCode> {
+fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants: &ResolvedConstants) -> Arc<Decoded> {
     let (rules, bindings) = (draw.rules, &draw.bindings);
     let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
     let matches = |key: &Key| {
@@ -330,7 +344,8 @@ fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants:
         } else {
             PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
         };
-        (Key { program, rules: rules.clone(), constants, samplers, bump: bindings.bump }, code)
+        let key = Key { program, rules: rules.clone(), constants, samplers, bump: bindings.bump };
+        (key, Decoded { code, shaders: Pool::default(), uniforms: Pool::default() })
     })
 }
 

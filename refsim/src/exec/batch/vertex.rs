@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::arith::Formats;
-use super::cache::Cache;
+use super::cache::{Cache, Pool};
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, first_lanes};
 use super::graph::{Arith, Node};
@@ -78,7 +78,14 @@ pub struct BatchVertices {
     constants: Vec<[u32; 4]>,
     /// The components that are made, after the position's four.
     components: Vec<usize>,
-    code: Arc<VertexCode>,
+    code: Arc<Decoded>,
+}
+
+/// A decoded program, and rows that are not in use.
+#[derive(Debug)]
+struct Decoded {
+    code: VertexCode,
+    slots: Pool<Slots>,
 }
 
 /// A program with flow control or without.
@@ -98,7 +105,7 @@ struct Key {
     needed: ComponentMask,
 }
 
-static DECODED: Cache<Key, VertexCode> = Cache::new();
+static DECODED: Cache<Key, Decoded> = Cache::new();
 
 impl BatchVertices {
     /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if
@@ -117,7 +124,7 @@ impl BatchVertices {
             } else {
                 straight(&program, &rules, &formats, &constants, &components)
             };
-            (Key { program, rules, constants, needed }, code)
+            (Key { program, rules, constants, needed }, Decoded { code, slots: Pool::default() })
         });
         Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
@@ -133,10 +140,12 @@ impl BatchVertices {
     pub fn run(&self, total: usize, attributes: &AttributeRows<'_>) -> VertexRows {
         let parts: Vec<_> = (0..total.div_ceil(LANES))
             .into_par_iter()
-            .map_init(
-                || self.slots(),
-                |slots, i| self.group(i * LANES, (total - i * LANES).min(LANES), attributes, slots),
-            )
+            .map(|i| {
+                let mut slots = self.code.slots.take(|_| true).unwrap_or_else(|| self.slots());
+                let values = self.group(i * LANES, (total - i * LANES).min(LANES), attributes, &mut slots);
+                self.code.slots.keep(slots);
+                values
+            })
             .collect();
         let mut out = VertexRows::new();
         for (values, executed) in parts {
@@ -153,7 +162,7 @@ impl BatchVertices {
     }
 
     fn slots(&self) -> Slots {
-        match &*self.code {
+        match &self.code.code {
             VertexCode::Straight(block, _) => {
                 let mut slots = Slots::new(block.slots);
                 fill_constants(block, &mut slots);
@@ -175,7 +184,7 @@ impl BatchVertices {
         attributes: &AttributeRows<'_>,
         slots: &mut Slots,
     ) -> (Vec<Vec<u32>>, u64) {
-        let inputs = match &*self.code {
+        let inputs = match &self.code.code {
             VertexCode::Straight(block, _) => &block.inputs,
             VertexCode::Flow(plan) => plan.inputs(),
         };
@@ -186,7 +195,7 @@ impl BatchVertices {
         }
         let around = Surroundings { formats: &self.formats, textures: &[], constants: &self.constants };
         let lanes = first_lanes(count);
-        match &*self.code {
+        match &self.code.code {
             VertexCode::Straight(block, cost) => {
                 run_steps(&block.steps, &around, &lanes, slots);
                 let values = block.roots.iter().map(|&root| canonical(&slots.row(root)[..count]));
