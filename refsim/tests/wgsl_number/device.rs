@@ -12,7 +12,7 @@ use crate::reference::reference;
 /// Operands of single precision for steps, whatever the format.
 const SINGLE: Format = Format::FP32;
 
-fn text(entry: &str) -> String {
+pub(crate) fn text(entry: &str) -> String {
     library(NumberMode::Integer, NativeOperations::empty()) + entry
 }
 

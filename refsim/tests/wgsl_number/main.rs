@@ -3,6 +3,8 @@
 #[cfg(feature = "wgpu")]
 mod device;
 #[cfg(feature = "wgpu")]
+mod functions;
+#[cfg(feature = "wgpu")]
 mod native;
 #[cfg(feature = "wgpu")]
 mod operands;
