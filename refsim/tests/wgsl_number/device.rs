@@ -102,7 +102,7 @@ fn random_item(words: &mut Words, formats: &[Format], all: &[Vec<u32>], operatio
         *operand = pattern(words, &formats[of], &all[of]);
     }
     match operation {
-        Operation::Scale => operands[1] = (words.below(15) as i32 - 7).cast_unsigned(),
+        Operation::Scale => operands[1] = words.around(7).cast_unsigned(),
         Operation::Steps => {
             operands[0] = pattern(words, &SINGLE, &edges(&SINGLE));
             if words.below(2) == 0 {

@@ -56,10 +56,10 @@ impl Call {
                 operands[1] = if words.below(2) == 0 { 0 } else { high };
                 // With more to follow, the unit must be small enough to tell.
                 operands[2] = words.below(2) as u32;
-                operands[3] = (words.below(300) as i32 - 200).cast_unsigned();
+                operands[3] = (words.around(150) - 50).cast_unsigned();
             }
             8 => operands[2] = words.below(4) as u32,
-            9 => operands[1] = (words.below(60) as i32 - 30).cast_unsigned(),
+            9 => operands[1] = words.around(30).cast_unsigned(),
             _ => {}
         }
         Call { function, formats: places, operands }

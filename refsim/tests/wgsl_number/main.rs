@@ -1,5 +1,10 @@
 //! The arithmetic library in WGSL: valid text, and on an adapter the reference's bits.
 
+#![cfg_attr(
+    feature = "wgpu",
+    expect(clippy::print_stdout, reason = "says what was tried, and that there is no adapter")
+)]
+
 #[cfg(feature = "wgpu")]
 mod device;
 #[cfg(feature = "wgpu")]

@@ -17,6 +17,11 @@ impl Words {
     pub(crate) fn below(&mut self, n: usize) -> usize {
         self.next() as usize % n
     }
+
+    /// An integer within `-reach..=reach`.
+    pub(crate) fn around(&mut self, reach: u32) -> i32 {
+        (self.next() % (2 * reach + 1)).cast_signed() - reach.cast_signed()
+    }
 }
 
 /// Patterns where something changes: zeros, ends, ones, halves, infinities, NaN, and their neighbours.

@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use super::number::{NativeOperations, Operation};
-use crate::num::{Format, Rounding, from_ratio, ops};
+use crate::num::{Flags, Format, Rounding, from_ratio, ops};
 
 const FP32: Format = Format::FP32;
 /// Neighbours below and above an exact result.
@@ -218,9 +218,9 @@ fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
             if operands[0] >> 31 == 1 {
                 return None;
             }
-            let low = order(ops::rsq(&BELOW, operands[0]).bits);
-            let exact = order(ops::rsq(&FP32.with_rounding(Rounding::NearestEven), operands[0]).bits);
-            let inverse = widened((low, low.max(exact).max(low + i64::from(exact == low))), 2, false);
+            let below = ops::rsq(BELOW, operands[0]);
+            let low = order(below.bits);
+            let inverse = widened((low, low + i64::from(below.flags.contains(Flags::INEXACT))), 2, false);
             let reciprocal = |place| widened(neighbours(SingleOperation::Rcp, [at(place), 0, 0]), 2, true);
             Some((reciprocal(inverse.1).0, reciprocal(inverse.0).1))
         }
