@@ -32,3 +32,8 @@ pub(crate) fn validate(text: &str) -> Result<(), String> {
     let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
     validator.validate(&module).map(|_| ()).map_err(|e| e.emit_to_string(text))
 }
+
+/// A pixel module that reads textures.
+pub(crate) fn textured(mode: NumberMode, shade: &str) -> String {
+    pixel(mode, shade).replace(BLANK, &refsim::exec::wgsl::texture::library())
+}

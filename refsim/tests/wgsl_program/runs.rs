@@ -9,10 +9,12 @@ use refsim::exec::scalar::{PixelProgram, VertexProgram};
 use refsim::exec::wgsl::NumberMode;
 use refsim::exec::wgsl::number::{NativeOperations, format_words};
 use refsim::exec::wgsl::program::{self, ATTRIBUTE_WORDS, PixelShader, VERTEX_WORDS, VertexShader};
-use refsim::exec::{CheckedProgram, Constants, PixelBindings, Step, Trace};
+use refsim::exec::wgsl::texture::{image_words, sampler_words};
+use refsim::exec::{CheckedProgram, Constants, PixelBindings, SamplerBinding, Step, Trace, sample_rules};
 use refsim::isa::{RegisterFile, Version};
 use refsim::num::{Flags, Format, Overflow, ops};
 use refsim::raster::FragmentInput;
+use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 use std::sync::Arc;
 
 /// Quads of one run: a workgroup.
@@ -148,12 +150,28 @@ impl Runner {
     }
 
     fn run(&self, rules: &Rules, inputs: &[u32], code: &[u32], slots: usize, trace: u32) -> (Vec<u32>, Vec<u32>) {
+        self.run_with(rules, inputs, code, slots, trace, (&[0], &[]))
+    }
+
+    /// With words of samplers, and of what follows the results in `video`.
+    fn run_with(
+        &self,
+        rules: &Rules,
+        inputs: &[u32],
+        code: &[u32],
+        slots: usize,
+        trace: u32,
+        (samplers, texels): (&[u32], &[u32]),
+    ) -> (Vec<u32>, Vec<u32>) {
         let of = |words: &[u32]| done(self.gpu.buffer_of(words));
         let mut draw = formats(rules);
         draw.push(trace);
         let zeros = |words: usize| done(self.gpu.buffer(words));
-        let (results, traced) = (zeros(QUADS * RESULT_WORDS), zeros(1 << 16));
-        let buffers = [of(&draw), of(inputs), of(&[0]), of(&[0]), results, of(code), zeros(slots * QUADS * 4), traced];
+        let mut video = vec![0; QUADS * RESULT_WORDS];
+        video.extend_from_slice(texels);
+        let (results, traced) = (of(&video), zeros(1 << 16));
+        let buffers =
+            [of(&draw), of(inputs), of(&[0]), of(samplers), results, of(code), zeros(slots * QUADS * 4), traced];
         let all: Vec<&Buffer> = buffers.iter().collect();
         done(self.gpu.dispatch(&self.pipeline, &all, [1, 1, 1]));
         let results = done(self.gpu.read(&buffers[4], 0..QUADS * RESULT_WORDS));
@@ -360,4 +378,61 @@ fn written(mut step: Step, checked: &CheckedProgram, rules: &Rules) -> Step {
         }
     }
     step
+}
+
+/// A small texture of random bytes, with all its levels, filtered every way there is.
+fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
+    let extents = if kind == TextureKind::Volume { [5, 3, 2] } else { [8, 8, 1] };
+    let levels = if kind == TextureKind::Volume { 3 } else { 4 };
+    let format = r.choose(&[TexelFormat::ALL[0], TexelFormat::ALL[1], TexelFormat::ALL[2], TexelFormat::ALL[3]]);
+    let mut image = Image::new(format, kind, extents, levels).unwrap_or_else(|e| panic!("{e}"));
+    image.bytes_mut().fill_with(|| r.next() as u8);
+    let filter = [Filter::Nearest, Filter::Linear];
+    let mode = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
+    let state = SamplerState {
+        min: r.choose(&filter),
+        mag: r.choose(&filter),
+        mip: r.choose(&[MipFilter::None, MipFilter::Nearest, MipFilter::Linear]),
+        address_u: r.choose(&mode),
+        address_v: r.choose(&mode),
+        ..SamplerState::NEAREST_CLAMP
+    };
+    (image, state)
+}
+
+#[test]
+fn the_machine_reads_textures() {
+    let Some(gpu) = gpu() else { return };
+    let start = std::time::Instant::now();
+    let runner = Runner::of_module(&gpu, modules::textured(NumberMode::Integer, program::machine()));
+    println!("with textures it is compiled in {:?}", start.elapsed());
+    let mut reads = 0;
+    for seed in seeds(70) {
+        let (profile, text, checked, mut r) = random_case(seed ^ 0x7e71, 2);
+        let kinds = [TextureKind::D2, TextureKind::Cube, TextureKind::D2, TextureKind::Volume];
+        let textures = kinds.map(|kind| random_texture(kind, &mut r));
+        let constants = random_constants(&mut r, 32);
+        let mut bindings = PixelBindings::new(&constants);
+        for (sampler, (image, state)) in bindings.samplers.iter_mut().zip(&textures) {
+            *sampler = Some(SamplerBinding { image, state: *state });
+        }
+        let rules = sample_rules(&profile.rules);
+        let (mut samplers, mut texels) = (Vec::new(), Vec::new());
+        for binding in &bindings.samplers {
+            let first = QUADS * RESULT_WORDS + texels.len();
+            samplers.extend(sampler_words(binding.as_ref(), &rules, first as u32));
+            texels.extend(binding.iter().flat_map(|b| image_words(b.image)));
+        }
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let quads = Quads::random(&mut r);
+        let wanted = expected(&checked, &profile.rules, &bindings, &quads);
+        let words = quads.words();
+        let (found, _) = runner.run_with(&profile.rules, &words, &code.words, code.slots, 0, (&samplers, &texels));
+        if let Some(difference) = difference(&comparable(found, &profile.rules), &wanted) {
+            panic!("seed {seed}, {}:\n{text}\n{difference}", profile.name);
+        }
+        reads += wanted.chunks(RESULT_WORDS).map(|quad| quad[76..92].iter().sum::<u32>()).sum::<u32>();
+    }
+    assert!(reads > 0, "some programs read textures");
 }

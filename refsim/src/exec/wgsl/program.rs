@@ -8,6 +8,8 @@
 
 mod lower;
 mod microcode;
+mod microcode_flow;
+mod operations;
 mod text;
 mod trace;
 

@@ -1,13 +1,13 @@
 //! Programs as words for the machine of `vm.wgsl`, which says what they mean.
 
 use super::ProgramError;
-use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Step, Use};
+use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Use};
+use super::operations as op;
 use crate::exec::batch::arith::Formats;
 use crate::exec::batch::graph::{Arith, Detail, Graph, Kind, Node};
 use crate::exec::batch::ops::Code;
 use crate::exec::batch::slots::Slot;
 use crate::exec::wgsl::number::{Operation, source_word};
-use crate::isa::Opcode;
 use std::collections::BTreeMap;
 
 /// Operands from here on are constants, then input components.
@@ -16,43 +16,7 @@ const FIRST_INPUT: u16 = 0xff00;
 /// Words before the first instruction.
 const HEADER: usize = 8;
 /// No operand.
-const NONE: u16 = 0xffff;
-/// Passes of a loop at most, as in the other executors.
-const LOOP_LIMIT: i32 = 255;
-
-/// Operations of the machine; below 32 `vm.wgsl: shade`, the others `vm_flow`.
-mod op {
-    pub(super) const END: u32 = 0;
-    pub(super) const ALU: u32 = 1;
-    pub(super) const BITWISE: u32 = 2;
-    pub(super) const DOT: u32 = 3;
-    pub(super) const RELATIVE: u32 = 6;
-    pub(super) const FETCH: u32 = 7;
-    pub(super) const COLOR: u32 = 8;
-    pub(super) const KILLED: u32 = 9;
-    pub(super) const DEPTH: u32 = 10;
-    pub(super) const FETCHED: u32 = 11;
-    pub(super) const STEP: u32 = 12;
-    pub(super) const ZERO: u32 = 13;
-    pub(super) const TRACE: u32 = 14;
-    pub(super) const OUTPUT: u32 = 15;
-    pub(super) const IF: u32 = 32;
-    pub(super) const ELSE: u32 = 33;
-    pub(super) const END_IF: u32 = 34;
-    pub(super) const LOOP: u32 = 35;
-    pub(super) const END_LOOP: u32 = 36;
-    pub(super) const BREAK: u32 = 37;
-    pub(super) const CALL: u32 = 38;
-    pub(super) const RET: u32 = 39;
-    pub(super) const LABEL: u32 = 40;
-    /// Variants of `BITWISE`.
-    pub(super) const COPY: u32 = 0;
-    pub(super) const AND: u32 = 1;
-    pub(super) const OR: u32 = 2;
-    pub(super) const AND_NOT: u32 = 3;
-    pub(super) const SELECT: u32 = 4;
-}
-
+pub(super) const NONE: u16 = 0xffff;
 /// A program for the machine of `vm.wgsl`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Microcode {
@@ -97,17 +61,17 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
             maker.steps(steps);
             maker.words[1] = maker.words.len() as u32;
             maker.block(end);
-            frames = 2 * deepest(steps);
+            frames = 2 * super::microcode_flow::deepest(steps);
         }
     }
     maker.words.push(op::END);
     maker.finish(frames, &program.table)
 }
 
-struct Assembler<'g> {
+pub(super) struct Assembler<'g> {
     graph: &'g Graph,
     formats: &'g Formats,
-    words: Vec<u32>,
+    pub(super) words: Vec<u32>,
     /// Constants and their numbers.
     pool: BTreeMap<u32, usize>,
     /// The first slot that holds no register.
@@ -117,7 +81,7 @@ struct Assembler<'g> {
 }
 
 /// The values of one block on their way through slots.
-struct Places {
+pub(super) struct Places {
     at: BTreeMap<Node, u16>,
     /// Reads still to come.
     left: BTreeMap<Node, u32>,
@@ -134,7 +98,7 @@ impl Places {
         })
     }
 
-    fn of(&self, node: Node) -> u16 {
+    pub(super) fn of(&self, node: Node) -> u16 {
         self.at.get(&node).copied().unwrap_or(NONE)
     }
 }
@@ -168,7 +132,7 @@ impl Assembler<'_> {
     }
 
     /// Computes what the sinks need and gives it to them, each as soon as it has everything.
-    fn block(&mut self, sinks: &[Sink]) -> Places {
+    pub(super) fn block(&mut self, sinks: &[Sink]) -> Places {
         let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
         let needed: Vec<Node> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| Node(i)).collect();
         let next = usize::from(self.first);
@@ -414,85 +378,6 @@ impl Assembler<'_> {
             }
         }
     }
-
-    fn steps(&mut self, steps: &[Step]) {
-        let (mut starts, mut jumps) = (Vec::with_capacity(steps.len()), Vec::new());
-        for (at, step) in steps.iter().enumerate() {
-            starts.push(self.words.len() as u32);
-            let sampler = step.sampler.map_or(u32::from(NONE), |s| s as u32);
-            let enter = self.words.len();
-            self.words.extend([op::STEP, 0, step.cost.min(0xffff) | sampler << 16]);
-            let places = self.block(&step.sinks);
-            let condition = match step.sinks.first() {
-                Some(Sink { what: Use::Condition, nodes }) => places.of(nodes[0]),
-                _ => ACTIVE_SLOT,
-            };
-            if let Some((jump, to)) = self.flow(step, at, steps.len(), condition) {
-                jumps.push((jump, to));
-                self.words[enter + 1] = enter as u32 + 3;
-            } else if is_flow(step.opcode) {
-                self.words[enter + 1] = enter as u32 + 3;
-            } else {
-                self.words[enter + 1] = self.words.len() as u32;
-            }
-        }
-        starts.push(self.words.len() as u32);
-        self.words.extend([op::LABEL, 0, 0]);
-        for (word, to) in jumps {
-            self.words[word] = starts[to.min(steps.len())];
-        }
-    }
-
-    /// The flow control of an instruction; the word that holds its target, and the instruction that that is.
-    fn flow(&mut self, step: &Step, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
-        let target_word = self.words.len() + 1;
-        let mut emit = |op: u32| self.words.extend([op, 0, condition.into()]);
-        match step.opcode {
-            Opcode::If | Opcode::IfC => emit(op::IF),
-            Opcode::Else => emit(op::ELSE),
-            Opcode::EndIf => {
-                emit(op::END_IF);
-                return None;
-            }
-            Opcode::Rep | Opcode::Loop => {
-                let counted = step.opcode == Opcode::Loop;
-                let [passes, start, grows, _] = step.counter;
-                let grows = if counted { grows } else { 0 };
-                let passes = passes.clamp(0, LOOP_LIMIT).cast_unsigned();
-                let words = [op::LOOP, 0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()];
-                self.words.extend(words);
-                return Some((target_word, step.target + 1));
-            }
-            Opcode::EndRep | Opcode::EndLoop => {
-                emit(op::END_LOOP);
-                return Some((target_word, step.target + 1));
-            }
-            Opcode::Break | Opcode::BreakC | Opcode::BreakP => {
-                emit(op::BREAK);
-                return None;
-            }
-            Opcode::Call | Opcode::CallNz => {
-                emit(op::CALL);
-                // A call that leads back, or nowhere, is passed over.
-                let forward = step.target > at && step.target < count;
-                return forward.then_some((target_word, step.target + 1));
-            }
-            Opcode::Ret => {
-                emit(op::RET);
-                return None;
-            }
-            Opcode::Label => {
-                emit(op::LABEL);
-                return None;
-            }
-            _ => return None,
-        }
-        Some((target_word, step.target))
-    }
-}
-
-fn is_flow(opcode: Opcode) -> bool {
-    opcode.info().class == crate::isa::OpcodeClass::Flow
 }
 
 fn pair(low: u16, high: u16) -> u32 {
@@ -529,33 +414,4 @@ pub(super) fn operation(code: Code) -> Option<Operation> {
         Code::AddressNearest => Operation::AddressNearest,
         _ => return None,
     })
-}
-
-/// How many blocks and calls can be open at a time.
-fn deepest(steps: &[Step]) -> usize {
-    // Calls lead forward: a subroutine's own need is known before that of its callers.
-    let mut needs = vec![0; steps.len() + 1];
-    let mut most = 0;
-    for start in (0..=steps.len()).rev() {
-        let begins = start == 0 || matches!(steps.get(start - 1), Some(s) if s.opcode == Opcode::Label);
-        if !begins {
-            continue;
-        }
-        let (mut open, mut need) = (0usize, 0usize);
-        for (at, step) in steps.iter().enumerate().skip(start) {
-            match step.opcode {
-                Opcode::Label => break,
-                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => open += 1,
-                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => open = open.saturating_sub(1),
-                Opcode::Call | Opcode::CallNz if step.target > at && step.target < steps.len() => {
-                    need = need.max(open + 1 + needs[step.target + 1]);
-                }
-                _ => {}
-            }
-            need = need.max(open);
-        }
-        needs[start] = need;
-        most = most.max(need);
-    }
-    most
 }

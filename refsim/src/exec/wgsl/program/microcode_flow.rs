@@ -1,0 +1,120 @@
+//! Flow control in the words of the machine.
+
+use super::lower::{ACTIVE_SLOT, Sink, Step, Use};
+use super::microcode::{Assembler, NONE};
+use super::operations as op;
+use crate::isa::{Opcode, OpcodeClass};
+
+/// Passes of a loop at most, as in the other executors.
+const LOOP_LIMIT: i32 = 255;
+
+impl Assembler<'_> {
+    /// The instructions one after the other, jumps resolved.
+    pub(super) fn steps(&mut self, steps: &[Step]) {
+        let (mut starts, mut jumps) = (Vec::with_capacity(steps.len()), Vec::new());
+        for (at, step) in steps.iter().enumerate() {
+            starts.push(self.words.len() as u32);
+            let sampler = step.sampler.map_or(u32::from(NONE), |s| s as u32);
+            let enter = self.words.len();
+            self.words.extend([op::STEP, 0, step.cost.min(0xffff) | sampler << 16]);
+            let places = self.block(&step.sinks);
+            let condition = match step.sinks.first() {
+                Some(Sink { what: Use::Condition, nodes }) => places.of(nodes[0]),
+                _ => ACTIVE_SLOT,
+            };
+            if let Some((jump, to)) = self.flow(step, at, steps.len(), condition) {
+                jumps.push((jump, to));
+                self.words[enter + 1] = enter as u32 + 3;
+            } else if is_flow(step.opcode) {
+                self.words[enter + 1] = enter as u32 + 3;
+            } else {
+                self.words[enter + 1] = self.words.len() as u32;
+            }
+        }
+        starts.push(self.words.len() as u32);
+        self.words.extend([op::LABEL, 0, 0]);
+        for (word, to) in jumps {
+            self.words[word] = starts[to.min(steps.len())];
+        }
+    }
+
+    /// The flow control of an instruction; the word that holds its target, and the instruction that that is.
+    fn flow(&mut self, step: &Step, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
+        let target_word = self.words.len() + 1;
+        let mut emit = |op: u32| self.words.extend([op, 0, condition.into()]);
+        match step.opcode {
+            Opcode::If | Opcode::IfC => emit(op::IF),
+            Opcode::Else => emit(op::ELSE),
+            Opcode::EndIf => {
+                emit(op::END_IF);
+                return None;
+            }
+            Opcode::Rep | Opcode::Loop => {
+                let counted = step.opcode == Opcode::Loop;
+                let [passes, start, grows, _] = step.counter;
+                let grows = if counted { grows } else { 0 };
+                let passes = passes.clamp(0, LOOP_LIMIT).cast_unsigned();
+                let words = [op::LOOP, 0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()];
+                self.words.extend(words);
+                return Some((target_word, step.target + 1));
+            }
+            Opcode::EndRep | Opcode::EndLoop => {
+                emit(op::END_LOOP);
+                return Some((target_word, step.target + 1));
+            }
+            Opcode::Break | Opcode::BreakC | Opcode::BreakP => {
+                emit(op::BREAK);
+                return None;
+            }
+            Opcode::Call | Opcode::CallNz => {
+                emit(op::CALL);
+                // A call that leads back, or nowhere, is passed over.
+                let forward = step.target > at && step.target < count;
+                return forward.then_some((target_word, step.target + 1));
+            }
+            Opcode::Ret => {
+                emit(op::RET);
+                return None;
+            }
+            Opcode::Label => {
+                emit(op::LABEL);
+                return None;
+            }
+            _ => return None,
+        }
+        Some((target_word, step.target))
+    }
+}
+
+fn is_flow(opcode: Opcode) -> bool {
+    opcode.info().class == OpcodeClass::Flow
+}
+
+/// How many blocks and calls can be open at a time.
+pub(super) fn deepest(steps: &[Step]) -> usize {
+    // Calls lead forward: a subroutine's own need is known before that of its callers.
+    let mut needs = vec![0; steps.len() + 1];
+    let mut most = 0;
+    for start in (0..=steps.len()).rev() {
+        let begins = start == 0 || matches!(steps.get(start - 1), Some(s) if s.opcode == Opcode::Label);
+        if !begins {
+            continue;
+        }
+        let (mut open, mut need) = (0usize, 0usize);
+        for (at, step) in steps.iter().enumerate().skip(start) {
+            match step.opcode {
+                Opcode::Label => break,
+                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => open += 1,
+                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => open = open.saturating_sub(1),
+                Opcode::Call | Opcode::CallNz if step.target > at && step.target < steps.len() => {
+                    need = need.max(open + 1 + needs[step.target + 1]);
+                }
+                _ => {}
+            }
+            need = need.max(open);
+        }
+        needs[start] = need;
+        most = most.max(need);
+    }
+    most
+}
