@@ -39,13 +39,8 @@ pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
         ExecutorKind::Batch => (256, 3 * 65_536),
         ExecutorKind::Scalar => (32, 3 * 1024),
     };
-    let of = |name, pixel: &str, geometry| Scene {
-        name,
-        side,
-        pixel: program(pixel),
-        geometry,
-        counts_vertices: false,
-    };
+    let of =
+        |name, pixel: &str, geometry| Scene { name, side, pixel: program(pixel), geometry, counts_vertices: false };
     vec![
         of("texture reads: 8 dependent", &dependent_reads(), Geometry::Triangles(screen())),
         of("1024 instructions", &long_program(), Geometry::Triangles(screen())),
@@ -81,7 +76,8 @@ fn dependent_reads() -> String {
 
 /// 1024 of them, each needing the one before.
 fn long_program() -> String {
-    let mut text = "ps_2_a\ndef c0, 0.5, -0.25, 0.125, 0.75\ndef c1, 0.25, 1, -0.5, 0.125\ndcl t0\nmov r1, t0\n".to_owned();
+    let mut text =
+        "ps_2_a\ndef c0, 0.5, -0.25, 0.125, 0.75\ndef c1, 0.25, 1, -0.5, 0.125\ndcl t0\nmov r1, t0\n".to_owned();
     for i in 0..1022 {
         let (to, from) = (i % 2, (i + 1) % 2);
         let _: Result<(), std::fmt::Error> = writeln!(text, "mad r{to}, r{from}, c0, c1");

@@ -18,9 +18,7 @@ pub(crate) fn run(criterion: &mut Criterion, mesh: &Mesh, rays: &RayBatch) {
         let triangles: Vec<[_; 3]> = corners.iter().map(|c| c.map(Into::into)).collect();
         let rays: Vec<bvh::ray::Ray<f32, 3>> =
             rays.iter().map(|[o, d]| bvh::ray::Ray::new((*o).into(), (*d).into())).collect();
-        b.iter(|| {
-            hits(&rays, &triangles, |ray, [a, b, c]| ray.intersects_triangle(a, b, c).distance < f32::INFINITY)
-        });
+        b.iter(|| hits(&rays, &triangles, |ray, [a, b, c]| ray.intersects_triangle(a, b, c).distance < f32::INFINITY));
     });
     group.bench_function(BenchmarkId::new("256 rays x 256 triangles fp32", "crate obvhs"), |b| {
         let triangles: Vec<obvhs::triangle::Triangle> = corners

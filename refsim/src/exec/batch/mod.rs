@@ -6,7 +6,7 @@
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
 //!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
 //!   reads, and with what only one operation reads as part of that.
-//! - `ops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
+//! - `ops`, `loops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
 //! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
 //! - `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in; `cache`: what was decoded.
@@ -28,6 +28,7 @@ pub(in crate::exec) mod graph;
 mod ieee;
 mod lane;
 mod lanes;
+mod loops;
 mod macros;
 mod odd;
 pub(in crate::exec) mod ops;

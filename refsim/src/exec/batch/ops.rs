@@ -2,8 +2,11 @@
 
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
+use super::loops::{
+    address, bitwise, compare, difference, dot, dot_by, narrow, one, or_less, select, three, two, widen,
+};
 use super::simd::SimdLevel;
-use super::slots::{Row, Slot, Slots, TRUE};
+use super::slots::{Row, Slot, Slots};
 
 /// What an operation computes from up to three rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -95,201 +98,22 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
         match op.code {
-            Code::Dot(2) => dot::<L, 2>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.exact_dot(a, b),
-            ),
-            Code::Dot(3) => dot::<L, 3>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.exact_dot(a, b),
-            ),
-            Code::Dot(_) => dot::<L, 4>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.exact_dot(a, b),
-            ),
-            Code::Sum(2) => dot::<L, 2>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            Code::Sum(3) => dot::<L, 3>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            Code::Sum(_) => dot::<L, 4>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
+            Code::Dot(2) => dot::<L, 2>(op, slots, |a, b| lane.exact_dot(a, b)),
+            Code::Dot(3) => dot::<L, 3>(op, slots, |a, b| lane.exact_dot(a, b)),
+            Code::Dot(_) => dot::<L, 4>(op, slots, |a, b| lane.exact_dot(a, b)),
+            Code::Sum(2) => dot::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
+            Code::Sum(3) => dot::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
+            Code::Sum(_) => dot::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
             Code::Difference => {
-                dot::<L, 2>(
-                    op,
-                    slots,
-                    #[inline(always)]
-                    |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
-                );
+                dot::<L, 2>(op, slots, |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))));
             }
-            Code::SumBy(1) => dot_by::<L, 1>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            Code::SumBy(2) => dot_by::<L, 2>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            Code::SumBy(3) => dot_by::<L, 3>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            Code::SumBy(_) => dot_by::<L, 4>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
+            Code::SumBy(1) => dot_by::<L, 1>(op, slots, |a, b| lane.sum(a, b)),
+            Code::SumBy(2) => dot_by::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
+            Code::SumBy(3) => dot_by::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
+            Code::SumBy(_) => dot_by::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
             _ => step(lane, op, slots),
         }
     }
-}
-
-/// A function of pairs of rows.
-#[inline(always)]
-fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
-    let Slots { rows, scratch, .. } = slots;
-    let a: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k])]);
-    let b: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
-    pairs::<L, N>(a, b, scratch, f);
-    slots.commit(op.to);
-}
-
-#[inline(always)]
-fn pairs<L: Lane, const N: usize>(a: [&Row; N], b: [&Row; N], out: &mut Row, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
-    for i in 0..LANES {
-        let (mut x, mut y) = ([L::load(0); N], [L::load(0); N]);
-        for k in 0..N {
-            (x[k], y[k]) = (L::load(a[k][i]), L::load(b[k][i]));
-        }
-        out[i] = L::store(f(x, y));
-    }
-}
-
-/// A function of pairs of a value that is the same in all lanes and a row.
-#[inline(always)]
-fn dot_by<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
-    let Slots { rows, scratch, values, .. } = slots;
-    let a: [L::T; N] = std::array::from_fn(|k| L::load(values[usize::from(op.args[2 * k])]));
-    let b: [&Row; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
-    pairs_by::<L, N>(a, b, scratch, f);
-    slots.commit(op.to);
-}
-
-#[inline(always)]
-fn pairs_by<L: Lane, const N: usize>(
-    a: [L::T; N],
-    b: [&Row; N],
-    out: &mut Row,
-    f: impl Fn([L::T; N], [L::T; N]) -> L::T,
-) {
-    for i in 0..LANES {
-        let mut y = [L::load(0); N];
-        for k in 0..N {
-            y[k] = L::load(b[k][i]);
-        }
-        out[i] = L::store(f(a, y));
-    }
-}
-
-#[inline(always)]
-fn one<L: Lane>(a: &Row, out: &mut Row, f: impl Fn(L::T) -> L::T) {
-    for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i])));
-    }
-}
-
-#[inline(always)]
-fn two<L: Lane>(a: &Row, b: &Row, out: &mut Row, f: impl Fn(L::T, L::T) -> L::T) {
-    for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i]), L::load(b[i])));
-    }
-}
-
-#[inline(always)]
-fn three<L: Lane>(a: &Row, b: &Row, c: &Row, out: &mut Row, f: impl Fn(L::T, L::T, L::T) -> L::T) {
-    for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i]), L::load(b[i]), L::load(c[i])));
-    }
-}
-
-#[inline(always)]
-fn compare<L: Lane>(a: &Row, b: &Row, out: &mut Row, f: impl Fn(L::T, L::T) -> bool) {
-    for i in 0..LANES {
-        out[i] = if f(L::load(a[i]), L::load(b[i])) { TRUE } else { 0 };
-    }
-}
-
-#[inline(always)]
-fn or_less<L: Lane>(lane: &L, mask: &Row, a: &Row, b: &Row, out: &mut Row) {
-    for i in 0..LANES {
-        out[i] = mask[i] | if lane.lt(L::load(a[i]), L::load(b[i])) { TRUE } else { 0 };
-    }
-}
-
-#[inline(always)]
-fn bitwise(a: &Row, b: &Row, out: &mut Row, f: impl Fn(u32, u32) -> u32) {
-    for i in 0..LANES {
-        out[i] = f(a[i], b[i]);
-    }
-}
-
-#[inline(always)]
-fn select(mask: &Row, a: &Row, b: &Row, out: &mut Row) {
-    for i in 0..LANES {
-        // Masks are all zeros or all ones; a choice would become a choice of addresses.
-        out[i] = mask[i] & a[i] | !mask[i] & b[i];
-    }
-}
-
-#[inline(always)]
-fn widen<L: Lane>(lane: &L, a: &Row, out: &mut [f64; LANES]) {
-    for i in 0..LANES {
-        out[i] = lane.to_f64(L::load(a[i]));
-    }
-}
-
-#[inline(always)]
-fn narrow<L: Lane>(lane: &L, a: &[f64; LANES], out: &mut Row) {
-    for i in 0..LANES {
-        out[i] = L::store(lane.round_f64(a[i]));
-    }
-}
-
-/// Lane partners: the lower and the higher lane of a pair that differs in `bit` of its number.
-#[inline(always)]
-fn difference<L: Lane>(lane: &L, a: &Row, out: &mut Row, bit: usize) {
-    for i in 0..LANES {
-        out[i] = L::store(lane.sub(L::load(a[i | bit]), L::load(a[i & !bit])));
-    }
-}
-
-/// An integer in a double as an address; NaN gives 0.
-fn address(x: f64) -> u32 {
-    (x as i32).cast_unsigned()
 }
 
 #[inline(always)]
@@ -299,199 +123,40 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
     let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
     let uniform = L::load(values[usize::from(op.args[0])]);
     match op.code {
-        Code::Add => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.add(a, b),
-        ),
-        Code::Sub => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.sub(a, b),
-        ),
-        Code::Mul => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.mul(a, b),
-        ),
-        Code::AddTo => one::<L>(
-            b,
-            out,
-            #[inline(always)]
-            |b| l.add(uniform, b),
-        ),
-        Code::SubFrom => one::<L>(
-            b,
-            out,
-            #[inline(always)]
-            |b| l.sub(uniform, b),
-        ),
-        Code::SubOff => one::<L>(
-            b,
-            out,
-            #[inline(always)]
-            |b| l.sub(b, uniform),
-        ),
-        Code::MadBy => two::<L>(
-            b,
-            c,
-            out,
-            #[inline(always)]
-            |b, c| l.add(l.mul(uniform, b), c),
-        ),
-        Code::Div => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.div(a, b),
-        ),
-        Code::Mad => three::<L>(
-            a,
-            b,
-            c,
-            out,
-            #[inline(always)]
-            |a, b, c| l.add(l.mul(a, b), c),
-        ),
-        Code::FusedMad => three::<L>(
-            a,
-            b,
-            c,
-            out,
-            #[inline(always)]
-            |a, b, c| l.fused_mad(a, b, c),
-        ),
-        Code::Min => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.min(a, b),
-        ),
-        Code::Max => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.max(a, b),
-        ),
-        Code::Neg => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.neg(a),
-        ),
-        Code::Abs => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.abs(a),
-        ),
-        Code::Floor => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.floor(a),
-        ),
-        Code::Frc => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.frc(a),
-        ),
-        Code::Rcp => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.rcp(a),
-        ),
-        Code::Rsq => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.rsq(a),
-        ),
-        Code::Exp2 => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.exp2(a),
-        ),
-        Code::Log2 => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.log2(a),
-        ),
-        Code::Saturate => one::<L>(
-            a,
-            out,
-            #[inline(always)]
-            |a| l.saturate(a),
-        ),
+        Code::Add => two::<L>(a, b, out, |a, b| l.add(a, b)),
+        Code::Sub => two::<L>(a, b, out, |a, b| l.sub(a, b)),
+        Code::Mul => two::<L>(a, b, out, |a, b| l.mul(a, b)),
+        Code::AddTo => one::<L>(b, out, |b| l.add(uniform, b)),
+        Code::SubFrom => one::<L>(b, out, |b| l.sub(uniform, b)),
+        Code::SubOff => one::<L>(b, out, |b| l.sub(b, uniform)),
+        Code::MadBy => two::<L>(b, c, out, |b, c| l.add(l.mul(uniform, b), c)),
+        Code::Div => two::<L>(a, b, out, |a, b| l.div(a, b)),
+        Code::Mad => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
+        Code::FusedMad => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),
+        Code::Min => two::<L>(a, b, out, |a, b| l.min(a, b)),
+        Code::Max => two::<L>(a, b, out, |a, b| l.max(a, b)),
+        Code::Neg => one::<L>(a, out, |a| l.neg(a)),
+        Code::Abs => one::<L>(a, out, |a| l.abs(a)),
+        Code::Floor => one::<L>(a, out, |a| l.floor(a)),
+        Code::Frc => one::<L>(a, out, |a| l.frc(a)),
+        Code::Rcp => one::<L>(a, out, |a| l.rcp(a)),
+        Code::Rsq => one::<L>(a, out, |a| l.rsq(a)),
+        Code::Exp2 => one::<L>(a, out, |a| l.exp2(a)),
+        Code::Log2 => one::<L>(a, out, |a| l.log2(a)),
+        Code::Saturate => one::<L>(a, out, |a| l.saturate(a)),
         Code::Scale(shift) => {
             let shift = i32::from(shift);
-            one::<L>(
-                a,
-                out,
-                #[inline(always)]
-                |a| l.scale(a, shift),
-            );
+            one::<L>(a, out, |a| l.scale(a, shift));
         }
-        Code::Factor => two::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.factor(a, b),
-        ),
+        Code::Factor => two::<L>(a, b, out, |a, b| l.factor(a, b)),
         Code::SelectNonNegative => {
             let zero = L::load(0);
-            three::<L>(
-                a,
-                b,
-                c,
-                out,
-                #[inline(always)]
-                |a, b, c| if l.le(zero, a) { b } else { c },
-            );
+            three::<L>(a, b, c, out, |a, b, c| if l.le(zero, a) { b } else { c });
         }
-        Code::SelectAboveHalf => three::<L>(
-            a,
-            b,
-            c,
-            out,
-            #[inline(always)]
-            |a, b, c| if l.above_half(a) { b } else { c },
-        ),
-        Code::Less => compare::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.lt(a, b),
-        ),
-        Code::LessEqual => compare::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.le(a, b),
-        ),
-        Code::Equal => compare::<L>(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| l.eq(a, b),
-        ),
+        Code::SelectAboveHalf => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
+        Code::Less => compare::<L>(a, b, out, |a, b| l.lt(a, b)),
+        Code::LessEqual => compare::<L>(a, b, out, |a, b| l.le(a, b)),
+        Code::Equal => compare::<L>(a, b, out, |a, b| l.eq(a, b)),
         Code::OrLess => or_less(l, a, b, c, out),
         Code::DifferenceX => difference(l, a, out, 1),
         Code::DifferenceY => difference(l, a, out, 16),
@@ -516,27 +181,9 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         Code::Select => {
             select(a, b, c, out);
         }
-        Code::And => bitwise(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| a & b,
-        ),
-        Code::Or => bitwise(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| a | b,
-        ),
-        Code::AndNot => bitwise(
-            a,
-            b,
-            out,
-            #[inline(always)]
-            |a, b| !a & b,
-        ),
+        Code::And => bitwise(a, b, out, |a, b| a & b),
+        Code::Or => bitwise(a, b, out, |a, b| a | b),
+        Code::AndNot => bitwise(a, b, out, |a, b| !a & b),
         // Carried out by the caller.
         Code::Dot(_) | Code::Sum(_) | Code::SumBy(_) | Code::Difference => {}
     }
