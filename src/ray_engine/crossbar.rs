@@ -91,11 +91,14 @@ pub struct Crossbar {
     executor: ExecutorKind,
     all_pairs: bool,
     /// Programs that have been assembled and checked, by what they were chosen for.
-    kernels: Arc<Mutex<Vec<(KernelUse, Arc<Kernel>)>>>,
+    kernels: Arc<Mutex<Vec<Chosen>>>,
 }
 
 /// Whether the rays have one origin, and the sides that count.
 type KernelUse = (bool, Sides);
+
+/// A program with what it was chosen for.
+type Chosen = (KernelUse, Arc<Kernel>);
 
 impl Crossbar {
     /// A card of this profile.

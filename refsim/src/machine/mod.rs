@@ -107,17 +107,17 @@ impl Machine {
 
 /// Who shades the tiles of a draw.
 enum Tiles<'a> {
-    Scalar(ScalarTiles<'a>),
+    Scalar(Box<ScalarTiles<'a>>),
     Batch(Box<BatchTiles<'a>>),
 }
 
 /// The tile executor of a draw.
 fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Tiles<'a> {
     match kind {
-        ExecutorKind::Scalar => Tiles::Scalar(ScalarTiles::new(draw)),
+        ExecutorKind::Scalar => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
         ExecutorKind::Batch => match BatchTiles::new(draw) {
             Some(tiles) => Tiles::Batch(Box::new(tiles.with_simd_level(simd))),
-            None => Tiles::Scalar(ScalarTiles::new(draw)),
+            None => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
         },
     }
 }

@@ -9,7 +9,7 @@ use super::vertex::VertexRows;
 use crate::event::PrimitiveCounts;
 use crate::num::Format;
 use crate::raster::{
-    ComponentMask, Dropped, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, unclipped,
+    ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, unclipped,
 };
 
 /// Triangles whose shapes one worker sets up at a time.
@@ -198,9 +198,7 @@ fn shapes(
 
 /// Whether anything is left of a triangle that a plane cuts; its components do not matter for that.
 fn cut_outcome(triangle: [&Vertex; 3], state: &RasterState, rules: &RasterRules) -> Outcome {
-    let report = setup(triangle, state, rules, &mut Vec::new());
-    let _: Option<Dropped> = report.dropped;
-    if report.emitted == 0 { Outcome::Dropped } else { Outcome::Cut }
+    if setup(triangle, state, rules, &mut Vec::new()).emitted == 0 { Outcome::Dropped } else { Outcome::Cut }
 }
 
 /// The planes of one component, single precision, and 1 where it is constant.

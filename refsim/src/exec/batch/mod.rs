@@ -8,7 +8,7 @@
 //!   reads, and with what only one operation reads as part of that.
 //! - `ops`, `loops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
 //! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
-//! - `raster`, `shader`, `output`, `targets`: what happens to a tile around the steps.
+//! - `raster`, `shader`, `output`, `store`, `targets`: what happens to a tile around the steps.
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in; `cache`: what was decoded.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
@@ -41,6 +41,7 @@ mod shader;
 mod simd;
 pub(in crate::exec) mod slots;
 mod steps;
+mod store;
 mod surfaces;
 mod targets;
 mod tile;

@@ -206,7 +206,7 @@ impl BatchVertices {
                 run.run(slots, &mut [0; SAMPLERS]);
                 let places = outputs(&self.components);
                 let values =
-                    places.map(|place| self.held(plan.register(place.0, place.1, place.2), place, &slots, count));
+                    places.map(|place| self.held(plan.register(place.0, place.1, place.2), place, slots, count));
                 (values.collect(), run.executed)
             }
         }
