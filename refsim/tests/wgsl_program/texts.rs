@@ -4,7 +4,7 @@ use crate::cases::{self, FORMATS, PIXEL, VERTEX, ideal, seeds};
 use crate::modules;
 use crate::random::Random;
 use refsim::device::Profile;
-use refsim::exec::wgsl::program::{self, Microcode, PixelShader, VertexShader};
+use refsim::exec::wgsl::program::{self, Microcode, PixelShader, Strategy, VertexShader};
 use refsim::exec::wgsl::{NativeOperations, NumberMode};
 use refsim::exec::{CheckedProgram, Constants, PixelBindings};
 use refsim::isa::Stage;
@@ -152,4 +152,25 @@ fn random_programs_become_valid_texts() {
         let (text, program) = cases::random(version, 3, &profile, &mut r);
         check_text(&format!("seed {seed}:\n{text}"), &program, &profile);
     }
+}
+
+#[test]
+fn the_strategy_follows_the_mode() {
+    let profile = ideal("fp32");
+    let constants = Constants::default();
+    let bindings = PixelBindings::new(&constants);
+    let strategy = |lines: &str, mode| {
+        let program = refsim::asm::assemble(lines).unwrap_or_else(|e| panic!("{e}"));
+        let program = refsim::check::check(program, &profile).unwrap_or_else(|e| panic!("{e:?}"));
+        let shader = PixelShader::new(&program, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
+        shader.strategy(mode, NativeOperations::all())
+    };
+    let short = "ps_2_0\ndcl t0\nmov r0, t0\nmov oC0, r0";
+    let long = format!("ps_2_0\ndcl t0\nmov r0, t0\n{}mov oC0, r0", "mad r0, r0, r0, t0\n".repeat(8));
+    let flow = "ps_2_a\ndcl t0\nmov r0, t0\nif_lt r0.x, r0.y\nmov r0.z, t0.w\nendif\nmov oC0, r0";
+    let (integer, native) = (NumberMode::Integer, NumberMode::Native);
+    assert!(matches!(strategy(short, integer), Strategy::Unrolled(_)));
+    assert_eq!(strategy(&long, integer), Strategy::Microcode);
+    assert!(matches!(strategy(&long, native), Strategy::Unrolled(_)));
+    assert_eq!(strategy(flow, native), Strategy::Microcode);
 }

@@ -37,6 +37,8 @@ pub const ATTRIBUTE_WORDS: usize = 64;
 
 /// Calls of integer arithmetic that a text may have to be worth compiling.
 const SOFT_CALLS: usize = 24;
+/// The same where all arithmetic is in integers, and the text would take the machine's place for little.
+const SHORT_CALLS: usize = 6;
 /// Texture reads, likewise.
 const READS: usize = 2;
 
@@ -134,8 +136,9 @@ impl PixelShader {
     /// short; on the machine otherwise. Compilers that put every function in place take minutes over hundreds of calls of integer
     /// arithmetic.
     pub fn strategy(&self, mode: NumberMode, native: NativeOperations) -> Strategy {
+        let most = if mode == NumberMode::Native { SOFT_CALLS } else { SHORT_CALLS };
         match self.unrolled(mode, native) {
-            Some(text) if text.soft_calls <= SOFT_CALLS && text.reads <= READS => Strategy::Unrolled(text),
+            Some(text) if text.soft_calls <= most && text.reads <= READS => Strategy::Unrolled(text),
             _ => Strategy::Microcode,
         }
     }
