@@ -83,3 +83,34 @@ fn adapters_need_the_feature() {
     assert_eq!(output.code, Some(2));
     assert!(output.stderr.contains("--features wgpu"), "{}", output.stderr);
 }
+
+/// The probe of an adapter: every operation tried, the verdict by the numbers shown.
+#[cfg(feature = "wgpu")]
+#[test]
+fn an_adapter_is_probed() {
+    let listed = crossbar(&["devices", "--adapters", "--json"], "");
+    let adapters: Value = serde_json::from_str(&listed.stdout).expect("one JSON document");
+    let Some(name) = adapters[0]["name"].as_str() else {
+        println!("ignored: no adapter");
+        return;
+    };
+    let ran = crossbar(&["devices", "--probe", name, "--json"], "");
+    let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let operations = report["operations"].as_array().expect("a list");
+    let count = |of: &Value, what: &str| of[what].as_u64().expect("a count");
+    let classes = ["normal", "denormal", "special"];
+    let outside: u64 = operations.iter().flat_map(|o| classes.map(|c| count(&o[c], "outside"))).sum();
+    assert_eq!(ran.code, Some(if outside == 0 { 0 } else { 1 }));
+    for operation in operations {
+        let tried: u64 = classes.iter().map(|c| count(&operation[c], "tried")).sum();
+        assert!(tried >= 1 << 20, "{operation}");
+    }
+}
+
+#[cfg(feature = "wgpu")]
+#[test]
+fn an_unknown_adapter_is_refused() {
+    let ran = crossbar(&["devices", "--probe", "no such card"], "");
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("adapter"), "{}", ran.stderr);
+}

@@ -3,6 +3,12 @@
 use refsim::device::{FigureRow, Profile, Switch};
 use serde_json::{Value, json};
 
+#[cfg(feature = "wgpu")]
+mod adapters;
+#[cfg(not(feature = "wgpu"))]
+#[path = "no_adapters.rs"]
+mod adapters;
+
 use super::{Out, OutputError, Verdict};
 use crate::report::{Cell, Table};
 
@@ -15,7 +21,9 @@ Examples:
   crossbar devices ideal-fp24 --json
       an unlimited card with 24-bit floats, for machines
   crossbar devices --adapters
-      the GPUs of this computer that the wgpu executor can use";
+      the GPUs of this computer that the wgpu executor can use
+  crossbar devices --probe llvmpipe
+      which of an adapter's own operations are exact, so that native mode may use them";
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]
@@ -26,11 +34,17 @@ pub(super) struct Args {
     /// The GPU adapters of this computer instead
     #[arg(long, conflicts_with = "name")]
     adapters: bool,
+    /// Try a GPU adapter's own single precision, an operation at a time, against IEEE 754; a part of its name will do
+    #[arg(long, value_name = "ADAPTER", conflicts_with_all = ["name", "adapters"])]
+    probe: Option<String>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(adapter) = &args.probe {
+        return adapters::probe(adapter, out);
+    }
     if args.adapters {
-        adapters(out)?;
+        adapters::list(out)?;
         return Ok(Verdict::Done);
     }
     match &args.name {
@@ -38,40 +52,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         None => all(out)?,
     }
     Ok(Verdict::Done)
-}
-
-/// The GPUs of this computer.
-#[cfg(feature = "wgpu")]
-fn adapters(out: &mut Out) -> miette::Result<()> {
-    let adapters = refsim::exec::gpu::adapters();
-    if out.json() {
-        return Ok(out.document(&adapters)?);
-    }
-    if adapters.is_empty() {
-        out.line("no GPU adapter found: install a Vulkan driver (a software one will do, such as Mesa's lavapipe)")?;
-        return Ok(());
-    }
-    let mut table = Table::new("GPU adapters", &["adapter", "kind", "through", "driver", "largest buffer (bytes)"]);
-    for adapter in adapters {
-        table.push([
-            adapter.name.into(),
-            adapter.kind.to_string().into(),
-            adapter.backend.into(),
-            adapter.driver.into(),
-            adapter.largest_buffer.to_string().into(),
-        ]);
-    }
-    show(&table, out)?;
-    Ok(())
-}
-
-#[cfg(not(feature = "wgpu"))]
-fn adapters(_: &mut Out) -> miette::Result<()> {
-    let problem = super::Problem::usage(
-        "this build knows no GPU adapters: the feature `wgpu` is off",
-        "build with `cargo build --release --features wgpu`",
-    );
-    Err(problem.into())
 }
 
 /// The cards side by side.

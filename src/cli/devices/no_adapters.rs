@@ -1,0 +1,20 @@
+//! What a build without the feature `wgpu` says of GPU adapters.
+
+use crate::cli::{Out, Problem, Verdict};
+
+/// `devices --adapters`
+pub(super) fn list(_: &mut Out) -> miette::Result<()> {
+    Err(missing().into())
+}
+
+/// `devices --probe`
+pub(super) fn probe(_: &str, _: &mut Out) -> miette::Result<Verdict> {
+    Err(missing().into())
+}
+
+fn missing() -> Problem {
+    Problem::usage(
+        "this build knows no GPU adapters: the feature `wgpu` is off",
+        "build with `cargo build --release --features wgpu`",
+    )
+}
