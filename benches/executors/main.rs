@@ -44,6 +44,8 @@ fn executor_name(kind: ExecutorKind) -> &'static str {
     match kind {
         ExecutorKind::Scalar => "scalar",
         ExecutorKind::Batch => "batch",
+        #[cfg(feature = "wgpu")]
+        ExecutorKind::Wgpu => "wgpu",
     }
 }
 

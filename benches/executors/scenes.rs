@@ -37,6 +37,8 @@ enum Geometry {
 pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
     let (side, vertices) = match kind {
         ExecutorKind::Batch => (256, 3 * 65_536),
+        #[cfg(feature = "wgpu")]
+        ExecutorKind::Wgpu => (256, 3 * 65_536),
         ExecutorKind::Scalar => (32, 3 * 1024),
     };
     let of =

@@ -7,6 +7,8 @@ pub(super) const fn executor(kind: ExecutorKind) -> &'static str {
     match kind {
         ExecutorKind::Scalar => "scalar",
         ExecutorKind::Batch => "batch",
+        #[cfg(feature = "wgpu")]
+        ExecutorKind::Wgpu => "wgpu",
     }
 }
 

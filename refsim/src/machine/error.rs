@@ -9,6 +9,14 @@ use crate::texture::{TexelFormat, TextureError};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MachineError {
+    /// The GPU that the machine runs on refused or failed. What was drawn into is undefined if a draw had begun.
+    #[cfg(feature = "wgpu")]
+    #[error(transparent)]
+    Gpu(#[from] crate::exec::gpu::GpuError),
+    /// The pixel program has no form for GPUs.
+    #[cfg(feature = "wgpu")]
+    #[error(transparent)]
+    GpuProgram(#[from] crate::exec::wgsl::program::ProgramError),
     /// A handle of another machine, or of something released.
     #[error("expected the handle of a live {what}, found {number}, which this machine does not hold")]
     NoSuchResource {

@@ -19,25 +19,60 @@ pub struct DepthId(pub(super) usize);
 pub(super) struct Memory {
     textures: Vec<Option<Image>>,
     depths: Vec<Option<DepthSurface>>,
+    /// What is on a GPU of the host.
+    #[cfg(feature = "wgpu")]
+    pub(super) card: Option<super::device::Card>,
 }
 
 impl Memory {
+    /// What a texture is. If its contents matter: [`Self::current`].
     pub(super) fn texture(&self, id: TextureId) -> Result<&Image, MachineError> {
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
+    /// A texture with what was drawn into it.
+    pub(super) fn current(&self, id: TextureId) -> Result<&Image, MachineError> {
+        let image = self.texture(id)?;
+        #[cfg(feature = "wgpu")]
+        if let Some(card) = &self.card {
+            return card.image(id.0, image);
+        }
+        Ok(image)
+    }
+
+    /// A texture to be overwritten.
     fn texture_mut(&mut self, id: TextureId) -> Result<&mut Image, MachineError> {
+        #[cfg(feature = "wgpu")]
+        if let Some(card) = &mut self.card {
+            card.texture_overwritten(id.0);
+        }
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.textures.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
+    /// What a depth buffer is. If its contents matter: [`Self::current_depth`].
     pub(super) fn depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
+    /// A depth buffer with what was drawn into it.
+    pub(super) fn current_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
+        let surface = self.depth(id)?;
+        #[cfg(feature = "wgpu")]
+        if let Some(card) = &self.card {
+            return card.surface(id.0, surface);
+        }
+        Ok(surface)
+    }
+
+    /// A depth buffer to be overwritten.
     fn depth_mut(&mut self, id: DepthId) -> Result<&mut DepthSurface, MachineError> {
+        #[cfg(feature = "wgpu")]
+        if let Some(card) = &mut self.card {
+            card.depth_overwritten(id.0);
+        }
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
@@ -122,14 +157,14 @@ impl Machine {
     /// If the handle is dead or the image does not fit.
     pub fn update_texture(&mut self, id: TextureId, image: &Image) -> Result<(), MachineError> {
         let device = self.profile.name.clone();
-        let held = self.memory.texture_mut(id)?;
+        let held = self.memory.texture(id)?;
         if held.format() != image.format() {
             let allowed = held.format().to_string();
             return Err(MachineError::TextureFormat { device, format: image.format(), allowed });
         }
         let (region, bytes) = (held.region(), image.bytes());
         if held.bytes().len() == bytes.len() && region == image.region() {
-            held.bytes_mut().copy_from_slice(bytes);
+            self.memory.texture_mut(id)?.bytes_mut().copy_from_slice(bytes);
             return Ok(());
         }
         let (expected, found) = (held.bytes().len(), bytes.len());
@@ -162,6 +197,8 @@ impl Machine {
     /// If it was dead before.
     pub fn release_texture(&mut self, id: TextureId) -> Result<Image, MachineError> {
         self.memory.texture(id)?;
+        #[cfg(feature = "wgpu")]
+        self.settle_texture(id)?;
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.memory.textures.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
@@ -171,6 +208,8 @@ impl Machine {
     /// # Errors
     /// If it was dead before.
     pub fn release_depth(&mut self, id: DepthId) -> Result<DepthSurface, MachineError> {
+        #[cfg(feature = "wgpu")]
+        self.settle_depth(id)?;
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.memory.depths.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
@@ -180,7 +219,7 @@ impl Machine {
     /// # Errors
     /// If the handle is dead.
     pub fn read_back(&self, id: TextureId) -> Result<&Image, MachineError> {
-        self.memory.texture(id)
+        self.memory.current(id)
     }
 
     /// Reads a depth buffer back.
@@ -188,7 +227,37 @@ impl Machine {
     /// # Errors
     /// If the handle is dead.
     pub fn read_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
-        self.memory.depth(id)
+        self.memory.current_depth(id)
+    }
+}
+
+/// What leaves memory leaves the GPU too.
+#[cfg(feature = "wgpu")]
+impl Machine {
+    fn settle_texture(&mut self, id: TextureId) -> Result<(), MachineError> {
+        let Some(mut card) = self.memory.card.take() else { return Ok(()) };
+        let fresh = match self.memory.texture(id) {
+            Ok(image) => card.release_texture(id.0, image),
+            Err(_) => Ok(None),
+        };
+        self.memory.card = Some(card);
+        if let (Some(image), Some(slot)) = (fresh?, self.memory.textures.get_mut(id.0)) {
+            *slot = Some(image);
+        }
+        Ok(())
+    }
+
+    fn settle_depth(&mut self, id: DepthId) -> Result<(), MachineError> {
+        let Some(mut card) = self.memory.card.take() else { return Ok(()) };
+        let fresh = match self.memory.depth(id) {
+            Ok(surface) => card.release_depth(id.0, surface),
+            Err(_) => Ok(None),
+        };
+        self.memory.card = Some(card);
+        if let (Some(surface), Some(slot)) = (fresh?, self.memory.depths.get_mut(id.0)) {
+            *slot = Some(surface);
+        }
+        Ok(())
     }
 }
 

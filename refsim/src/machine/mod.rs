@@ -9,6 +9,8 @@
 //! What could be wrong with a call is a [`MachineError`], found before anything is written. What a card leaves open is
 //! defined: an unbound sampler reads (0, 0, 0, 1); a texture that is read and drawn into by one call is an error.
 
+#[cfg(feature = "wgpu")]
+mod device;
 mod draw;
 mod error;
 mod memory;
@@ -37,6 +39,9 @@ pub enum ExecutorKind {
     Scalar,
     /// Tiles of 256 fragments in vector code of the host.
     Batch,
+    /// A GPU of the host.
+    #[cfg(feature = "wgpu")]
+    Wgpu,
 }
 
 /// An emulated card.
@@ -89,6 +94,10 @@ impl Machine {
     /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
+        #[cfg(feature = "wgpu")]
+        if self.executor == ExecutorKind::Wgpu {
+            return self.draw_on_gpu(call, &plan);
+        }
         let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
@@ -119,13 +128,16 @@ fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw
             Some(tiles) => Tiles::Batch(Box::new(tiles.with_simd_level(simd))),
             None => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
         },
+        // Draws of such a machine go another way.
+        #[cfg(feature = "wgpu")]
+        ExecutorKind::Wgpu => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
     }
 }
 
 /// What a draw looks like to an executor. Handles that are dead read as unbound; the plan has refused those before.
 fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) -> TileDraw<'a> {
     let bind = |bound: BoundTexture| {
-        let image = memory.texture(bound.texture).ok()?;
+        let image = memory.current(bound.texture).ok()?;
         Some(SamplerBinding { image, state: bound.state })
     };
     TileDraw {

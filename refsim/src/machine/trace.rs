@@ -179,5 +179,7 @@ fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'
             Some(tracer) => Box::new(tracer.with_simd_level(simd)),
             None => Box::new(ScalarTiles::new(draw)),
         },
+        #[cfg(feature = "wgpu")]
+        ExecutorKind::Wgpu => Box::new(ScalarTiles::new(draw)),
     }
 }

@@ -154,14 +154,14 @@ fn row_bins<'s>(
 pub(super) fn load(memory: &Memory, call: &DrawCall<'_>, region: Region) -> Result<TargetTile, MachineError> {
     let mut colors = Vec::with_capacity(call.targets.len());
     for &id in &call.targets {
-        colors.push(Some(memory.texture(id)?));
+        colors.push(Some(memory.current(id)?));
     }
-    let depth = call.depth_buffer.map(|id| memory.depth(id)).transpose()?;
+    let depth = call.depth_buffer.map(|id| memory.current_depth(id)).transpose()?;
     Ok(TargetTile::load(&colors, depth, region)?)
 }
 
 /// Memory traffic, worked out from the counts.
-fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_>, events: &DrawEvents) -> ByteCounts {
+pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_>, events: &DrawEvents) -> ByteCounts {
     let f = &events.fragments;
     let (per_vertex, per_instance) = stage.bytes();
     let mut out = ByteCounts {

@@ -20,4 +20,5 @@ pub use format::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelForm
 pub use image::{Image, Level, Region, TextureKind};
 pub use lod::{Lod, lod_from_derivatives};
 pub use sample::{Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, unbound};
+pub(crate) use texel::denominator;
 pub use texel::{ChannelValue, Texel, decode, decode_channel, encode, encode_channel};

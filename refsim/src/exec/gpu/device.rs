@@ -2,9 +2,10 @@
 
 use super::adapter::{Adapter, describe, pick};
 use super::error::GpuError;
+use crate::exec::wgsl::NativeOperations;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// How a shader uses a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,6 +48,7 @@ pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipelines: Mutex<BTreeMap<PipelineKey, Pipeline>>,
+    native: OnceLock<NativeOperations>,
 }
 
 impl Gpu {
@@ -67,12 +69,29 @@ impl Gpu {
         let wanted = wgpu::DeviceDescriptor { label: Some("refsim"), required_limits, ..Default::default() };
         let (device, queue) = pollster::block_on(raw.request_device(&wanted))
             .map_err(|e| GpuError::Open { adapter: adapter.name.clone(), reason: e.to_string() })?;
-        Ok(Self { adapter, device, queue, pipelines: Mutex::default() })
+        Ok(Self { adapter, device, queue, pipelines: Mutex::default(), native: OnceLock::new() })
     }
 
     /// What it is.
     pub fn adapter(&self) -> &Adapter {
         &self.adapter
+    }
+
+    /// The single precision operations whose results are exact here, in the adapter's own floats; found out once.
+    ///
+    /// # Errors
+    /// As [`super::probe()`].
+    pub fn native(&self) -> Result<NativeOperations, GpuError> {
+        if let Some(known) = self.native.get() {
+            return Ok(*known);
+        }
+        let found = super::probe(self, super::FULL_PROBE)?.native();
+        Ok(*self.native.get_or_init(|| found))
+    }
+
+    /// Words of the largest buffer that a shader can use.
+    pub fn most_words(&self) -> usize {
+        usize::try_from(self.adapter.largest_buffer / 4).unwrap_or(usize::MAX)
     }
 
     /// Runs `work` and tells what the device found wrong with it.

@@ -1,8 +1,8 @@
 //! The executor for GPUs as text: WGSL modules that compute the reference's bits, in integers (every device gives the same)
 //! or, where a device was found exact, single precision in its own floats. No GPU is needed to make or check the text.
 //!
-//! - `interface`: what the parts share. `kernel`: rasterisation, interpolation, tests, blending, targets.
 //! - [`accuracy`]: what WGSL allows a device's own floats.
+//! - `interface`: what the parts share. [`kernel`] and [`target`]: rasterisation, interpolation, tests, blending, targets.
 //! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads out of a storage buffer.
 //!   [`program`]: pixel and vertex programs.
 //!
@@ -10,8 +10,10 @@
 //! sign-extended; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
 
 pub mod accuracy;
+pub mod kernel;
 pub mod number;
 pub mod program;
+pub mod target;
 pub mod texture;
 
 pub use number::{NativeOperations, NumberMode};

@@ -23,6 +23,10 @@ var<private> q_run: vec4<bool>;
 var<private> q_covered: vec4<bool>;
 var<private> q_invocation: u32;
 var<private> q_stride: u32;
+// Vertex programs are never broken off.
+var<private> q_budget: u32;
+var<private> q_save: u32;
+var<private> q_suspended: bool;
 var<private> q_code: u32;
 var<private> q_trace: u32;
 var<private> q_traced: u32;
@@ -57,6 +61,7 @@ fn vertex_main(
 ) {
     q_invocation = invocation.x;
     q_stride = 64u * groups.x;
+    q_budget = 0xffffffffu;
     let all = draw[40];
     for (var first = 4u * q_invocation; first < all; first += 4u * q_stride) {
         v_first = first;

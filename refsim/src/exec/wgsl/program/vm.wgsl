@@ -342,18 +342,99 @@ fn vm_relative(word: u32, at: u32) {
     vm_write(code[at + 1u] & 0xffffu, result);
 }
 
-fn shade() {
+// Loop passes of an instruction at most.
+fn vm_cost(op: u32, word: u32, at: u32) -> u32 {
+    switch op {
+        case 1u: {
+            switch (word >> 16u) & 0x7fffu {
+                case N_DIV, N_RCP, N_RSQ, N_SQRT, N_STEPS: {
+                    return 450u;
+                }
+                case N_EXP2, N_LOG2: {
+                    return 1000u;
+                }
+                default: {
+                    return 20u;
+                }
+            }
+        }
+        case 3u: {
+            return 600u;
+        }
+        case 5u: {
+            return 450u;
+        }
+        case 7u: {
+            return 8000u;
+        }
+        case 13u: {
+            return code[at + 2u] + 1u;
+        }
+        default: {
+            return 20u;
+        }
+    }
+}
+
+fn vm_saved(row: u32) -> u32 {
+    return (q_save + row) * q_stride + q_invocation;
+}
+
+// Puts down what the program needs to go on at `next`.
+fn vm_suspend(next: u32) {
+    q_suspended = true;
+    scratch[vm_saved(0u)] = vec4<u32>(next, vm_active, vm_depth, vm_counter);
+    scratch[vm_saved(1u)] = vec4<u32>(q_killed);
+    scratch[vm_saved(2u)] = vec4<u32>(q_depth_is_main);
+    scratch[vm_saved(3u)] = q_depth;
+    for (var i = 0u; i < 16u; i += 1u) {
+        scratch[vm_saved(4u + i)] = q_color[i >> 2u][i & 3u];
+    }
+}
+
+// Takes it up again; returns where the program goes on.
+fn vm_resume() -> u32 {
+    q_suspended = false;
+    let state = scratch[vm_saved(0u)];
+    vm_active = state.y;
+    vm_depth = state.z;
+    vm_counter = state.w;
+    q_killed = scratch[vm_saved(1u)] != vec4<u32>(0u);
+    q_depth_is_main = scratch[vm_saved(2u)] != vec4<u32>(0u);
+    q_depth = scratch[vm_saved(3u)];
+    for (var i = 0u; i < 16u; i += 1u) {
+        q_color[i >> 2u][i & 3u] = scratch[vm_saved(4u + i)];
+    }
+    return state.x;
+}
+
+fn vm_begin() -> u32 {
     q_color = array<array<vec4<u32>, 4>, 4>();
     q_killed = vec4<bool>(false);
     q_depth_is_main = vec4<bool>(false);
     q_executed = 0u;
     vm_depth = 0u;
     vm_activate(vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), q_run)));
-    var next = code[q_code];
+    return code[q_code];
+}
+
+fn shade() {
+    var next: u32;
+    if (q_suspended) {
+        next = vm_resume();
+    } else {
+        next = vm_begin();
+    }
     loop {
         let at = q_code + next;
         let word = code[at];
         let op = word & 0xffu;
+        let cost = vm_cost(op, word, at);
+        if (q_budget < cost) {
+            vm_suspend(next);
+            return;
+        }
+        q_budget -= cost;
         if (op >= 32u) {
             next = vm_flow(op, at, next + select(3u, 6u, op == 35u));
             continue;

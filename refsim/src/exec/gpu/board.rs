@@ -1,0 +1,258 @@
+//! Memory of the card on the GPU: one buffer for textures, targets and depth buffers, and the buffers of a draw.
+
+use super::{Buffer, Gpu, GpuError};
+use std::sync::Arc;
+
+/// Words that `video` starts with.
+const FIRST_WORDS: usize = 1 << 16;
+
+/// A buffer that is replaced by a larger one when it must be.
+#[derive(Debug)]
+struct Growing {
+    buffer: Buffer,
+}
+
+impl Growing {
+    fn new(gpu: &Gpu, words: usize) -> Result<Self, GpuError> {
+        Ok(Self { buffer: gpu.buffer(words)? })
+    }
+
+    /// At least so many words, with anything in them.
+    fn reserve(&mut self, gpu: &Gpu, words: usize) -> Result<&Buffer, GpuError> {
+        if self.buffer.words() < words {
+            self.buffer = gpu.buffer(words.next_power_of_two().min(gpu.most_words().max(words)))?;
+        }
+        Ok(&self.buffer)
+    }
+
+    fn fill(&mut self, gpu: &Gpu, words: &[u32]) -> Result<(), GpuError> {
+        let buffer = self.reserve(gpu, words.len())?;
+        gpu.upload(buffer, 0, words)
+    }
+}
+
+/// The buffers of a card on one GPU.
+#[derive(Debug)]
+pub struct Board {
+    gpu: Arc<Gpu>,
+    video: Growing,
+    arena: Arena,
+    draw: Growing,
+    setups: Growing,
+    tiles: Growing,
+    samplers: Growing,
+    code: Growing,
+    scratch: Growing,
+    counts: Growing,
+}
+
+/// The pixel program of a draw as the GPU runs it.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    /// The text of the whole module.
+    pub text: String,
+    /// Its entry point.
+    pub entry: &'static str,
+    /// What it finds in `code`.
+    pub code: Vec<u32>,
+    /// Rows of registers that an invocation needs in `scratch`.
+    pub registers: usize,
+}
+
+impl Board {
+    /// An empty card.
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`].
+    pub fn new(gpu: Arc<Gpu>) -> Result<Self, GpuError> {
+        let one = |words| Growing::new(&gpu, words);
+        Ok(Self {
+            video: one(FIRST_WORDS)?,
+            arena: Arena::default(),
+            draw: one(1024)?,
+            setups: one(1 << 16)?,
+            tiles: one(1 << 14)?,
+            samplers: one(1024)?,
+            code: one(4096)?,
+            scratch: one(1 << 16)?,
+            counts: one(64)?,
+            gpu,
+        })
+    }
+
+    /// The GPU.
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Room in `video`: its first word.
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`].
+    pub fn allocate(&mut self, words: usize) -> Result<usize, GpuError> {
+        let base = self.arena.take(words);
+        let end = self.arena.end;
+        if end > self.video.buffer.words() {
+            let size = end.next_power_of_two().min(self.gpu.most_words().max(end));
+            let larger = self.gpu.buffer(size)?;
+            self.gpu.copy(&self.video.buffer, &larger);
+            self.video.buffer = larger;
+        }
+        Ok(base)
+    }
+
+    /// Gives room back.
+    pub fn free(&mut self, base: usize, words: usize) {
+        self.arena.give(base, words);
+    }
+
+    /// Writes words into `video`.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn write(&self, base: usize, words: &[u32]) -> Result<(), GpuError> {
+        self.gpu.upload(&self.video.buffer, base, words)
+    }
+
+    /// Reads words out of `video`, after all that was started before.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn read(&self, base: usize, words: usize) -> Result<Vec<u32>, GpuError> {
+        self.gpu.read(&self.video.buffer, base..base + words)
+    }
+
+    /// Starts a draw: its program, its samplers, counts of zero.
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`], [`GpuError::Device`].
+    pub fn start(&mut self, shader: &Shader, samplers: &[u32], counts: usize) -> Result<(), GpuError> {
+        self.code.fill(&self.gpu, &shader.code)?;
+        self.samplers.fill(&self.gpu, samplers)?;
+        self.counts.fill(&self.gpu, &vec![0; counts])
+    }
+
+    /// Gives the set-ups of the dispatches that follow.
+    ///
+    /// # Errors
+    /// [`GpuError::Memory`], [`GpuError::Device`].
+    pub fn set_setups(&mut self, words: &[u32]) -> Result<(), GpuError> {
+        self.setups.fill(&self.gpu, words)
+    }
+
+    /// Runs a shader over `groups` workgroups with `rows` rows of four words in `scratch`, which keep what the dispatch
+    /// before left if that had as many.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`], [`GpuError::Memory`], [`GpuError::Device`].
+    pub fn dispatch(
+        &mut self,
+        shader: &Shader,
+        draw: &[u32],
+        tiles: &[u32],
+        groups: [u32; 3],
+        rows: usize,
+    ) -> Result<(), GpuError> {
+        use super::Access::{Read, ReadWrite};
+        let gpu = &self.gpu;
+        let access = [Read, Read, Read, Read, ReadWrite, Read, ReadWrite, ReadWrite];
+        let pipeline = gpu.pipeline(&shader.text, shader.entry, &access)?;
+        self.draw.fill(gpu, draw)?;
+        self.tiles.fill(gpu, tiles)?;
+        self.scratch.reserve(gpu, 4 * rows)?;
+        let buffers = [
+            &self.draw,
+            &self.setups,
+            &self.tiles,
+            &self.samplers,
+            &self.video,
+            &self.code,
+            &self.scratch,
+            &self.counts,
+        ];
+        gpu.dispatch(&pipeline, &buffers.map(|b| &b.buffer), groups)
+    }
+
+    /// One word of the counts, which is zero from then on.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn take_count(&self, word: usize) -> Result<u32, GpuError> {
+        let found = self.gpu.read(&self.counts.buffer, word..word + 1)?.first().copied().unwrap_or(0);
+        if found != 0 {
+            self.gpu.upload(&self.counts.buffer, word, &[0])?;
+        }
+        Ok(found)
+    }
+
+    /// The counts of the draw, after all dispatches.
+    ///
+    /// # Errors
+    /// [`GpuError::Device`].
+    pub fn counts(&self, words: usize) -> Result<Vec<u32>, GpuError> {
+        self.gpu.read(&self.counts.buffer, 0..words)
+    }
+}
+
+/// Which words of `video` are taken.
+#[derive(Debug, Default)]
+struct Arena {
+    /// One past the last word taken.
+    end: usize,
+    /// What was given back below it, in order: first word, length.
+    holes: Vec<(usize, usize)>,
+}
+
+impl Arena {
+    fn take(&mut self, words: usize) -> usize {
+        if let Some(i) = self.holes.iter().position(|hole| hole.1 >= words) {
+            let (base, length) = self.holes[i];
+            if length == words {
+                self.holes.remove(i);
+            } else {
+                self.holes[i] = (base + words, length - words);
+            }
+            return base;
+        }
+        let base = self.end;
+        self.end += words;
+        base
+    }
+
+    fn give(&mut self, base: usize, words: usize) {
+        let i = self.holes.partition_point(|hole| hole.0 < base);
+        self.holes.insert(i, (base, words));
+        // Neighbours grow together; what lies at the end is not a hole.
+        let mut merged: Vec<(usize, usize)> = Vec::with_capacity(self.holes.len());
+        for &(base, words) in &self.holes {
+            match merged.last_mut() {
+                Some(last) if last.0 + last.1 == base => last.1 += words,
+                _ => merged.push((base, words)),
+            }
+        }
+        if merged.last().is_some_and(|last| last.0 + last.1 == self.end) {
+            self.end = merged.pop().map_or(self.end, |last| last.0);
+        }
+        self.holes = merged;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn room_is_used_again() {
+        let mut arena = Arena::default();
+        let places = [10, 20, 30, 40].map(|words| arena.take(words));
+        assert_eq!(places, [0, 10, 30, 60]);
+        arena.give(10, 20);
+        arena.give(0, 10);
+        assert_eq!(arena.take(25), 0, "holes beside each other are one");
+        assert_eq!(arena.take(6), 100);
+        arena.give(100, 6);
+        arena.give(60, 40);
+        assert_eq!(arena.end, 60);
+        assert_eq!(arena.take(5), 25);
+    }
+}

@@ -1,0 +1,91 @@
+// A workgroup draws a tile of 16 x 16 pixels: each invocation a quad, through the tile's triangles in order.
+
+// Fates of fragments in their order in `counts`, then texture reads by sampler; two words each.
+var<private> k_counts: array<u32, 22>;
+
+// Loop passes of eight invocations at a time: lavapipe runs so many in step, and counts the passes that any of them makes.
+// How many there were, the triangle (from 1) last charged for, and what its program cost at most.
+var<workgroup> k_spent: array<atomic<u32>, 8>;
+var<workgroup> k_last: array<atomic<u32>, 8>;
+var<workgroup> k_most: array<atomic<u32>, 8>;
+
+@compute @workgroup_size(64)
+fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) place: u32) {
+    let tile = group.x + group.y * draw[D_GROUPS];
+    if (tile >= draw[D_TILES]) {
+        return;
+    }
+    let x = tiles[4u * tile] + 2u * (place & 7u);
+    let y = tiles[4u * tile + 1u] + 2u * (place >> 3u);
+    let first = tiles[4u * tile + 2u];
+    let count = tiles[4u * tile + 3u];
+    q_invocation = 64u * tile + place;
+    q_stride = draw[D_STRIDE];
+    q_save = draw[D_SAVE];
+    let budget = draw[D_BUDGET];
+    let cost = draw[D_COST];
+    let eight = place >> 3u;
+    var looked = 0u;
+    let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
+    var i = 0u;
+    if (draw[D_RESUMES] == 1u) {
+        i = scratch[state_at].x;
+        q_suspended = scratch[state_at].y == 1u;
+    }
+    for (; i < count; i++) {
+        looked += LOOK_COST;
+        let spent = atomicLoad(&k_spent[eight]) + looked + cost;
+        if (spent >= budget) {
+            break;
+        }
+        let at = tiles[first + i] * draw[D_SETUP_WORDS];
+        q_covered = r_cover(at, x, y);
+        if (!any(q_covered)) {
+            continue;
+        }
+        if (atomicExchange(&k_last[eight], i + 1u) != i + 1u) {
+            atomicAdd(&k_spent[eight], cost);
+            atomicStore(&k_most[eight], 0u);
+        }
+        q_budget = budget - spent;
+        r_interpolate(at);
+        q_run = vec4<bool>(true);
+        shade();
+        let used = budget - spent - q_budget;
+        let most = atomicMax(&k_most[eight], used);
+        atomicAdd(&k_spent[eight], max(used, most) - most);
+        if (q_suspended) {
+            break;
+        }
+        for (var lane = 0u; lane < 4u; lane++) {
+            if (q_covered[lane]) {
+                k_counts[0] += 1u;
+                k_counts[1u + o_merge(lane, x + (lane & 1u), y + (lane >> 1u))] += 1u;
+            }
+        }
+    }
+    scratch[state_at] = vec4<u32>(i, select(0u, 1u, q_suspended), 0u, 0u);
+    if (i < count) {
+        atomicAdd(&counts[COUNT_UNFINISHED], 1u);
+    }
+    // Had the driver ended loops before their time, this one would end too.
+    var passes = 0u;
+    for (var k = 0u; k < draw[D_PROOF]; k++) {
+        passes += draw[D_PROOF + 1u];
+    }
+    if (passes != draw[D_PROOF] * draw[D_PROOF + 1u]) {
+        atomicAdd(&counts[COUNT_CUT], 1u);
+    }
+    for (var s = 0u; s < 16u; s++) {
+        k_counts[6u + s] = q_fetched[s];
+    }
+    for (var k = 0u; k < 22u; k++) {
+        let more = k_counts[k];
+        if (more != 0u) {
+            let before = atomicAdd(&counts[2u * k], more);
+            if (before + more < before) {
+                atomicAdd(&counts[2u * k + 1u], 1u);
+            }
+        }
+    }
+}

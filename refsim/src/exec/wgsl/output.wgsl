@@ -1,0 +1,462 @@
+// The way of one fragment into the targets: tests, blending, rounding into texels, masked write.
+
+// A number: significand * 2^exponent, with its sign; a NaN is zero, an infinity 1.
+struct Exact {
+    negative: bool,
+    significand: u32,
+    exponent: i32,
+}
+
+// The number behind a raw value of fixed point with `fraction` bits below the point, or of floating point.
+fn o_exact(raw: u32, fixed_point: bool, fraction: u32) -> Exact {
+    let negative = (raw >> 31u) == 1u;
+    if (fixed_point) {
+        return Exact(negative, select(raw, 0u - raw, negative), -i32(fraction));
+    }
+    let size = raw & 0x7fffffffu;
+    if (size >= 0x7f800000u) {
+        return Exact(negative && size == 0x7f800000u, select(1u, 0u, size > 0x7f800000u), 0);
+    }
+    let field = size >> 23u;
+    let significand = (size & 0x7fffffu) | select(0x800000u, 0u, field == 0u);
+    return Exact(negative, significand, i32(max(field, 1u)) - 150);
+}
+
+// The size of a number times `scale` as an integer, at most `scale`: halves away from zero, or cut off.
+fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
+    if (number.significand == 0u) {
+        return 0u;
+    }
+    if (31 - i32(countLeadingZeros(number.significand)) + number.exponent >= 0) {
+        return scale;
+    }
+    let product = k_mul(number.significand, scale);
+    // Below one, so the exponent is below zero.
+    let shift = u32(-number.exponent);
+    let whole = select(0u, k_shr(product, min(shift, 63u)).x, shift < 64u);
+    let half = select(0u, k_shr(product, min(shift - 1u, 63u)).x & 1u, nearest && shift <= 64u);
+    return whole + half;
+}
+
+// A depth as an unsigned float of so many mantissa bits; numbers from 1 on give 1.
+fn o_depth_float(number: Exact, bias: i32, mantissa: u32) -> u32 {
+    let one = u32(bias) << mantissa;
+    if (number.significand == 0u) {
+        return 0u;
+    }
+    let top = number.exponent + 31 - i32(countLeadingZeros(number.significand));
+    if (top >= 0) {
+        return one;
+    }
+    let unit = max(top, 1 - bias) - i32(mantissa);
+    let shift = unit - number.exponent;
+    var kept = 0u;
+    if (shift <= 0) {
+        kept = number.significand << u32(min(-shift, 31));
+    } else if (shift <= 63) {
+        kept = k_round_even(vec2<u32>(number.significand, 0u), u32(shift));
+    }
+    let base = u32(unit + i32(mantissa) + bias - 1) << mantissa;
+    return min(base + kept, one);
+}
+
+// The pattern of a depth in the draw's depth buffer; below zero and NaN give 0.
+fn o_depth(raw: u32, in_main: bool) -> u32 {
+    var number = o_exact(raw, in_main && draw[8u * MAIN] == 0u, draw[8u * MAIN + 2u]);
+    if (number.negative) {
+        number.significand = 0u;
+    }
+    switch draw[D_DEPTH_FORMAT] {
+        case 3u: {
+            return o_depth_float(number, 127, 23u);
+        }
+        case 4u: {
+            return o_depth_float(number, 15, 20u);
+        }
+        default: {
+            return o_scaled(number, draw[D_DEPTH_SCALE], draw[D_DEPTH_NEAREST] == 1u);
+        }
+    }
+}
+
+// Single precision patterns by their order, both zeros alike; no NaN.
+fn o_key(bits: u32) -> i32 {
+    let size = i32(bits & 0x7fffffffu);
+    return select(size, -size, (bits >> 31u) == 1u);
+}
+
+fn o_is_nan(bits: u32) -> bool {
+    return (bits & 0x7fffffffu) > 0x7f800000u;
+}
+
+fn o_is_below(a: u32, b: u32) -> bool {
+    return !o_is_nan(a) && !o_is_nan(b) && o_key(a) < o_key(b);
+}
+
+// A comparison is the set of orders it holds for: below, equal, above, unordered.
+fn o_holds(comparison: u32, below: bool, above: bool) -> bool {
+    return ((comparison >> select(select(1u, 2u, above), 0u, below)) & 1u) == 1u;
+}
+
+fn o_alpha_passes(alpha: u32) -> bool {
+    let comparison = draw[D_ALPHA];
+    let reference = draw[D_ALPHA + 1u];
+    if (draw[8u * MAIN] == 0u) {
+        return o_holds(comparison, (i32(alpha) < i32(reference)), (i32(alpha) > i32(reference)));
+    }
+    if (o_is_nan(alpha) || o_is_nan(reference)) {
+        return (comparison >> 3u) == 1u;
+    }
+    return o_holds(comparison, (o_key(alpha) < o_key(reference)), (o_key(alpha) > o_key(reference)));
+}
+
+// A stored channel.
+struct Channel {
+    shift: u32,
+    bits: u32,
+    // 0 unsigned, 1 signed, 2 signed in fifteenths and sixteenths, 3 a float.
+    kind: u32,
+    component: u32,
+    // Index of a float's format.
+    format: u32,
+    denominator: u32,
+}
+
+fn o_channel(at: u32) -> Channel {
+    return Channel(draw[at], draw[at + 1u], draw[at + 2u], draw[at + 3u], draw[at + 4u], draw[at + 5u]);
+}
+
+fn o_low_bits(n: u32) -> u32 {
+    return 0xffffffffu >> (32u - n);
+}
+
+// The bits of a channel of integers for a raw value of the main format.
+fn o_encode(channel: Channel, raw: u32) -> u32 {
+    let number = o_exact(raw, draw[8u * MAIN] == 0u, draw[8u * MAIN + 2u]);
+    if (number.negative && channel.kind == 0u) {
+        return 0u;
+    }
+    let size = o_scaled(number, o_whole(channel, number.negative), draw[D_NEAREST] == 1u);
+    return select(size, 0u - size, number.negative) & o_low_bits(channel.bits);
+}
+
+// The largest code on one side of zero.
+fn o_whole(channel: Channel, negative: bool) -> u32 {
+    if (channel.kind == 0u) {
+        return o_low_bits(channel.bits);
+    }
+    return (o_low_bits(channel.bits) >> 1u) + select(0u, 1u, channel.kind == 2u && negative);
+}
+
+// The numerator of a channel's bits over its denominator.
+fn o_numerator(channel: Channel, bits: u32) -> i32 {
+    if (channel.kind == 0u) {
+        return i32(bits);
+    }
+    let spare = 32u - channel.bits;
+    let number = i32(bits << spare) >> spare;
+    if (channel.kind == 2u) {
+        return number * select(16, 15, number < 0);
+    }
+    return max(number, -i32(channel.denominator));
+}
+
+// Source, destination and their alphas for the blender: numerators, or single precision patterns.
+struct Blend {
+    source: u32,
+    destination: u32,
+    source_alpha: u32,
+    destination_alpha: u32,
+}
+
+// Which of them a factor from 2 to 9 takes; odd factors are one less that.
+fn o_factor(values: Blend, factor: u32) -> u32 {
+    switch factor >> 1u {
+        case 1u: {
+            return values.source;
+        }
+        case 2u: {
+            return values.source_alpha;
+        }
+        case 3u, 5u: {
+            return values.destination_alpha;
+        }
+        default: {
+            return values.destination;
+        }
+    }
+}
+
+// size / denominator, below 1, as a code of a channel whose end is `whole`.
+fn o_divide(size: vec2<u32>, denominator: vec2<u32>, whole: u32, nearest: bool) -> u32 {
+    let divisor = k_add(denominator, denominator);
+    var rest = k_scale(k_add(size, size), whole);
+    if (nearest) {
+        rest = k_add(rest, denominator);
+    }
+    var code = 0u;
+    for (var i = 0u; i < 17u; i++) {
+        let bit = 16u - i;
+        let part = k_shl(divisor, bit);
+        if (!k_less(rest, part)) {
+            rest = k_add(rest, k_neg(part));
+            code |= 1u << bit;
+        }
+    }
+    return code;
+}
+
+// Blends over channels of integers: exact fractions, rounded once.
+//
+// Every term is a product of a numerator over the channel's denominator D and a factor over 1, D or the alpha's
+// denominator A, so D D A (or D D, where A is D) is a denominator for all.
+fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equation: u32) -> u32 {
+    let op = draw[equation + 2u];
+    let d = channel.denominator;
+    let a = alpha_denominator;
+    let same = a == d;
+    var total: vec2<u32>;
+    var denominator: vec2<u32>;
+    if (op >= 3u) {
+        let lower = i32(values.source) < i32(values.destination);
+        let chosen = select(values.destination, values.source, lower == (op == 3u));
+        total = vec2<u32>(chosen, select(0u, 0xffffffffu, i32(chosen) < 0));
+        denominator = vec2<u32>(d, 0u);
+    } else {
+        denominator = k_mul(d * d, select(a, 1u, same));
+        for (var k = 0u; k < 2u; k++) {
+            let factor = draw[equation + k];
+            let value = i32(select(values.source, values.destination, k == 1u));
+            var by = 1;
+            var rest = select(d * a, d, same);
+            if (factor == 0u) {
+                by = 0;
+            } else if (factor > 1u && !(factor == 10u && channel.component == 3u)) {
+                let of_alpha = (factor >= 4u && factor <= 7u) || factor == 10u;
+                by = i32(o_factor(values, factor));
+                if ((factor & 1u) == 1u || factor == 10u) {
+                    by = i32(select(d, a, of_alpha)) - by;
+                }
+                if (factor == 10u) {
+                    by = min(by, i32(values.source_alpha));
+                }
+                rest = select(select(a, d, of_alpha), 1u, same);
+            }
+            var term = k_mul(u32(abs(value)) * u32(abs(by)), rest);
+            // source - destination, or destination - source
+            let turned = (op == 1u && k == 1u) || (op == 2u && k == 0u);
+            if (((value < 0) != (by < 0)) != turned) {
+                term = k_neg(term);
+            }
+            total = k_add(total, term);
+        }
+    }
+    let negative = (total.y >> 31u) == 1u;
+    let size = select(total, k_neg(total), negative);
+    if (negative && channel.kind == 0u) {
+        return 0u;
+    }
+    let whole = o_whole(channel, negative);
+    var code = whole;
+    if (k_less(size, denominator)) {
+        code = o_divide(size, denominator, whole, draw[D_NEAREST] == 1u);
+    }
+    return select(code, 0u - code, negative) & o_low_bits(channel.bits);
+}
+
+// A sum or product in single precision, or a number of another format, rounded once into `to`.
+fn o_rounded(op: u32, to: Format, kind: u32, fraction: u32, a: u32, b: u32) -> u32 {
+    let x = n_unpack(kind, fraction, a);
+    var y = N_ONE;
+    var z = Number(0u, x.sign, -N_FAR, 0u);
+    if (op == N_ADD) {
+        z = n_unpack(N_FLOAT, 0u, b);
+    } else if (op == N_MUL) {
+        y = n_unpack(N_FLOAT, 0u, b);
+        z.sign ^= y.sign;
+    }
+    return n_finish(to, n_sum(to, x, y, z));
+}
+
+// The bits of a channel of floats for a raw value of the main format; blended in single precision. All roundings happen
+// at one place, since each place costs a copy of the arithmetic.
+fn o_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32, blends: bool) -> u32 {
+    let is_alpha = channel.component == 3u;
+    let op = draw[equation + 2u];
+    var values = Blend(raw, held, raw_alpha, held_alpha);
+    var terms: vec2<u32>;
+    var there: vec2<bool>;
+    var result = raw;
+    for (var step = select(7u, 0u, blends); step < 8u; step++) {
+        var code_of = N_CONVERT;
+        var a = 0u;
+        var b = 0u;
+        var to = SINGLE;
+        // Steps 2 and 3 are of the source's term, 4 and 5 of the destination's.
+        let k = select(0u, 1u, step >= 4u);
+        let factor = draw[equation + k];
+        let value = select(values.source, values.destination, k == 1u);
+        let multiplied = factor > 1u && !(factor == 10u && is_alpha);
+        switch step {
+            case 0u: {
+                a = raw_alpha;
+            }
+            case 1u: {
+                a = raw;
+            }
+            case 2u, 4u: {
+                there[k] = factor != 0u;
+                terms[k] = value;
+                if (op >= 3u || !multiplied) {
+                    // Past the multiplication too.
+                    step++;
+                    continue;
+                }
+                let by = o_factor(values, factor);
+                terms[k] = by;
+                if ((factor & 1u) == 0u && factor != 10u) {
+                    continue;
+                }
+                code_of = N_ADD;
+                a = 0x3f800000u;
+                b = by ^ 0x80000000u;
+            }
+            case 3u, 5u: {
+                code_of = N_MUL;
+                a = value;
+                b = terms[k];
+                if (factor == 10u && !o_is_below(b, values.source_alpha)) {
+                    b = values.source_alpha;
+                }
+            }
+            case 6u: {
+                if (op == 3u) {
+                    result = select(values.source, values.destination, o_is_below(values.destination, values.source));
+                    continue;
+                }
+                if (op == 4u) {
+                    result = select(values.source, values.destination, o_is_below(values.source, values.destination));
+                    continue;
+                }
+                // What is taken from what.
+                let x = select(terms.x, terms.y, op == 2u);
+                let y = select(terms.y, terms.x, op == 2u);
+                let has_x = select(there.x, there.y, op == 2u);
+                let has_y = select(there.y, there.x, op == 2u);
+                if (!has_y || (op == 0u && !has_x)) {
+                    result = select(select(0u, x, has_x), y, has_y);
+                    continue;
+                }
+                code_of = N_ADD;
+                a = select(0u, x, has_x);
+                b = select(y ^ 0x80000000u, y, op == 0u);
+            }
+            default: {
+                a = result;
+                to = channel.format;
+            }
+        }
+        // The program's values are of the main format.
+        let given = step < 2u || (step == 7u && !blends);
+        let kind = select(N_FLOAT, draw[8u * MAIN], given);
+        let fraction = select(0u, draw[8u * MAIN + 2u], given);
+        let made = o_rounded(code_of, format(to), kind, fraction, a, b);
+        switch step {
+            case 0u: {
+                values.source_alpha = made;
+            }
+            case 1u: {
+                values.source = made;
+            }
+            case 6u, 7u: {
+                result = made;
+            }
+            default: {
+                terms[k] = made;
+            }
+        }
+    }
+    return n_encode(format(channel.format), result);
+}
+
+// Writes the colour of one lane into target `t`.
+fn o_write(t: u32, lane: u32, x: u32, y: u32) {
+    let at = D_TARGETS + TARGET_WORDS * t;
+    let size = draw[at + 3u];
+    let texel = draw[at + 1u] + (y * draw[at + 2u] + x) * size;
+    let floats = draw[at + 5u] == 1u;
+    let blends = draw[D_BLEND] == 1u;
+    let alpha_channel = draw[at + 11u];
+    // A source whose alpha the target does not store is rounded to a channel all the same: the fifth in the table.
+    let rounded_alpha = o_channel(at + 16u + 8u * min(alpha_channel, 4u));
+    let raw_alpha = q_color[t][3][lane];
+    var held_alpha = select(rounded_alpha.denominator, 0x3f800000u, floats);
+    var made: array<u32, 4>;
+    // One pass more, the first, for the alpha that the target holds.
+    for (var pass_number = 0u; pass_number <= draw[at + 4u]; pass_number++) {
+        let of_alpha = pass_number == 0u;
+        if (of_alpha && (!blends || alpha_channel >= 4u)) {
+            continue;
+        }
+        let channel = o_channel(at + 16u + 8u * select(pass_number - 1u, alpha_channel, of_alpha));
+        var held = (video[texel + (channel.shift >> 5u)] >> (channel.shift & 31u)) & o_low_bits(channel.bits);
+        if (blends) {
+            if (floats) {
+                held = n_decode(format(channel.format), held);
+            } else {
+                held = u32(o_numerator(channel, held));
+            }
+        }
+        if (of_alpha) {
+            held_alpha = held;
+            continue;
+        }
+        let raw = q_color[t][channel.component][lane];
+        let equation = D_BLEND + select(1u, 4u, channel.component == 3u);
+        var bits = 0u;
+        if (floats) {
+            bits = o_float(channel, raw, raw_alpha, held, held_alpha, equation, blends);
+        } else {
+            bits = o_encode(channel, raw);
+            if (blends) {
+                let alpha = u32(o_numerator(rounded_alpha, o_encode(rounded_alpha, raw_alpha)));
+                let values = Blend(u32(o_numerator(channel, bits)), held, alpha, held_alpha);
+                bits = o_blend_integer(channel, values, rounded_alpha.denominator, equation);
+            }
+        }
+        made[channel.shift >> 5u] |= bits << (channel.shift & 31u);
+    }
+    for (var w = 0u; w < size; w++) {
+        let mask = draw[at + 6u + w];
+        video[texel + w] = (video[texel + w] & ~mask) | (made[w] & mask);
+    }
+}
+
+// Takes one covered lane through the output stage; says what became of it, as `counts` has it: 0 shaded means nothing
+// more, 1 killed, 2 failed alpha, 3 failed depth, 4 passed.
+fn o_merge(lane: u32, x: u32, y: u32) -> u32 {
+    if (q_killed[lane]) {
+        return 1u;
+    }
+    if (!o_alpha_passes(q_color[0][3][lane])) {
+        return 2u;
+    }
+    let comparison = draw[D_DEPTH];
+    if (comparison != NO_TEST) {
+        let at = draw[D_DEPTH_BASE] + y * draw[D_DEPTH_WIDTH] + x;
+        let made = o_depth(q_depth[lane], q_depth_is_main[lane]);
+        let old = video[at];
+        if (!o_holds(comparison, (made < old), (made > old))) {
+            return 3u;
+        }
+        if (draw[D_DEPTH + 1u] == 1u) {
+            video[at] = made;
+        }
+    }
+    for (var t = 0u; t < 4u; t++) {
+        if (draw[D_TARGETS + TARGET_WORDS * t] == 1u) {
+            o_write(t, lane, x, y);
+        }
+    }
+    return 4u;
+}

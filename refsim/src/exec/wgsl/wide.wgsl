@@ -1,0 +1,77 @@
+// Integers of 64 bits as pairs of words, the lower one first; two's complement where they are signed.
+
+fn k_add(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
+    let low = a.x + b.x;
+    return vec2<u32>(low, a.y + b.y + select(0u, 1u, low < a.x));
+}
+
+fn k_neg(a: vec2<u32>) -> vec2<u32> {
+    return k_add(~a, vec2<u32>(1u, 0u));
+}
+
+// Unsigned.
+fn k_less(a: vec2<u32>, b: vec2<u32>) -> bool {
+    return a.y < b.y || (a.y == b.y && a.x < b.x);
+}
+
+// The whole product.
+fn k_mul(a: u32, b: u32) -> vec2<u32> {
+    let al = a & 0xffffu;
+    let ah = a >> 16u;
+    let bl = b & 0xffffu;
+    let bh = b >> 16u;
+    let low = al * bl;
+    let middle = ah * bl + (low >> 16u);
+    let other = al * bh + (middle & 0xffffu);
+    return vec2<u32>((other << 16u) | (low & 0xffffu), ah * bh + (middle >> 16u) + (other >> 16u));
+}
+
+// a * b modulo 2^64: right for signed a too.
+fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
+    let low = k_mul(a.x, b);
+    return vec2<u32>(low.x, low.y + a.y * b);
+}
+
+// a >> n for n below 64, unsigned.
+fn k_shr(a: vec2<u32>, n: u32) -> vec2<u32> {
+    if (n >= 32u) {
+        return vec2<u32>(a.y >> (n - 32u), 0u);
+    }
+    let carried = select(a.y << (32u - n), 0u, n == 0u);
+    return vec2<u32>((a.x >> n) | carried, a.y >> n);
+}
+
+// a << n for n below 64.
+fn k_shl(a: vec2<u32>, n: u32) -> vec2<u32> {
+    if (n >= 32u) {
+        return vec2<u32>(0u, a.x << (n - 32u));
+    }
+    let carried = select(a.x >> (32u - n), 0u, n == 0u);
+    return vec2<u32>(a.x << n, (a.y << n) | carried);
+}
+
+// value / 2^shift for shift from 1 to 63, to nearest, ties to even; the result has at most 32 bits.
+fn k_round_even(value: vec2<u32>, shift: u32) -> u32 {
+    let kept = k_shr(value, shift).x;
+    // What is cut off, moved to the top: its highest bit is the half.
+    let rest = k_shl(value, 64u - shift);
+    let half = (rest.y >> 31u) == 1u;
+    let more = ((rest.y & 0x7fffffffu) | rest.x) != 0u;
+    return kept + select(0u, 1u, half && (more || (kept & 1u) == 1u));
+}
+
+// A signed integer as single precision, to nearest, ties to even.
+fn k_to_single(value: vec2<u32>) -> u32 {
+    let negative = (value.y >> 31u) == 1u;
+    let size = select(value, k_neg(value), negative);
+    if ((size.x | size.y) == 0u) {
+        return 0u;
+    }
+    let top = select(31u - countLeadingZeros(size.x), 63u - countLeadingZeros(size.y), size.y != 0u);
+    var significand = size.x << (23u - min(top, 23u));
+    if (top > 23u) {
+        significand = k_round_even(size, top - 23u);
+    }
+    // The leading one of the significand adds one to the exponent, and a carry another.
+    return select(0u, 0x80000000u, negative) | (((top + 126u) << 23u) + significand);
+}

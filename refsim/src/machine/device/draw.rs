@@ -1,0 +1,193 @@
+//! A draw on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
+
+use super::shader::shader;
+use super::{Card, batches};
+use crate::device::Profile;
+use crate::event::{DrawEvents, FragmentCounts};
+use crate::exec::gpu::{AdapterKind, Gpu, GpuError, Shader};
+use crate::exec::wgsl::NumberMode;
+use crate::exec::wgsl::kernel::{
+    COUNT_WORDS, CUT, DepthPlace, Dispatch, DrawState, DrawWords, INVOCATIONS, SAVED_ROWS, UNFINISHED,
+};
+use crate::exec::wgsl::target::TargetPlace;
+use crate::exec::{colors_written, inputs_read, output_rules, program};
+use crate::machine::memory::Memory;
+use crate::machine::validate::Plan;
+use crate::machine::vertices::{VertexStage, set_up};
+use crate::machine::walk::{ROUND, bytes};
+use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError};
+use crate::output::MOST_TARGETS;
+use crate::raster::TriangleSetup;
+use std::sync::Arc;
+
+/// Triangles, counted once a tile, that one dispatch draws at most: so that none runs for seconds.
+const MOST_TRIANGLES: usize = 8192;
+/// Tiles of one dispatch at most.
+const MOST_TILES: usize = 4096;
+/// Loop passes of an invocation in one dispatch: on software, lavapipe's 65,535 less what estimates may be wrong by.
+const SOFTWARE_BUDGET: u32 = 50_000;
+const BUDGET: u32 = 1 << 22;
+/// Workgroups in a row: WebGPU's limit is 65,535.
+const ROW: usize = 256;
+
+impl Machine {
+    /// A machine that draws on a GPU. The bits are the same in integer mode on every GPU; in native mode single precision is
+    /// the GPU's own, where a probe has found that exact.
+    ///
+    /// # Errors
+    /// [`MachineError::Gpu`] if the GPU has no memory for it.
+    pub fn with_gpu(profile: Profile, gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, MachineError> {
+        let mut machine = Self::new(profile, ExecutorKind::Wgpu);
+        machine.memory.card = Some(Card::new(gpu, mode)?);
+        Ok(machine)
+    }
+
+    /// Draws a checked call on the GPU; the best one that the computer has, if none was given.
+    pub(in crate::machine) fn draw_on_gpu(
+        &mut self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+    ) -> Result<DrawEvents, MachineError> {
+        let mut card = match self.memory.card.take() {
+            Some(card) => card,
+            None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
+        };
+        let drawn = card.draw(&self.memory, &self.profile, call, plan);
+        self.memory.card = Some(card);
+        drawn
+    }
+}
+
+impl Card {
+    fn draw(
+        &mut self,
+        memory: &Memory,
+        profile: &Profile,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+    ) -> Result<DrawEvents, MachineError> {
+        let needed = inputs_read(program(call.pixel_program));
+        let stage = VertexStage::new(call, &profile.rules, (ExecutorKind::Batch, None), needed);
+        let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
+        let mut words = self.place(memory, profile, call)?;
+        let (shader, samplers) = shader(self, memory, profile, call)?;
+        self.board.start(&shader, &samplers, COUNT_WORDS)?;
+        let round = (ROUND / plan.triangles.len().max(1)).max(1);
+        let mut first = 0;
+        while first < plan.instance_count {
+            let count = round.min(plan.instance_count - first);
+            let batch = stage.run(first, count, plan);
+            events.vertices += batch.vertices.len() as u64;
+            events.vertex_instructions += batch.slots;
+            let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+            events.primitives += primitives;
+            for part in setups.chunks(ROUND) {
+                self.shade(&mut words, &shader, part, plan)?;
+            }
+            first += count;
+        }
+        let found = self.board.counts(COUNT_WORDS)?;
+        if found.get(CUT).is_some_and(|&n| n != 0) {
+            let adapter = self.board.gpu().adapter().name.clone();
+            let reason = "its driver ends long loops early; use another adapter or executor".to_owned();
+            return Err(GpuError::Device { adapter, reason }.into());
+        }
+        events.fragments = counts(&found);
+        events.bytes = bytes(memory, call, &stage, &events);
+        Ok(events)
+    }
+
+    /// Makes sure that targets are on the GPU; what the kernel is told of the draw.
+    fn place(&mut self, memory: &Memory, profile: &Profile, call: &DrawCall<'_>) -> Result<DrawWords, MachineError> {
+        let mut targets = [None; MOST_TARGETS];
+        for (slot, &id) in targets.iter_mut().zip(&call.targets) {
+            let image = memory.texture(id)?;
+            let base = self.place_texture(id.0, image)? as u32;
+            *slot = Some(TargetPlace { format: image.format(), base, width: image.width() });
+            if let Some(held) = self.textures.get_mut(&id.0) {
+                held.drawn_into();
+            }
+        }
+        let mut depth = None;
+        if let Some(id) = call.depth_buffer {
+            let surface = memory.depth(id)?;
+            let base = self.place_depth(id.0, surface)? as u32;
+            depth = Some(DepthPlace { format: surface.format(), base, width: surface.width() });
+            if let Some(held) = self.depths.get_mut(&id.0) {
+                held.drawn_into();
+            }
+        }
+        let source = program(call.pixel_program);
+        Ok(DrawWords::new(&DrawState {
+            rules: &profile.rules,
+            output: &call.output_state(),
+            output_rules: &output_rules(&profile.rules),
+            components: inputs_read(source),
+            written: colors_written(source),
+            targets,
+            depth,
+        }))
+    }
+
+    /// Draws some triangles.
+    fn shade(
+        &mut self,
+        words: &mut DrawWords,
+        shader: &Shader,
+        setups: &[TriangleSetup],
+        plan: &Plan,
+    ) -> Result<(), MachineError> {
+        let mut packed = Vec::with_capacity(setups.len() * words.setup_words());
+        setups.iter().for_each(|setup| words.setup(setup, &mut packed));
+        self.board.set_setups(&packed)?;
+        let fit = self.board.gpu().most_words() / (4 * INVOCATIONS * (shader.registers + SAVED_ROWS));
+        let dispatches = batches::dispatches(setups, plan.raster.scissor, MOST_TILES.min(fit), MOST_TRIANGLES);
+        for part in dispatches {
+            self.dispatch(words, shader, &part)?;
+        }
+        Ok(())
+    }
+
+    /// Makes a dispatch as often as it takes to finish.
+    fn dispatch(
+        &mut self,
+        words: &mut DrawWords,
+        shader: &Shader,
+        part: &batches::Dispatch,
+    ) -> Result<(), MachineError> {
+        let columns = part.tiles.min(ROW);
+        let groups = [columns as u32, part.tiles.div_ceil(ROW) as u32, 1];
+        let budget = match self.board.gpu().adapter().kind {
+            AdapterKind::Software => SOFTWARE_BUDGET,
+            _ => BUDGET,
+        };
+        let registers = shader.registers;
+        let mut dispatch = Dispatch { tiles: part.tiles, groups: columns, registers, resumes: false, budget };
+        loop {
+            let draw = words.dispatch(&dispatch);
+            let invocations = part.tiles * INVOCATIONS;
+            self.board.dispatch(shader, draw, &part.words, groups, (registers + SAVED_ROWS) * invocations)?;
+            if self.board.take_count(UNFINISHED)? == 0 {
+                return Ok(());
+            }
+            dispatch.resumes = true;
+        }
+    }
+}
+
+/// Counts out of their words.
+fn counts(words: &[u32]) -> FragmentCounts {
+    let of = |k: usize| match words.get(2 * k..2 * k + 2) {
+        Some(&[low, high]) => u64::from(high) << 32 | u64::from(low),
+        _ => 0,
+    };
+    FragmentCounts {
+        generated: of(0),
+        shaded: of(0),
+        killed: of(2),
+        alpha_failed: of(3),
+        depth_failed: of(4),
+        passed: of(5),
+        fetches: std::array::from_fn(|i| of(6 + i)),
+    }
+}

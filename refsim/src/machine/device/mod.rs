@@ -1,0 +1,196 @@
+//! Memory and draws of a machine on a GPU of the host.
+//!
+//! Textures, targets and depth buffers stay there between draws. The host's copy goes there before a draw that needs it,
+//! if the host wrote it last; what was drawn comes back once, when the host asks.
+
+mod batches;
+mod draw;
+mod shader;
+
+use super::MachineError;
+use crate::exec::gpu::{Board, Gpu, GpuError};
+use crate::exec::wgsl::{NativeOperations, NumberMode, number, texture};
+use crate::output::DepthSurface;
+use crate::texture::Image;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+/// What of a machine's memory is on the GPU.
+#[derive(Debug)]
+pub(super) struct Card {
+    board: Board,
+    /// The pixel module.
+    text: String,
+    textures: BTreeMap<usize, Held<Image>>,
+    depths: BTreeMap<usize, Held<DepthSurface>>,
+}
+
+/// Something that is on the GPU.
+#[derive(Debug)]
+struct Held<T> {
+    base: usize,
+    words: usize,
+    newer: Newer,
+    /// What came back since the last draw into it.
+    back: OnceLock<T>,
+}
+
+/// Who wrote last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Newer {
+    /// Both hold the same.
+    Neither,
+    Host,
+    Device,
+}
+
+impl<T> Held<T> {
+    fn new(board: &mut Board, words: usize) -> Result<Self, GpuError> {
+        Ok(Self { base: board.allocate(words)?, words, newer: Newer::Host, back: OnceLock::new() })
+    }
+
+    /// Sends the host's copy, if it is newer.
+    fn send(&mut self, board: &Board, words: impl FnOnce() -> Vec<u32>) -> Result<(), GpuError> {
+        if self.newer == Newer::Host {
+            board.write(self.base, &words())?;
+            self.newer = Newer::Neither;
+        }
+        Ok(())
+    }
+
+    /// The newest contents, given the host's copy.
+    fn fetch<'a>(
+        &'a self,
+        board: &Board,
+        host: &'a T,
+        made: impl FnOnce(Vec<u32>) -> T,
+    ) -> Result<&'a T, MachineError> {
+        if self.newer != Newer::Device {
+            return Ok(host);
+        }
+        if let Some(back) = self.back.get() {
+            return Ok(back);
+        }
+        let words = board.read(self.base, self.words)?;
+        Ok(self.back.get_or_init(|| made(words)))
+    }
+
+    fn drawn_into(&mut self) {
+        self.newer = Newer::Device;
+        self.back = OnceLock::new();
+    }
+
+    fn overwritten(&mut self) {
+        self.newer = Newer::Host;
+        self.back = OnceLock::new();
+    }
+}
+
+/// The image that stands on the GPU as these words.
+fn image_of(like: &Image, words: &[u32]) -> Image {
+    let mut image = like.clone();
+    // As many words as the image was sent with: nothing to go wrong.
+    let _ = texture::words_to_image(words, &mut image);
+    image
+}
+
+fn surface_of(like: &DepthSurface, words: &[u32]) -> DepthSurface {
+    let mut surface = like.clone();
+    surface.data_mut().copy_from_slice(words);
+    surface
+}
+
+impl Card {
+    pub(super) fn new(gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, GpuError> {
+        let native = match mode {
+            NumberMode::Integer => NativeOperations::empty(),
+            NumberMode::Native => gpu.native()?,
+        };
+        let text = shader::machine_text(&number::library(mode, native));
+        Ok(Self { board: Board::new(gpu)?, text, textures: BTreeMap::new(), depths: BTreeMap::new() })
+    }
+
+    /// The contents of texture `number`, of which the host holds `host`.
+    pub(super) fn image<'a>(&'a self, number: usize, host: &'a Image) -> Result<&'a Image, MachineError> {
+        match self.textures.get(&number) {
+            Some(held) => held.fetch(&self.board, host, |words| image_of(host, &words)),
+            None => Ok(host),
+        }
+    }
+
+    /// The contents of depth buffer `number`, of which the host holds `host`.
+    pub(super) fn surface<'a>(
+        &'a self,
+        number: usize,
+        host: &'a DepthSurface,
+    ) -> Result<&'a DepthSurface, MachineError> {
+        match self.depths.get(&number) {
+            Some(held) => held.fetch(&self.board, host, |words| surface_of(host, &words)),
+            None => Ok(host),
+        }
+    }
+
+    /// The host overwrites all of a texture.
+    pub(super) fn texture_overwritten(&mut self, number: usize) {
+        if let Some(held) = self.textures.get_mut(&number) {
+            held.overwritten();
+        }
+    }
+
+    /// The host overwrites all of a depth buffer.
+    pub(super) fn depth_overwritten(&mut self, number: usize) {
+        if let Some(held) = self.depths.get_mut(&number) {
+            held.overwritten();
+        }
+    }
+
+    /// Forgets a texture; its contents, if the host does not have them.
+    pub(super) fn release_texture(&mut self, number: usize, host: &Image) -> Result<Option<Image>, MachineError> {
+        let Some(held) = self.textures.get(&number) else { return Ok(None) };
+        let newest = held.fetch(&self.board, host, |words| image_of(host, &words))?;
+        let newest = (held.newer == Newer::Device).then(|| newest.clone());
+        let (base, words) = (held.base, held.words);
+        self.textures.remove(&number);
+        self.board.free(base, words);
+        Ok(newest)
+    }
+
+    /// Forgets a depth buffer; its contents, if the host does not have them.
+    pub(super) fn release_depth(
+        &mut self,
+        number: usize,
+        host: &DepthSurface,
+    ) -> Result<Option<DepthSurface>, MachineError> {
+        let Some(held) = self.depths.get(&number) else { return Ok(None) };
+        let newest = held.fetch(&self.board, host, |words| surface_of(host, &words))?;
+        let newest = (held.newer == Newer::Device).then(|| newest.clone());
+        let (base, words) = (held.base, held.words);
+        self.depths.remove(&number);
+        self.board.free(base, words);
+        Ok(newest)
+    }
+
+    /// Makes sure that a texture is on the GPU; its first word in `video`.
+    fn place_texture(&mut self, number: usize, host: &Image) -> Result<usize, GpuError> {
+        let held = match self.textures.entry(number) {
+            std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),
+            std::collections::btree_map::Entry::Vacant(slot) => {
+                slot.insert(Held::new(&mut self.board, texture::image_size(host))?)
+            }
+        };
+        held.send(&self.board, || texture::image_words(host))?;
+        Ok(held.base)
+    }
+
+    /// Makes sure that a depth buffer is on the GPU; its first word in `video`.
+    fn place_depth(&mut self, number: usize, host: &DepthSurface) -> Result<usize, GpuError> {
+        let held = match self.depths.entry(number) {
+            std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),
+            std::collections::btree_map::Entry::Vacant(slot) => {
+                slot.insert(Held::new(&mut self.board, host.data().len())?)
+            }
+        };
+        held.send(&self.board, || host.data().to_vec())?;
+        Ok(held.base)
+    }
+}

@@ -1,0 +1,314 @@
+//! Draws on a GPU against the reference: targets, depth buffers and counts are equal to the last bit.
+#![cfg(feature = "wgpu")]
+
+#[path = "common/running.rs"]
+mod running;
+
+use refsim::device::Profile;
+use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::wgsl::NumberMode;
+use refsim::exec::{CheckedProgram, Constants};
+use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
+use refsim::num::Format;
+use refsim::output::{
+    AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
+};
+use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
+use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use running::{bits, checked, ideal};
+use std::sync::Arc;
+
+fn gpu() -> Option<Arc<Gpu>> {
+    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
+    if gpu.is_none() {
+        println!("ignored: no adapter");
+    }
+    gpu
+}
+
+/// Numbers from a seed.
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 32) as u32
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() as usize) % n
+    }
+
+    fn number(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * (self.next() as f32 / 4_294_967_296.0)
+    }
+
+    fn of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.below(list.len())]
+    }
+}
+
+fn vertices(dice: &mut Dice, count: usize) -> Vec<Vertex> {
+    let flat = dice.below(2) == 0;
+    (0..count)
+        .map(|_| {
+            let w = if flat { 1.0 } else { dice.number(0.2, 3.0) };
+            let [x, y] = [dice.number(-1.4, 1.4) * w, dice.number(-1.4, 1.4) * w];
+            let colour = [0; 4].map(|_| dice.number(-0.5, 1.5));
+            Vertex {
+                position: bits([x, y, dice.number(-0.1, 1.1) * w, w]),
+                texcoords: [bits(colour); 8],
+                colors: [bits(colour); 2],
+                ..Vertex::default()
+            }
+        })
+        .collect()
+}
+
+/// The same memory on both machines.
+struct Pair {
+    reference: Machine,
+    device: Machine,
+}
+
+impl Pair {
+    fn new(profile: &Profile, gpu: &Arc<Gpu>, mode: NumberMode) -> Self {
+        Self {
+            reference: Machine::new(profile.clone(), ExecutorKind::Scalar),
+            device: Machine::with_gpu(profile.clone(), Arc::clone(gpu), mode).unwrap(),
+        }
+    }
+
+    fn target(&mut self, format: TexelFormat, width: u32, height: u32, color: [u32; 4]) -> TextureId {
+        let id = self.reference.create_target(format, width, height).unwrap();
+        assert_eq!(self.device.create_target(format, width, height), Ok(id));
+        self.reference.clear_target(id, color).unwrap();
+        self.device.clear_target(id, color).unwrap();
+        id
+    }
+
+    fn depth(&mut self, format: DepthFormat, width: u32, height: u32, depth: u32) -> DepthId {
+        let id = self.reference.create_depth(format, width, height).unwrap();
+        assert_eq!(self.device.create_depth(format, width, height), Ok(id));
+        self.reference.clear_depth(id, depth).unwrap();
+        self.device.clear_depth(id, depth).unwrap();
+        id
+    }
+
+    fn draw(&mut self, call: &DrawCall<'_>, what: &str) {
+        let expected = self.reference.draw(call).unwrap();
+        let found = self.device.draw(call).unwrap_or_else(|e| panic!("{what}: {e}"));
+        assert_eq!(found, expected, "{what}: counts");
+    }
+
+    fn same(&self, targets: &[TextureId], depth: Option<DepthId>, what: &str) {
+        for &id in targets {
+            let (expected, found) = (self.reference.read_back(id).unwrap(), self.device.read_back(id).unwrap());
+            let size = expected.format().bytes();
+            let differs = expected.bytes().chunks(size).zip(found.bytes().chunks(size)).position(|(a, b)| a != b);
+            if let Some(i) = differs {
+                let (x, y) = (i % expected.width() as usize, i / expected.width() as usize);
+                let at = |image: &Image| image.raw(0, 0, y as u32, x as u32);
+                panic!("{what}: {} ({x}, {y}): expected {:x}, found {:x}", expected.format(), at(expected), at(found));
+            }
+        }
+        if let Some(id) = depth {
+            let (expected, found) = (self.reference.read_depth(id).unwrap(), self.device.read_depth(id).unwrap());
+            let differs = expected.data().iter().zip(found.data()).position(|(a, b)| a != b);
+            if let Some(i) = differs {
+                panic!("{what}: depth {i}: expected {:x}, found {:x}", expected.data()[i], found.data()[i]);
+            }
+        }
+    }
+}
+
+fn copy(profile: &Profile) -> CheckedProgram {
+    checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
+}
+
+/// State of a random draw.
+struct State {
+    alpha: Option<AlphaTest>,
+    depth: DepthState,
+    blend: Option<BlendState>,
+    mask: WriteMask,
+    scissor: Option<Region>,
+    viewport: Option<Viewport>,
+    center: PixelCenter,
+    clip_space: ClipSpace,
+    cull: Cull,
+}
+
+impl State {
+    fn random(dice: &mut Dice) -> Self {
+        let on = |dice: &mut Dice| dice.below(2) == 0;
+        let equation = |dice: &mut Dice| BlendEquation {
+            source: dice.of(BlendFactor::ALL),
+            destination: dice.of(BlendFactor::ALL),
+            op: dice.of(&[BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max]),
+        };
+        Self {
+            alpha: on(dice).then(|| AlphaTest {
+                function: dice.of(CompareFunction::ALL),
+                reference: dice.number(-0.2, 1.2).to_bits(),
+            }),
+            depth: DepthState { test: on(dice).then(|| dice.of(CompareFunction::ALL)), write: on(dice) },
+            blend: on(dice).then(|| BlendState { color: equation(dice), alpha: equation(dice) }),
+            mask: if on(dice) { WriteMask::ALL } else { WriteMask(dice.below(16) as u8) },
+            scissor: on(dice).then_some(Region { x: 3, y: 5, width: 27, height: 17 }),
+            viewport: on(dice).then_some(Viewport { x: -7, y: 3, ..Viewport::new(50, 30) }),
+            center: dice.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+            clip_space: dice.of(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
+            cull: dice.of(&[Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
+        }
+    }
+
+    fn apply(&self, call: &mut DrawCall<'_>) {
+        call.alpha_test = self.alpha;
+        call.depth = self.depth;
+        call.blend = self.blend;
+        call.masks = [self.mask; 4];
+        call.scissor = self.scissor;
+        call.viewport = self.viewport;
+        call.center = self.center;
+        call.clip_space = self.clip_space;
+        call.cull = self.cull;
+    }
+}
+
+#[test]
+fn triangles() {
+    let Some(gpu) = gpu() else { return };
+    let profile = ideal("fp32");
+    let program = copy(&profile);
+    let host = Constants::default();
+    let mut pair = Pair::new(&profile, &gpu, NumberMode::Integer);
+    let target = pair.target(TexelFormat::Rgba32f, 40, 24, [0; 4]);
+    let mut dice = Dice(1);
+    for count in [3, 30, 300] {
+        let corners = vertices(&mut dice, count);
+        let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
+        pair.draw(&call, "triangles");
+        pair.same(&[target], None, "triangles");
+    }
+}
+
+/// Every target format, every depth format, all of the output stage, in formats of every kind.
+#[test]
+fn output_stage() {
+    let Some(gpu) = gpu() else { return };
+    for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3"].into_iter().enumerate() {
+        let mut profile = ideal(device);
+        if number % 2 == 1 {
+            profile.rules.target_rounding = TargetRounding::Truncate;
+            profile.rules.depth_rounding = TargetRounding::Truncate;
+        }
+        output_under(&profile, &gpu, number as u64, TexelFormat::ALL);
+    }
+}
+
+fn output_under(profile: &Profile, gpu: &Arc<Gpu>, seed: u64, formats: &[TexelFormat]) {
+    let program = copy(profile);
+    let host = Constants::default();
+    let mut pair = Pair::new(profile, gpu, NumberMode::Integer);
+    let mut dice = Dice(seed);
+    for (i, &format) in formats.iter().enumerate() {
+        if !profile.limits.target_formats.iter().any(|f| f == format.name()) {
+            continue;
+        }
+        let clear = bits([0; 4].map(|_| dice.number(-0.3, 1.3)));
+        let target = pair.target(format, 40, 24, clear);
+        let depth_format = DepthFormat::ALL[i % DepthFormat::ALL.len()];
+        let depth = pair.depth(depth_format, 40, 24, dice.number(0.0, 1.0).to_bits());
+        for round in 0..3 {
+            let corners = vertices(&mut dice, 12);
+            let state = State::random(&mut dice);
+            let source = VertexSource::Transformed(&corners);
+            let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
+            call.depth_buffer = Some(depth);
+            state.apply(&mut call);
+            let what = format!("{}: {format} {depth_format} {round}, {call:?}", profile.name);
+            let what = what.get(..what.len().min(3000)).unwrap_or_default();
+            pair.draw(&call, what);
+            pair.same(&[target], Some(depth), what);
+        }
+        pair.reference.release_texture(target).unwrap();
+        pair.device.release_texture(target).unwrap();
+    }
+}
+
+/// Handles, clears, releases and read-back between draws.
+#[test]
+fn memory_follows() {
+    let Some(gpu) = gpu() else { return };
+    let profile = ideal("fp32");
+    let program = copy(&profile);
+    let host = Constants::default();
+    let mut pair = Pair::new(&profile, &gpu, NumberMode::Integer);
+    let mut dice = Dice(5);
+    let first = pair.target(TexelFormat::Rgba8, 33, 17, bits([0.5; 4]));
+    let second = pair.target(TexelFormat::Bgr565, 33, 17, bits([0.25; 4]));
+    let corners = vertices(&mut dice, 6);
+    let draw = |pair: &mut Pair, target| {
+        let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
+        pair.draw(&call, "memory");
+        pair.same(&[target], None, "memory");
+    };
+    draw(&mut pair, first);
+    draw(&mut pair, second);
+    for machine in [&mut pair.reference, &mut pair.device] {
+        machine.clear_target(first, bits([1.0, 0.0, 0.5, 0.25])).unwrap();
+    }
+    pair.same(&[first, second], None, "cleared");
+    draw(&mut pair, first);
+    let image = pair.reference.read_back(second).unwrap().clone();
+    pair.device.update_texture(first, &image).unwrap_err();
+    let released = [pair.reference.release_texture(first), pair.device.release_texture(first)];
+    assert_eq!(released[0], released[1], "what is released is what was drawn");
+    // Takes the place of the first on the GPU.
+    let third = pair.target(TexelFormat::Rgba16f, 33, 17, bits([0.125; 4]));
+    draw(&mut pair, third);
+    pair.same(&[second, third], None, "a new target");
+}
+
+/// Programs with texture reads, constants, kill, depth of their own, flow; samplers that are unbound.
+#[test]
+fn programs() {
+    let Some(gpu) = gpu() else { return };
+    let texts = [
+        ("r200", "ps_1_4\ntexld r0, t0\ntexld r1, t1\nmad r0, r0, c0, r1"),
+        ("r200", "ps_1_4\ntexcrd r0.rgb, t0\ntexcrd r1.rgb, t1\ndp3 r2, r0, r1\nmov r0, r2"),
+        ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\ntexkill t0\nmov oC0, r0"),
+        ("r300", "ps_2_0\ndcl t0\nrcp r0, t0.x\nrsq r1, r0.x\nmov r0, r1.x\nmov oDepth, r1.x\nmov oC0, r0"),
+        ("nv30", "ps_2_a\ndcl t0\nexp r0, t0.x\nlog r1, t0.y\ndsx r2, t0\nmad r0, r0.x, r1.x, r2\nmov oC0, r0"),
+    ];
+    for (device, text) in texts {
+        let profile = Profile::named(device).unwrap();
+        let program = checked(text, &profile);
+        let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);
+        let mut pair = Pair::new(&profile, &gpu, NumberMode::Integer);
+        let mut dice = Dice(77);
+        let target = pair.target(TexelFormat::Bgra8, 24, 24, [0; 4]);
+        let depth = pair.depth(DepthFormat::Unorm24, 24, 24, 0x3f80_0000);
+        let image = texture(&mut dice);
+        let id = pair.reference.create_texture(image.clone()).unwrap();
+        assert_eq!(pair.device.create_texture(image), Ok(id));
+        for filter in [Filter::Nearest, Filter::Linear] {
+            let corners = vertices(&mut dice, 9);
+            let source = VertexSource::Transformed(&corners);
+            let state = SamplerState { min: filter, mag: filter, ..SamplerState::NEAREST_CLAMP };
+            let mut call =
+                DrawCall::new(source, Primitive::TriangleList, &program, &host, target).with_texture(0, id, state);
+            call.depth_buffer = Some(depth);
+            call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
+            pair.draw(&call, text);
+            pair.same(&[target], Some(depth), text);
+        }
+    }
+}
+
+fn texture(dice: &mut Dice) -> Image {
+    let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| dice.number(0.0, 1.0)))).collect();
+    let kind = TextureKind::D2;
+    Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+}
