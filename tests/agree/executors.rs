@@ -2,6 +2,10 @@
 
 use refsim::device::Profile;
 use refsim::exec::batch::SimdLevel;
+#[cfg(feature = "wgpu")]
+use refsim::exec::gpu::testing;
+#[cfg(feature = "wgpu")]
+use refsim::exec::wgsl::NumberMode;
 use refsim::machine::{ExecutorKind, Machine, MachineError};
 use std::sync::LazyLock;
 
@@ -13,6 +17,9 @@ pub(crate) struct Executor {
     kind: ExecutorKind,
     threads: usize,
     simd: Option<SimdLevel>,
+    /// How a GPU computes in single precision.
+    #[cfg(feature = "wgpu")]
+    mode: Option<NumberMode>,
     /// It draws one case in so many: slow ones needn't see all.
     pub(crate) every: u64,
 }
@@ -20,6 +27,12 @@ pub(crate) struct Executor {
 impl Executor {
     /// A machine of its own.
     pub(crate) fn machine(&self, profile: &Profile) -> Result<Machine, MachineError> {
+        #[cfg(feature = "wgpu")]
+        if let Some(mode) = self.mode
+            && let Some(gpu) = testing::shared().map_err(MachineError::from)?
+        {
+            return Machine::with_gpu(profile.clone(), gpu, mode);
+        }
         let mut machine = Machine::with_threads(profile.clone(), self.kind, self.threads)?;
         machine.set_simd_level(self.simd);
         Ok(machine)
@@ -38,6 +51,8 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     kind: ExecutorKind::Scalar,
     threads: 1,
     simd: None,
+    #[cfg(feature = "wgpu")]
+    mode: None,
     every: 1,
 });
 
@@ -47,9 +62,33 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     for level in SimdLevel::available() {
         for threads in [1, 3] {
             let name = format!("batch/{}/{threads}", level.name());
-            all.push(Executor { name, kind: ExecutorKind::Batch, threads, simd: Some(level), every: 1 });
+            all.push(Executor { name, kind: ExecutorKind::Batch, threads, simd: Some(level), ..REFERENCE.clone() });
         }
     }
-    // Number modes of a GPU belong here, one entry each, with `every` above 1.
+    #[cfg(feature = "wgpu")]
+    all.extend(on_gpu());
     all
 });
+
+/// Both number modes on the adapter that there is; without one, none.
+#[cfg(feature = "wgpu")]
+fn on_gpu() -> Vec<Executor> {
+    match testing::shared() {
+        Ok(Some(_)) => {}
+        Ok(None) => {
+            println!("ignored: no adapter");
+            return Vec::new();
+        }
+        Err(e) => panic!("{e}"),
+    }
+    [("integer", NumberMode::Integer), ("native", NumberMode::Native)]
+        .map(|(word, mode)| {
+            let name = format!("wgpu/{word}");
+            Executor { name, kind: ExecutorKind::Wgpu, mode: Some(mode), every: EVERY_GPU, ..REFERENCE.clone() }
+        })
+        .to_vec()
+}
+
+/// Draws on software drivers take milliseconds where the batch executor takes microseconds.
+#[cfg(feature = "wgpu")]
+const EVERY_GPU: u64 = 4;
