@@ -299,7 +299,7 @@ impl DrawWords {
         self.set("D_STRIDE", &[(dispatch.tiles * INVOCATIONS) as u32]);
         let cost = self.cost();
         let resumes = u32::from(dispatch.resumes);
-        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.budget.max(4 * cost + 10_000), cost, 3, 5]);
+        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.budget.max(cost + 10_000), cost, 3, 5]);
         &self.words
     }
 

@@ -24,8 +24,9 @@ use std::sync::Arc;
 const MOST_TRIANGLES: usize = 8192;
 /// Tiles of one dispatch at most.
 const MOST_TILES: usize = 4096;
-/// Loop passes of an invocation in one dispatch: on software, lavapipe's 65,535 less what estimates may be wrong by.
-const SOFTWARE_BUDGET: u32 = 50_000;
+/// Loop passes of an invocation in one dispatch: on software a quarter of lavapipe's 65,535, since lanes that take different
+/// ways through a program cost more than any of them.
+const SOFTWARE_BUDGET: u32 = 16_000;
 const BUDGET: u32 = 1 << 22;
 /// Workgroups in a row: WebGPU's limit is 65,535.
 const ROW: usize = 256;
