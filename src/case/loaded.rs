@@ -4,7 +4,7 @@ use refsim::{
     event::DrawEvents,
     exec::ResolvedConstants,
     machine::{
-        AttributeStream, DepthId, DrawCall, ExecutorKind, FragmentTrace, Machine, MachineError, StepRate, TextureId,
+        AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, StepRate, TextureId,
         VertexSource, VertexStreams,
     },
     output::{DepthSurface, MOST_TARGETS, WriteMask},
@@ -35,8 +35,8 @@ impl<'s> Loaded<'s> {
     ///
     /// # Errors
     /// If the device cannot do what the case asks.
-    pub fn new(setup: &'s Setup, executor: ExecutorKind) -> Result<Self, CaseError> {
-        let mut machine = Machine::new(setup.profile.clone(), executor);
+    pub fn new(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
+        let mut machine = executor.into().machine(setup.profile.clone())?;
         let [width, height] = setup.size;
         let mut targets = Vec::new();
         for &format in &setup.targets {

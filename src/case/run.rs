@@ -4,7 +4,7 @@ use refsim::{
     device::Rates,
     event::DrawEvents,
     isa::SlotCost,
-    machine::ExecutorKind,
+    machine::Executor,
     num::Format,
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
 };
@@ -62,7 +62,7 @@ impl Outcome {
 ///
 /// # Errors
 /// If the device cannot do what the case asks, or a picture cannot be encoded.
-pub fn run(setup: &Setup, executor: ExecutorKind) -> Result<Outcome, CaseError> {
+pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;
     let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);

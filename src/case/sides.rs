@@ -4,7 +4,7 @@ use refsim::{
     event::DrawEvents,
     exec::ResolvedConstants,
     isa::Program,
-    machine::{ExecutorKind, FragmentTrace},
+    machine::{Executor, FragmentTrace},
 };
 use serde::Serialize;
 
@@ -17,12 +17,12 @@ use crate::compare::{
 const TOGETHER: usize = 1024;
 
 /// One side: a case with its overrides, and who computes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Side<'s> {
     /// The case. Both sides come from the same file.
     pub setup: &'s Setup,
     /// The executor.
-    pub executor: ExecutorKind,
+    pub executor: Executor,
 }
 
 /// How much is compared.
@@ -137,7 +137,7 @@ struct Drawn<'s> {
 
 impl<'s> Drawn<'s> {
     fn new(side: &Side<'s>) -> Result<Self, CaseError> {
-        let load = || Loaded::new(side.setup, side.executor);
+        let load = || Loaded::new(side.setup, &side.executor);
         Ok(Self { drawn: load()?, before: load()?, setup: side.setup, constants: constants(side.setup) })
     }
 

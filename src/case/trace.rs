@@ -1,6 +1,6 @@
 //! One pixel of a case, followed through the draw.
 
-use refsim::machine::{ExecutorKind, FragmentTrace};
+use refsim::machine::{Executor, FragmentTrace};
 
 use super::{CaseError, Loaded, Setup};
 
@@ -22,7 +22,7 @@ pub struct PixelTrace {
 ///
 /// # Errors
 /// If the device cannot do what the case asks, or the pixel lies outside the targets.
-pub fn trace(setup: &Setup, executor: ExecutorKind, pixel: [u32; 2]) -> Result<PixelTrace, CaseError> {
+pub fn trace(setup: &Setup, executor: impl Into<Executor>, pixel: [u32; 2]) -> Result<PixelTrace, CaseError> {
     let loaded = Loaded::new(setup, executor)?;
     let [x, y] = pixel;
     let fragments: Vec<FragmentTrace> = loaded.trace(&[(x, y)])?.into_iter().flatten().collect();

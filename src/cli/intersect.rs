@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
+use refsim::machine::Executor;
 
+use super::executor::{Decider, GpuArgs};
 use super::{Out, Problem, Verdict, view};
 use crate::geom::Ray;
 use crate::geom::classify::Candidate;
@@ -47,7 +48,10 @@ pub(super) struct Args {
 
     /// Who decides [default: batch where a device is named, else exact]
     #[arg(long, value_enum)]
-    executor: Option<view::Decider>,
+    executor: Option<Decider>,
+
+    #[command(flatten)]
+    gpu: GpuArgs,
 
     /// Where the hits go
     #[arg(long, value_name = "H.csv")]
@@ -63,7 +67,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let mesh = load_obj(&args.mesh)?;
     let rays = load_rays(&args.rays)?;
     let sides = Sides::from(args.sides);
-    let hits: Vec<Candidate> = match view::Decider::choose(args.executor, args.device.as_deref()).kind() {
+    let hits: Vec<Candidate> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
         None => {
             let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
             nearest_all(&mesh, &rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect()
@@ -82,7 +86,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 fn on_card(
     profile: Profile,
-    executor: ExecutorKind,
+    executor: Executor,
     mesh: &crate::geom::Mesh,
     rays: &[Ray],
     sides: Sides,

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use miette::IntoDiagnostic as _;
-use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
+use super::executor::{DeviceExecutor, GpuArgs};
 use super::size::Size;
 use super::{Out, Problem, Progress, Verdict, view};
 use crate::geom::exact::Sides;
@@ -72,7 +72,10 @@ pub(super) struct Args {
 
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
-    executor: view::DeviceExecutor,
+    executor: DeviceExecutor,
+
+    #[command(flatten)]
+    gpu: GpuArgs,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
@@ -92,7 +95,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         configurations,
         rays_per_edge: args.rays_per_edge,
         seed: args.seed,
-        executor: ExecutorKind::from(args.executor),
+        executor: args.executor.open(&args.gpu)?,
         all_pairs: args.all_pairs,
     };
     let outcome = run_study(&parameters, &|_| bar.advance(1))?;

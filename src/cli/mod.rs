@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod devices;
 mod error;
+mod executor;
 mod intersect;
 mod leaky_teapot;
 mod out;

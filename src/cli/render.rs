@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 
+use super::executor::{Decider, GpuArgs};
 use super::size::Size;
 use super::{Out, Problem, Verdict, view};
 use crate::geom::Mesh;
@@ -62,7 +63,10 @@ pub(super) struct Args {
 
     /// Who decides [default: batch where a device is named, else exact]
     #[arg(long, value_enum)]
-    executor: Option<view::Decider>,
+    executor: Option<Decider>,
+
+    #[command(flatten)]
+    gpu: GpuArgs,
 
     /// Folder for picture.png and layers.exr
     #[arg(long, value_name = "DIR", default_value = "out/render")]
@@ -77,7 +81,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let Size { width, height } = args.size;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
-    let hits: Vec<Option<(u32, f32)>> = match view::Decider::choose(args.executor, args.device.as_deref()).kind() {
+    let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
         None => {
             nearest_all(&mesh, rays.rays(), sides).into_iter().map(|h| h.map(|h| (h.triangle, h.t.to_f32()))).collect()
         }

@@ -1,9 +1,8 @@
-//! What the commands that trace rays share: sizes, sides, executors, folders of results.
+//! What the commands that trace rays share: sizes, sides, folders of results.
 
 use std::path::Path;
 
 use clap::ValueEnum;
-use refsim::machine::ExecutorKind;
 use refsim::num::FormatError;
 
 use super::Problem;
@@ -34,51 +33,6 @@ impl std::fmt::Display for SidesArg {
             Self::Front => "front",
             Self::Both => "both",
         })
-    }
-}
-
-/// Who computes on the card.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum DeviceExecutor {
-    /// The reference: a fragment at a time, by integers
-    Scalar,
-    /// Many fragments at once
-    Batch,
-}
-
-impl From<DeviceExecutor> for ExecutorKind {
-    fn from(arg: DeviceExecutor) -> Self {
-        match arg {
-            DeviceExecutor::Scalar => Self::Scalar,
-            DeviceExecutor::Batch => Self::Batch,
-        }
-    }
-}
-
-/// Who decides what a ray hits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Decider {
-    /// Exact arithmetic: the truth
-    Exact,
-    /// The emulated card, a fragment at a time
-    Scalar,
-    /// The emulated card, many fragments at once; the bits are those of scalar
-    Batch,
-}
-
-impl Decider {
-    /// What was asked for; a card that was named is asked, unless the executor says otherwise.
-    pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Self {
-        executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact })
-    }
-
-    /// The executor of the card, or `None` for exact arithmetic.
-    pub(super) const fn kind(self) -> Option<ExecutorKind> {
-        match self {
-            Self::Exact => None,
-            Self::Scalar => Some(ExecutorKind::Scalar),
-            Self::Batch => Some(ExecutorKind::Batch),
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::Constants;
 use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, ExecutorKind, Machine, MachineError, StepRate, TextureId, VertexSource,
+    AttributeStream, DepthId, DrawCall, Executor, Machine, MachineError, StepRate, TextureId, VertexSource,
     VertexStreams,
 };
 use refsim::num::Format;
@@ -88,7 +88,7 @@ pub struct Answer {
 #[derive(Clone, Debug)]
 pub struct Crossbar {
     profile: Profile,
-    executor: ExecutorKind,
+    executor: Executor,
     all_pairs: bool,
     /// Programs that have been assembled and checked, by what they were chosen for.
     kernels: Arc<Mutex<Vec<Chosen>>>,
@@ -102,8 +102,8 @@ type Chosen = (KernelUse, Arc<Kernel>);
 
 impl Crossbar {
     /// A card of this profile.
-    pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor, all_pairs: false, kernels: Arc::default() }
+    pub fn new(profile: Profile, executor: impl Into<Executor>) -> Self {
+        Self { profile, executor: executor.into(), all_pairs: false, kernels: Arc::default() }
     }
 
     /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
@@ -151,7 +151,7 @@ impl Crossbar {
         let units = Units::choose(kernel.form, mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
-            let mut card = Card::set_up(&self.profile, self.executor, &kernel, &bucket, &units)?;
+            let mut card = Card::set_up(&self.profile, &self.executor, &kernel, &bucket, &units)?;
             let events = card.draw(&kernel, mesh, &units, &triangles)?;
             Ok((region, card.read_back(&bucket, &units)?, events))
         };
@@ -209,12 +209,12 @@ struct Card {
 impl Card {
     fn set_up(
         profile: &Profile,
-        executor: ExecutorKind,
+        executor: &Executor,
         kernel: &Kernel,
         rays: &RayBatch,
         units: &Units,
     ) -> Result<Self, EngineError> {
-        let mut machine = Machine::new(profile.clone(), executor);
+        let mut machine = executor.machine(profile.clone())?;
         let mut textures = Vec::new();
         for (sampler, image) in ray_textures(kernel, rays, units).map_err(MachineError::from)? {
             textures.push((sampler, machine.create_texture(image)?));

@@ -5,7 +5,7 @@
 //! where the paper's equations are evaluated once for each neighbour and need not agree.
 
 use rayon::prelude::*;
-use refsim::machine::ExecutorKind;
+use refsim::machine::Executor;
 use serde::Serialize;
 
 use super::configuration::Configuration;
@@ -32,7 +32,7 @@ pub struct Parameters {
     /// Seed of the points on the edges.
     pub seed: u64,
     /// Who computes.
-    pub executor: ExecutorKind,
+    pub executor: Executor,
     /// Whether every ray meets every triangle, or only those near its bucket.
     pub all_pairs: bool,
 }
@@ -171,7 +171,7 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
     for configuration in &parameters.configurations {
         progress(&configuration.label);
         let crossbar =
-            Crossbar::new(configuration.profile.clone(), parameters.executor).all_pairs(parameters.all_pairs);
+            Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs);
         let answer = crossbar.intersect(mesh, &parameters.view, *sides)?;
         let (verdicts, tally) = view.judge(mesh, &answer.hits);
         let triangles: Vec<Option<u32>> = answer.hits.iter().map(|h| h.map(|h| h.triangle)).collect();

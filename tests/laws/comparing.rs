@@ -175,7 +175,7 @@ fn vertices_come_before_what_they_cause() {
     setup.vertex_constants.float[0][0] = 1.06_f32.to_bits();
     let mut short = setup.clone();
     short.profile.rules.vertex_format = "e5m3".parse().expect("a format");
-    let sides = [&setup, &short].map(|setup| Side { setup, executor: ExecutorKind::Batch });
+    let sides = [&setup, &short].map(|setup| Side { setup, executor: ExecutorKind::Batch.into() });
     let found = compare(&sides[0], &sides[1], Scope::Results).expect("both can be drawn");
     let first = found.first.expect("a difference");
     assert_eq!(first.pixel, [3, 0]);

@@ -18,7 +18,7 @@ fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Param
         configurations,
         rays_per_edge: 2,
         seed: 1,
-        executor: ExecutorKind::Batch,
+        executor: ExecutorKind::Batch.into(),
         all_pairs: false,
     }
 }
@@ -75,7 +75,7 @@ fn scalar_and_batch_give_the_same_study() {
     configurations.extend(formats(&["fp16", "fp24", "fp32", "s5.10", "e6m9:rtz"]));
     let mut small = parameters(24, 2, configurations);
     let batch = study(&small);
-    small.executor = ExecutorKind::Scalar;
+    small.executor = ExecutorKind::Scalar.into();
     let scalar = study(&small);
     for (b, s) in batch.rows.iter().zip(&scalar.rows) {
         let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();

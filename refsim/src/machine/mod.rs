@@ -13,6 +13,7 @@
 mod device;
 mod draw;
 mod error;
+mod executor;
 mod memory;
 mod trace;
 mod validate;
@@ -21,6 +22,7 @@ mod walk;
 
 pub use draw::{AttributeStream, BoundTexture, DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
 pub use error::MachineError;
+pub use executor::{Executor, ExecutorKind};
 pub use memory::{DepthId, TextureId};
 pub use trace::{FragmentTrace, PixelState};
 
@@ -30,19 +32,6 @@ use crate::exec::batch::{BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use memory::Memory;
-
-/// Which executor shades fragments. The bits are the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum ExecutorKind {
-    /// The reference: one value at a time.
-    #[default]
-    Scalar,
-    /// Tiles of 256 fragments in vector code of the host.
-    Batch,
-    /// A GPU of the host.
-    #[cfg(feature = "wgpu")]
-    Wgpu,
-}
 
 /// An emulated card.
 #[derive(Debug)]

@@ -66,6 +66,10 @@ impl Machine {
         call: &DrawCall<'_>,
         pixels: &[(u32, u32)],
     ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
+        #[cfg(feature = "wgpu")]
+        if self.executor == ExecutorKind::Wgpu {
+            return Err(MachineError::NotFollowed);
+        }
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
         let mut work = || {
@@ -179,6 +183,7 @@ fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'
             Some(tracer) => Box::new(tracer.with_simd_level(simd)),
             None => Box::new(ScalarTiles::new(draw)),
         },
+        // Refused before it comes to this.
         #[cfg(feature = "wgpu")]
         ExecutorKind::Wgpu => Box::new(ScalarTiles::new(draw)),
     }

@@ -5,11 +5,13 @@ mod show;
 use std::path::PathBuf;
 
 use miette::WrapErr as _;
-use refsim::{device::Profile, machine::ExecutorKind, num::Format};
+use refsim::{device::Profile, machine::Executor, num::Format};
 
 use super::{
-    Out, Problem, Verdict, pixel,
-    view::{DeviceExecutor, bad_format},
+    Out, Problem, Verdict,
+    executor::{DeviceExecutor, GpuArgs},
+    pixel,
+    view::bad_format,
 };
 use crate::case::{self, Overrides, Scope, Setup, Side};
 
@@ -42,6 +44,9 @@ pub(in crate::cli) struct Args {
     /// Who computes on the right [default: batch, or as on the left where the sides differ in something else]
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     right: Option<DeviceExecutor>,
+
+    #[command(flatten)]
+    gpu: GpuArgs,
 
     /// Device on the left, in place of what the case says
     #[arg(long, value_name = "D")]
@@ -80,7 +85,7 @@ pub(in crate::cli) struct Args {
 #[derive(Debug)]
 struct Wanted {
     name: &'static str,
-    executor: ExecutorKind,
+    executor: Executor,
     overrides: Overrides,
 }
 
@@ -89,15 +94,21 @@ impl Args {
     fn sides(&self) -> miette::Result<[Wanted; 2]> {
         let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
         let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());
-        let left_executor = self.left.map(ExecutorKind::from).unwrap_or_default();
-        let other = if left == right { ExecutorKind::Batch } else { left_executor };
-        let right_executor = self.right.map_or(other, ExecutorKind::from);
+        let left_executor = self.left.unwrap_or(DeviceExecutor::Scalar);
+        let other = if left == right { DeviceExecutor::Batch } else { left_executor };
+        let right_executor = self.right.unwrap_or(other);
         if left == right && left_executor == right_executor {
             let help = "let the sides differ: `--right batch`, `--right-format fp32`, `--right-device r300` or \
                         `--right-switch rounding=rtz` for example";
             return Err(Problem::usage("both sides are the same", help).into());
         }
-        Ok([wanted("left", left, left_executor)?, wanted("right", right, right_executor)?])
+        // The options for GPUs hold for the sides that run on one.
+        let on_gpu = |executor| executor == DeviceExecutor::Wgpu;
+        let open = |executor| match on_gpu(left_executor) || on_gpu(right_executor) {
+            true if !on_gpu(executor) => executor.open(&GpuArgs::default()),
+            _ => executor.open(&self.gpu),
+        };
+        Ok([wanted("left", left, open(left_executor)?)?, wanted("right", right, open(right_executor)?)?])
     }
 
     fn scope(&self, size: [u32; 2]) -> miette::Result<Scope> {
@@ -112,7 +123,7 @@ impl Args {
 /// Device, format and switches as asked for.
 type Settings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
 
-fn wanted(name: &'static str, settings: Settings<'_>, executor: ExecutorKind) -> miette::Result<Wanted> {
+fn wanted(name: &'static str, settings: Settings<'_>, executor: Executor) -> miette::Result<Wanted> {
     let (device, format, switches) = settings;
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
@@ -133,8 +144,10 @@ pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict>
             .wrap_err_with(|| format!("the case cannot be set up on the {} side", wanted.name))
     };
     let setups = [read(&left)?, read(&right)?];
-    let sides =
-        [Side { setup: &setups[0], executor: left.executor }, Side { setup: &setups[1], executor: right.executor }];
+    let sides = [
+        Side { setup: &setups[0], executor: left.executor.clone() },
+        Side { setup: &setups[1], executor: right.executor.clone() },
+    ];
     let comparison = case::compare(&sides[0], &sides[1], args.scope(setups[0].size)?)?;
     out.outlive_reader();
     let shown = show::Shown { case: &args.case, sides: &sides, comparison: &comparison };

@@ -98,7 +98,7 @@ impl Shown<'_> {
         }
         for (name, side) in ["left ", "right"].into_iter().zip(self.sides) {
             let profile = &side.setup.profile;
-            let executor = executor(side.executor);
+            let executor = executor(side.executor.kind());
             out.line(format_args!(
                 "{name}  executor {executor}, device {}, pixel registers {}",
                 profile.name, profile.rules.format
@@ -340,7 +340,7 @@ fn side_json(side: &Side<'_>) -> Value {
     let switches: serde_json::Map<String, Value> =
         profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
     json!({
-        "executor": executor(side.executor),
+        "executor": executor(side.executor.kind()),
         "device": profile.name,
         "format": profile.rules.format.to_string(),
         "switches": switches,

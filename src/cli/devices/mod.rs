@@ -9,6 +9,9 @@ mod adapters;
 #[path = "no_adapters.rs"]
 mod adapters;
 
+#[cfg(not(feature = "wgpu"))]
+pub(super) use adapters::missing as no_adapters;
+
 use super::{Out, OutputError, Verdict};
 use crate::report::{Cell, Table};
 

@@ -12,7 +12,8 @@ pub(super) fn probe(_: &str, _: &mut Out) -> miette::Result<Verdict> {
     Err(missing().into())
 }
 
-fn missing() -> Problem {
+/// Why not.
+pub(in crate::cli) fn missing() -> Problem {
     Problem::usage(
         "this build knows no GPU adapters: the feature `wgpu` is off",
         "build with `cargo build --release --features wgpu`",

@@ -4,10 +4,10 @@ mod trace;
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-use refsim::machine::ExecutorKind;
+use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
+use super::executor::{DeviceExecutor, GpuArgs};
 use super::{Out, Problem, Verdict, pixel};
 use crate::{
     case::{self, Found, Outcome, PixelTrace, ProbeResult, Setup},
@@ -41,42 +41,29 @@ pub(super) struct Args {
 
     /// Who computes; the bits are the same
     #[arg(long, value_enum, default_value = "scalar")]
-    executor: Executor,
+    executor: DeviceExecutor,
+
+    #[command(flatten)]
+    gpu: GpuArgs,
 
     /// Show what every instruction writes at a pixel: column and row from the top left, from 0
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse)]
     trace: Option<[u32; 2]>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Executor {
-    /// The reference: one value at a time
-    Scalar,
-    /// The fast one: many fragments at a time
-    Batch,
-}
-
-impl Executor {
-    const fn kind(self) -> ExecutorKind {
-        match self {
-            Self::Scalar => ExecutorKind::Scalar,
-            Self::Batch => ExecutorKind::Batch,
-        }
-    }
-}
-
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let executor = args.executor.open(&args.gpu)?;
     let setup = Setup::read(&args.case)?;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
-    let traced = args.trace.map(|place| follow(&setup, args.executor.kind(), place)).transpose()?;
+    let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
     let traced = traced.as_ref().map(|trace| trace::Traced {
         setup: &setup,
         trace,
-        knows_flags: args.executor.kind() == ExecutorKind::Scalar,
+        knows_flags: executor.kind() == ExecutorKind::Scalar,
     });
     // Before the work: a folder that cannot be written is found out early.
     let mut files = FileSet::new(&folder).map_err(Problem::from)?;
-    let outcome = case::run(&setup, args.executor.kind())?;
+    let outcome = case::run(&setup, &executor)?;
     for picture in &outcome.pictures {
         files.write(Path::new(&picture.name), |file| file.write_all(&picture.bytes)).map_err(Problem::from)?;
     }
@@ -98,7 +85,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::held(outcome.passed()))
 }
 
-fn follow(setup: &Setup, executor: ExecutorKind, place: [u32; 2]) -> miette::Result<PixelTrace> {
+fn follow(setup: &Setup, executor: &Executor, place: [u32; 2]) -> miette::Result<PixelTrace> {
     let place = pixel::within(place, setup.size)?;
     Ok(case::trace(setup, executor, place)?)
 }
