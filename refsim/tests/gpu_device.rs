@@ -11,6 +11,7 @@ const DOUBLE: &str = "
     if id.x < arrayLength(&given) { made[id.x] = 2u * given[id.x]; }
 }";
 
+#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
 fn gpu() -> Option<Arc<Gpu>> {
     let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
     if gpu.is_none() {

@@ -18,6 +18,7 @@ use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, Texel
 use running::{bits, checked, ideal};
 use std::sync::Arc;
 
+#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
 fn gpu() -> Option<Arc<Gpu>> {
     let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
     if gpu.is_none() {

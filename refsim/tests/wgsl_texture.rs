@@ -4,6 +4,7 @@
 mod wgsl_texture {
     mod cases;
     #[cfg(feature = "wgpu")]
+    #[expect(clippy::print_stdout, reason = "tests say what took how long, and that they saw no adapter")]
     mod device;
     mod module;
     mod random;

@@ -72,6 +72,7 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
 
 /// Both number modes on the adapter that there is; without one, none.
 #[cfg(feature = "wgpu")]
+#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
 fn on_gpu() -> Vec<Executor> {
     match testing::shared() {
         Ok(Some(_)) => {}

@@ -65,23 +65,55 @@ fn rays_at_seams_leak_even_in_fp32() {
     assert!(outcome.rows[1].edges.leak_share() > share, "fp16 leaks more");
 }
 
-#[test]
-fn scalar_and_batch_give_the_same_study() {
+/// The study by the batch executor, small enough for every executor.
+fn small_study() -> (Parameters, Outcome) {
     let mut configurations = vec![Configuration::device("r200").expect("a card")];
     for card in ["r300", "nv35"] {
         configurations.push(Configuration::device(card).expect("a card"));
     }
     configurations.push(Configuration::device_in_format("nv35", Format::FP16).expect("a card"));
     configurations.extend(formats(&["fp16", "fp24", "fp32", "s5.10", "e6m9:rtz"]));
-    let mut small = parameters(24, 2, configurations);
+    let small = parameters(24, 2, configurations);
     let batch = study(&small);
-    small.executor = ExecutorKind::Scalar.into();
-    let scalar = study(&small);
-    for (b, s) in batch.rows.iter().zip(&scalar.rows) {
+    (small, batch)
+}
+
+fn assert_same(batch: &Outcome, other: &Outcome, who: &str) {
+    for (b, o) in batch.rows.iter().zip(&other.rows) {
         let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
-        assert_eq!(b.triangle, s.triangle, "{}: triangles", b.configuration.label);
-        assert_eq!(bits(&b.t), bits(&s.t), "{}: t", b.configuration.label);
-        assert_eq!((b.edges, b.vertices), (s.edges, s.vertices), "{}: aimed rays", b.configuration.label);
+        assert_eq!(b.triangle, o.triangle, "{who}, {}: triangles", b.configuration.label);
+        assert_eq!(bits(&b.t), bits(&o.t), "{who}, {}: t", b.configuration.label);
+        assert_eq!((b.edges, b.vertices), (o.edges, o.vertices), "{who}, {}: aimed rays", b.configuration.label);
+    }
+}
+
+#[test]
+fn scalar_and_batch_give_the_same_study() {
+    let (mut small, batch) = small_study();
+    small.executor = ExecutorKind::Scalar.into();
+    assert_same(&batch, &study(&small), "scalar");
+}
+
+#[cfg(feature = "wgpu")]
+#[test]
+#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
+fn a_gpu_gives_the_same_study_in_both_number_modes() {
+    use refsim::exec::{gpu::testing, wgsl::NumberMode};
+    let Some(gpu) = testing::shared().expect("an adapter that opens") else {
+        println!("ignored: no adapter");
+        return;
+    };
+    // A software driver takes minutes for the whole small study.
+    let mut small = parameters(16, 1, formats(&["fp16", "fp24", "fp32"]));
+    small.configurations.push(Configuration::device("r200").expect("a card"));
+    small.rays_per_edge = 0;
+    if std::env::var_os("CROSSBAR_FULL").is_some() {
+        small = small_study().0;
+    }
+    let batch = study(&small);
+    for mode in [NumberMode::Integer, NumberMode::Native] {
+        small.executor = refsim::machine::Executor::Gpu { gpu: gpu.clone(), mode };
+        assert_same(&batch, &study(&small), &format!("wgpu, {mode:?}"));
     }
 }
 

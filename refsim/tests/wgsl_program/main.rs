@@ -11,5 +11,6 @@ mod random;
 mod cases;
 mod modules;
 #[cfg(feature = "wgpu")]
+#[expect(clippy::print_stdout, reason = "tests say what took how long, and that they saw no adapter")]
 mod runs;
 mod texts;
