@@ -55,3 +55,4 @@ pub mod num;
 pub mod output;
 pub mod raster;
 pub mod texture;
+pub mod timing;

@@ -1,0 +1,127 @@
+//! Clocks of a unit, and time on the axis that all units share.
+
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Mul, Sub};
+
+/// Picoseconds in a second.
+const PICO: u128 = 1_000_000_000_000;
+
+/// Clocks of one unit; what a clock lasts is the unit's [`Hertz`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Clocks(pub u64);
+
+/// Time since the start of a run, or a span of it: whole picoseconds, up to 213 days.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Picoseconds(pub u64);
+
+/// Things a second: clocks, bytes, pixels, operations. Never 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Hertz(u64);
+
+impl Hertz {
+    /// A rate; `None` for 0, at which nothing ever ends.
+    pub const fn new(per_second: u64) -> Option<Self> {
+        if per_second == 0 { None } else { Some(Self(per_second)) }
+    }
+
+    /// Things a second.
+    pub const fn per_second(self) -> u64 {
+        self.0
+    }
+
+    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be longer.
+    pub fn time_of(self, count: u64) -> Picoseconds {
+        let exact = (u128::from(count) * PICO).div_ceil(u128::from(self.0));
+        Picoseconds(u64::try_from(exact).unwrap_or(u64::MAX))
+    }
+}
+
+impl Picoseconds {
+    /// No time.
+    pub const ZERO: Self = Self(0);
+
+    /// In seconds, for people to read.
+    pub fn seconds(self) -> f64 {
+        self.0 as f64 / PICO as f64
+    }
+
+    /// The time left to `later`; none if that is earlier.
+    #[must_use]
+    pub fn until(self, later: Self) -> Self {
+        Self(later.0.saturating_sub(self.0))
+    }
+}
+
+impl Add for Picoseconds {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0.saturating_add(other.0))
+    }
+}
+
+impl Sub for Picoseconds {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.saturating_sub(other.0))
+    }
+}
+
+impl AddAssign for Picoseconds {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sum for Picoseconds {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::ZERO, Add::add)
+    }
+}
+
+impl Add for Clocks {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0.saturating_add(other.0))
+    }
+}
+
+impl AddAssign for Clocks {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul<u64> for Clocks {
+    type Output = Self;
+
+    fn mul(self, times: u64) -> Self {
+        Self(self.0.saturating_mul(times))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn time_is_rounded_up_once() {
+        let r200 = Hertz::new(275_000_000).expect("not 0");
+        // 1 / 275 MHz = 3636.36... ps
+        assert_eq!(r200.time_of(1), Picoseconds(3637));
+        assert_eq!(r200.time_of(11), Picoseconds(40_000));
+        assert_eq!(r200.time_of(0), Picoseconds::ZERO);
+        assert_eq!(Hertz::new(1).expect("not 0").time_of(u64::MAX), Picoseconds(u64::MAX));
+        assert_eq!(Hertz::new(0), None);
+    }
+
+    #[test]
+    fn time_never_wraps() {
+        let (early, late) = (Picoseconds(3), Picoseconds(5));
+        assert_eq!(early.until(late), Picoseconds(2));
+        assert_eq!(late.until(early), Picoseconds::ZERO);
+        assert_eq!(Picoseconds(u64::MAX) + early, Picoseconds(u64::MAX));
+    }
+}
