@@ -7,6 +7,8 @@
 //! give the same timeline to the last clock.
 
 mod cost;
+pub mod queue;
+pub mod timeline;
 mod units;
 
 pub use cost::{Bottleneck, DrawCost};

@@ -1,0 +1,86 @@
+//! What commands cost the host, and how far the card may fall behind.
+
+use crate::device::{Confidence, FigureRow};
+
+macro_rules! queue_figures {
+    ($($(#[$doc:meta])* $field:ident = $value:literal $unit:literal $source:literal;)*) => {
+        /// What commands cost the host, and how far the card may fall behind. None of it has been published for these
+        /// cards: every figure is a guess, and `crossbar timeline --sensitivity` shows what each one does.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct QueueFigures {
+            $($(#[$doc])* pub $field: u64,)*
+        }
+
+        impl Default for QueueFigures {
+            fn default() -> Self {
+                Self { $($field: $value,)* }
+            }
+        }
+
+        impl QueueFigures {
+            /// The figures with source and confidence; keys start with `queue.`.
+            pub fn rows(&self) -> Vec<FigureRow> {
+                vec![$(row(stringify!($field), self.$field, $unit, $source),)*]
+            }
+
+            /// The figure of this key, to be changed; `None` if there is no such key.
+            pub fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
+                match key.strip_prefix("queue.")? {
+                    $(stringify!($field) => Some(&mut self.$field),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+queue_figures! {
+    /// Host time to start an upload, beside the transfer, in picoseconds.
+    upload_ps = 2_000_000 "ps" "no source was found; a driver call with an address check on a processor of 2002";
+    /// Host time to change state, in picoseconds.
+    state_ps = 200_000 "ps" "no source was found; a few hundred clocks of a processor of 2002";
+    /// Host time to ask for a clear, in picoseconds.
+    clear_ps = 500_000 "ps" "no source was found";
+    /// Host time to ask for a draw, in picoseconds.
+    draw_ps = 1_000_000 "ps" "no source was found; about a million draws a second when nothing else is done";
+    /// Host time to ask for a read-back, beside the transfer, in picoseconds.
+    read_back_ps = 2_000_000 "ps" "no source was found; taken like an upload";
+    /// Host time to set a fence, in picoseconds.
+    set_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
+    /// Host time to test a fence, in picoseconds.
+    test_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
+    /// Host time to start to wait for a fence, in picoseconds.
+    finish_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
+    /// Commands that the queue holds before the host has to wait; at least 1.
+    commands = 256 "command" "no source was found; a command buffer of some KiB";
+    /// Draws whose vertices may be done before the pixel pipelines get to them, beside the one that they are at.
+    draws_ahead = 4 "draw" "no source was found; set-up keeps some primitives ready";
+}
+
+impl QueueFigures {
+    /// Commands cost the host nothing.
+    #[must_use]
+    pub fn without_overhead(self) -> Self {
+        Self {
+            upload_ps: 0,
+            state_ps: 0,
+            clear_ps: 0,
+            draw_ps: 0,
+            read_back_ps: 0,
+            set_fence_ps: 0,
+            test_fence_ps: 0,
+            finish_fence_ps: 0,
+            ..self
+        }
+    }
+}
+
+fn row(field: &str, value: u64, unit: &str, source: &str) -> FigureRow {
+    FigureRow {
+        key: format!("queue.{field}"),
+        value: value.to_string(),
+        unit: unit.to_owned(),
+        source: source.to_owned(),
+        confidence: Confidence::Guess,
+    }
+}

@@ -1,0 +1,313 @@
+//! A command queue: the host gives commands, the card obeys them in order, the buses carry data beside both.
+//!
+//! The simulator is online: each call places its command at once, from what was placed before it. A start is always the
+//! latest of some ends, so that making anything shorter, or taking away a reason to wait, never makes the whole longer.
+//! All durations are given from outside; nothing here knows what a draw is. docs/timing.md has the rules one by one, and an example.
+
+mod double;
+mod fence;
+mod figures;
+mod schedule;
+
+use std::collections::{BTreeMap, VecDeque};
+
+pub use double::DoubleBuffer;
+pub use fence::{Fence, FenceError};
+pub use figures::QueueFigures;
+
+use super::timeline::{Label, Mark, SpanKind, Timeline, Unit, WaitReason};
+use super::{DrawCost, Picoseconds};
+use fence::Fences;
+use schedule::{Schedule, Work};
+
+/// The name of a texture, target or depth buffer; who gives the commands chooses the numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ResourceId(pub u64);
+
+/// Whether the host waits for the data that it asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ReadBackMode {
+    /// It waits for all earlier work and for the transfer, as `glReadPixels` did.
+    Synchronous,
+    /// Host and card go on while the bus transfers; only who writes into the resource waits.
+    Asynchronous,
+}
+
+/// When a resource is free to be read and to be written.
+#[derive(Clone, Copy, Debug, Default)]
+struct Use {
+    written: Mark,
+    read: Mark,
+}
+
+/// Host, queue, card and buses, with everything that they were given to do.
+#[derive(Clone, Debug)]
+pub struct Queue {
+    figures: QueueFigures,
+    schedule: Schedule,
+    /// When each of the last commands left the queue.
+    taken: VecDeque<Mark>,
+    /// The ends of the last draws and clears.
+    bodies: VecDeque<Mark>,
+    /// The end of everything that the card was given, transfers included.
+    done: Mark,
+    resources: BTreeMap<ResourceId, Use>,
+    fences: Fences,
+    commands: u32,
+}
+
+/// A command on its way: when the card has it, and what its spans are called.
+struct Given {
+    ready: Mark,
+    label: Label,
+    command: u32,
+}
+
+impl Given {
+    fn work(&self, kind: SpanKind) -> Work<'_> {
+        Work { kind, label: &self.label, command: self.command }
+    }
+}
+
+impl Queue {
+    /// An empty queue at time 0.
+    pub fn new(figures: QueueFigures) -> Self {
+        Self {
+            figures,
+            schedule: Schedule::default(),
+            taken: VecDeque::new(),
+            bodies: VecDeque::new(),
+            done: Mark::default(),
+            resources: BTreeMap::new(),
+            fences: Fences::default(),
+            commands: 0,
+        }
+    }
+
+    /// The host's present: the end of all that it has done and waited for.
+    pub fn now(&self) -> Picoseconds {
+        self.schedule.free(Unit::Host).time
+    }
+
+    /// When everything given so far will be done.
+    pub fn end(&self) -> Picoseconds {
+        self.schedule.free(Unit::Host).or_later(self.done).time
+    }
+
+    /// The host works.
+    pub fn host(&mut self, duration: Picoseconds, label: impl Into<Label>) {
+        let given = self.name(label.into());
+        self.on_host(SpanKind::HostWork, duration, &given);
+    }
+
+    /// Data for the whole of a resource go to the card, beside its work. The bus waits for draws before that read or write the resource.
+    pub fn upload(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
+        let given = self.give(self.figures.upload_ps, label.into());
+        let taken = self.take(given.ready);
+        let held = self.held(resource);
+        let needs = [(taken, WaitReason::Order), (held.written.or_later(held.read), WaitReason::Hazard)];
+        let sent =
+            self.schedule.place(Unit::UploadBus, given.ready, &needs, duration, &given.work(SpanKind::Upload)).end;
+        self.resources.entry(resource).or_default().written = sent;
+        self.done = self.done.or_later(sent);
+    }
+
+    /// The card changes its state.
+    pub fn state(&mut self, duration: Picoseconds, label: impl Into<Label>) {
+        let given = self.give(self.figures.state_ps, label.into());
+        let end = self.front_end(&given, duration, SpanKind::State).1;
+        self.done = self.done.or_later(end);
+    }
+
+    /// The card fills a resource with one value; takes its memory's time.
+    pub fn clear(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
+        let given = self.give(self.figures.clear_ps, label.into());
+        let (start, _) = self.front_end(&given, Picoseconds::ZERO, SpanKind::State);
+        let needs = self.body_needs(start, &[], &[resource]);
+        let end = self.schedule.place(Unit::Memory, given.ready, &needs, duration, &given.work(SpanKind::Clear)).end;
+        self.body_ends(end, &[], &[resource]);
+    }
+
+    /// The card draws: reads some resources and writes others. The front end may be ahead of the pixel pipelines by
+    /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory are busy side by side, for one draw at a time.
+    pub fn draw(&mut self, reads: &[ResourceId], writes: &[ResourceId], cost: DrawCost, label: impl Into<Label>) {
+        let given = self.give(self.figures.draw_ps, label.into());
+        // What is left of the total when the longest unit is taken away: the pipeline fills, and it drains.
+        let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
+        let (start, vertices) = self.front_end(&given, cost.front_end, SpanKind::Vertices);
+        let needs = self.body_needs(start.plus(fill), reads, writes);
+        let mut place =
+            |unit, duration, kind| self.schedule.place(unit, given.ready, &needs, duration, &given.work(kind)).end;
+        let shaded = place(Unit::ShaderArray, cost.shader, SpanKind::Fragments);
+        let moved = place(Unit::Memory, cost.memory, SpanKind::Traffic);
+        self.body_ends(shaded.or_later(moved).or_later(vertices.plus(fill)), reads, writes);
+    }
+
+    /// Data of a resource go to the host, after all draws before. Asynchronous, it returns a fence that is passed when they have
+    /// arrived and everything before is done; setting it costs nothing.
+    pub fn read_back(
+        &mut self,
+        resource: ResourceId,
+        duration: Picoseconds,
+        mode: ReadBackMode,
+        label: impl Into<Label>,
+    ) -> Option<Fence> {
+        let given = self.give(self.figures.read_back_ps, label.into());
+        let taken = self.take(given.ready);
+        let drawn = self.bodies.back().copied().unwrap_or_default();
+        let needs =
+            [(taken, WaitReason::Order), (drawn, WaitReason::Order), (self.held(resource).written, WaitReason::Hazard)];
+        let work = given.work(SpanKind::ReadBack);
+        let arrived = self.schedule.place(Unit::ReadBackBus, given.ready, &needs, duration, &work).end;
+        let held = self.resources.entry(resource).or_default();
+        held.read = held.read.or_later(arrived);
+        self.done = self.done.or_later(arrived);
+        match mode {
+            ReadBackMode::Synchronous => {
+                self.schedule.host_waits(self.done, WaitReason::Transfer, given.command);
+                None
+            }
+            ReadBackMode::Asynchronous => {
+                let fence = self.fences.generate();
+                // The name is new, so it is known.
+                self.fences.set(fence, self.done).ok();
+                Some(fence)
+            }
+        }
+    }
+
+    /// The name of a fence that is not set yet.
+    pub fn generate_fence(&mut self) -> Fence {
+        self.fences.generate()
+    }
+
+    /// A new fence behind all commands so far.
+    pub fn set_fence(&mut self) -> Fence {
+        let fence = self.fences.generate();
+        self.mark_fence(fence);
+        fence
+    }
+
+    /// Sets a fence, perhaps again, behind all commands so far.
+    ///
+    /// # Errors
+    /// [`FenceError::Unknown`].
+    pub fn set(&mut self, fence: Fence) -> Result<(), FenceError> {
+        self.fences.check(fence)?;
+        self.mark_fence(fence);
+        Ok(())
+    }
+
+    fn mark_fence(&mut self, fence: Fence) {
+        let given = self.give(self.figures.set_fence_ps, "set fence".into());
+        let taken = self.take(given.ready);
+        self.fences.set(fence, self.done.or_later(taken)).ok();
+    }
+
+    /// Whether the fence is passed when the host, having paid for the question, gets the answer.
+    ///
+    /// # Errors
+    /// [`FenceError`] for a fence that is not set or not known.
+    pub fn test(&mut self, fence: Fence) -> Result<bool, FenceError> {
+        let passed = self.fences.passed(fence)?;
+        let given = self.name("test fence".into());
+        self.on_host(SpanKind::Submit, Picoseconds(self.figures.test_fence_ps), &given);
+        Ok(passed.time <= self.now())
+    }
+
+    /// The host waits until the fence is passed.
+    ///
+    /// # Errors
+    /// [`FenceError`] for a fence that is not set or not known.
+    pub fn finish(&mut self, fence: Fence) -> Result<(), FenceError> {
+        let passed = self.fences.passed(fence)?;
+        let given = self.name("finish fence".into());
+        self.on_host(SpanKind::Submit, Picoseconds(self.figures.finish_fence_ps), &given);
+        self.schedule.host_waits(passed, WaitReason::Fence, given.command);
+        Ok(())
+    }
+
+    /// The host waits until everything is done, as `glFinish` does.
+    pub fn finish_all(&mut self) {
+        let given = self.name("finish".into());
+        self.schedule.host_waits(self.done, WaitReason::Finish, given.command);
+    }
+
+    /// Everything that was given, on the time axis.
+    pub fn timeline(self) -> Timeline {
+        self.schedule.finish(self.done)
+    }
+
+    fn name(&mut self, label: Label) -> Given {
+        let command = self.commands;
+        self.commands = self.commands.saturating_add(1);
+        Given { ready: self.schedule.free(Unit::Host), label, command }
+    }
+
+    fn on_host(&mut self, kind: SpanKind, duration: Picoseconds, given: &Given) -> Mark {
+        self.schedule.place(Unit::Host, Mark::default(), &[], duration, &given.work(kind)).end
+    }
+
+    /// The host puts a command into the queue, once there is room, at this cost.
+    fn give(&mut self, cost_ps: u64, label: Label) -> Given {
+        let mut given = self.name(label);
+        let room = usize::try_from(self.figures.commands.max(1)).unwrap_or(usize::MAX);
+        if self.taken.len() >= room {
+            let oldest = self.taken[self.taken.len() - room];
+            self.schedule.host_waits(oldest, WaitReason::QueueFull, given.command);
+            self.taken.drain(..=self.taken.len() - room);
+        }
+        given.ready = self.on_host(SpanKind::Submit, Picoseconds(cost_ps), &given);
+        given
+    }
+
+    /// A command leaves the queue at `moment`, or when the one before it has.
+    fn take(&mut self, moment: Mark) -> Mark {
+        let taken = moment.or_later(self.taken.back().copied().unwrap_or_default());
+        self.taken.push_back(taken);
+        taken
+    }
+
+    /// The front end works on a command, and takes it from the queue for that. Start and end.
+    fn front_end(&mut self, given: &Given, duration: Picoseconds, kind: SpanKind) -> (Mark, Mark) {
+        let ahead = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX);
+        let behind = self.bodies.len().checked_sub(ahead.saturating_add(1)).map_or(Mark::default(), |i| self.bodies[i]);
+        let before = self.taken.back().copied().unwrap_or_default();
+        let needs = [(before, WaitReason::Order), (behind, WaitReason::Order)];
+        let placed = self.schedule.place(Unit::FrontEnd, given.ready, &needs, duration, &given.work(kind));
+        self.take(placed.start);
+        (placed.start, placed.end)
+    }
+
+    /// What a draw or clear needs before its first pixel, `filled` being the moment at which the pipeline has one.
+    fn body_needs(&self, filled: Mark, reads: &[ResourceId], writes: &[ResourceId]) -> [(Mark, WaitReason); 3] {
+        let inputs = reads.iter().map(|resource| self.held(*resource).written);
+        let outputs = writes.iter().map(|resource| {
+            let held = self.held(*resource);
+            held.written.or_later(held.read)
+        });
+        let hazard = inputs.chain(outputs).fold(Mark::default(), Mark::or_later);
+        let order = self.bodies.back().copied().unwrap_or_default();
+        [(order, WaitReason::Order), (filled, WaitReason::Input), (hazard, WaitReason::Hazard)]
+    }
+
+    fn body_ends(&mut self, end: Mark, reads: &[ResourceId], writes: &[ResourceId]) {
+        for resource in reads {
+            let held = self.resources.entry(*resource).or_default();
+            held.read = held.read.or_later(end);
+        }
+        for resource in writes {
+            self.resources.entry(*resource).or_default().written = end;
+        }
+        let kept = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX).saturating_add(1);
+        if self.bodies.len() >= kept {
+            self.bodies.pop_front();
+        }
+        self.bodies.push_back(end);
+        self.done = self.done.or_later(end);
+    }
+
+    fn held(&self, resource: ResourceId) -> Use {
+        self.resources.get(&resource).copied().unwrap_or_default()
+    }
+}

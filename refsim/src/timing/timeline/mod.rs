@@ -1,0 +1,248 @@
+//! What each unit did when, and what it waited for.
+
+mod path;
+mod usage;
+
+use std::fmt;
+use std::sync::Arc;
+
+pub use path::{Segment, Share};
+pub use usage::Usage;
+
+use super::Picoseconds;
+
+/// What a span shows to people: the name of a draw, of an upload, of host work. Shared by the spans of one command.
+pub type Label = Arc<str>;
+
+/// What can be busy. Each does one thing at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unit {
+    /// The host's processor: its own work, and what it spends on giving commands.
+    Host,
+    /// Host to card.
+    UploadBus,
+    /// Command processor, vertex units, triangle set-up.
+    FrontEnd,
+    /// The pixel pipelines.
+    ShaderArray,
+    /// The card's memory.
+    Memory,
+    /// Card to host.
+    ReadBackBus,
+}
+
+impl Unit {
+    /// All units, in the order in which work passes them.
+    pub const ALL: [Self; 6] =
+        [Self::Host, Self::UploadBus, Self::FrontEnd, Self::ShaderArray, Self::Memory, Self::ReadBackBus];
+
+    /// The place in [`Unit::ALL`].
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Whether the unit is part of the card, rather than the host or a bus.
+    pub const fn on_card(self) -> bool {
+        matches!(self, Self::FrontEnd | Self::ShaderArray | Self::Memory)
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Host => "host",
+            Self::UploadBus => "upload bus",
+            Self::FrontEnd => "front end",
+            Self::ShaderArray => "shader array",
+            Self::Memory => "memory",
+            Self::ReadBackBus => "read-back bus",
+        })
+    }
+}
+
+/// What a unit is busy with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SpanKind {
+    /// The host's own work.
+    HostWork,
+    /// The host gives a command to the card, or asks for a fence.
+    Submit,
+    /// Data go to the card.
+    Upload,
+    /// The card changes its state.
+    State,
+    /// The card clears a surface.
+    Clear,
+    /// Commands, vertices and set-up of a draw.
+    Vertices,
+    /// The pipeline fills and drains; takes time but keeps no unit busy, so that it is found on the critical path alone.
+    Fill,
+    /// Fragments of a draw.
+    Fragments,
+    /// Memory traffic of a draw.
+    Traffic,
+    /// Data come from the card.
+    ReadBack,
+}
+
+impl fmt::Display for SpanKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::HostWork => "host work",
+            Self::Submit => "submit",
+            Self::Upload => "upload",
+            Self::State => "state",
+            Self::Clear => "clear",
+            Self::Vertices => "vertices",
+            Self::Fill => "pipeline fill",
+            Self::Fragments => "fragments",
+            Self::Traffic => "memory traffic",
+            Self::ReadBack => "read-back",
+        })
+    }
+}
+
+/// The place of a span in [`Timeline::spans`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SpanId(pub u32);
+
+/// A unit busy with one thing. Never of no length.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// Who.
+    pub unit: Unit,
+    /// From when.
+    pub start: Picoseconds,
+    /// Until when.
+    pub end: Picoseconds,
+    /// With what.
+    pub kind: SpanKind,
+    /// For people.
+    pub label: Label,
+    /// The command that it belongs to, counted from 0 in the order of the program; host work counts too.
+    pub command: u32,
+    /// The span that it waited for last: the end of that one, and [`Span::latency`], is the start of this one. `None`
+    /// where nothing had to end before.
+    pub after: Option<SpanId>,
+    /// Time between the two in which the pipeline filled or drained.
+    pub latency: Picoseconds,
+}
+
+impl Span {
+    /// How long it lasts.
+    pub fn duration(&self) -> Picoseconds {
+        self.start.until(self.end)
+    }
+}
+
+/// Why a unit waits that has something to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum WaitReason {
+    /// The host: the command queue is full.
+    QueueFull,
+    /// The host: a fence.
+    Fence,
+    /// The host: a read-back that it asked to be synchronous.
+    Transfer,
+    /// The host: everything that it has asked for.
+    Finish,
+    /// The resource is still being read, written, sent or fetched.
+    Hazard,
+    /// Commands before this one are not done.
+    Order,
+    /// The units before it in the pipeline have sent nothing yet.
+    Input,
+}
+
+impl fmt::Display for WaitReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::QueueFull => "queue full",
+            Self::Fence => "fence",
+            Self::Transfer => "read-back",
+            Self::Finish => "finish",
+            Self::Hazard => "resource in use",
+            Self::Order => "earlier commands",
+            Self::Input => "earlier stages",
+        })
+    }
+}
+
+/// A unit that has something to do but can't. Never of no length, never beside a span of the same unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wait {
+    /// Who.
+    pub unit: Unit,
+    /// From when.
+    pub start: Picoseconds,
+    /// Until when.
+    pub end: Picoseconds,
+    /// Why.
+    pub reason: WaitReason,
+    /// For which span, `None` for the filling of the pipeline with nothing before it.
+    pub on: Option<SpanId>,
+    /// The command that waits.
+    pub command: u32,
+}
+
+impl Wait {
+    /// How long it lasts.
+    pub fn duration(&self) -> Picoseconds {
+        self.start.until(self.end)
+    }
+}
+
+/// A moment, and what made it so: the end of a span, and perhaps some latency.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(in crate::timing) struct Mark {
+    pub(in crate::timing) time: Picoseconds,
+    pub(in crate::timing) after: Option<SpanId>,
+    pub(in crate::timing) latency: Picoseconds,
+}
+
+impl Mark {
+    /// The later of two; `self` of two at the same time.
+    pub(in crate::timing) fn or_later(self, other: Self) -> Self {
+        if other.time > self.time { other } else { self }
+    }
+
+    /// As much later.
+    pub(in crate::timing) fn plus(self, latency: Picoseconds) -> Self {
+        Self { time: self.time + latency, latency: self.latency + latency, ..self }
+    }
+}
+
+/// A run on the time axis: spans in the order of the commands, and waits. Deterministic: the same commands give an equal timeline.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Timeline {
+    pub(in crate::timing) spans: Vec<Span>,
+    pub(in crate::timing) waits: Vec<Wait>,
+    pub(in crate::timing) end: Mark,
+}
+
+impl Timeline {
+    /// What the units did. The spans of one unit come in the order of time.
+    pub fn spans(&self) -> &[Span] {
+        &self.spans
+    }
+
+    /// What they waited for. The waits of one unit come in the order of time.
+    pub fn waits(&self) -> &[Wait] {
+        &self.waits
+    }
+
+    /// One span.
+    pub fn span(&self, id: SpanId) -> Option<&Span> {
+        self.spans.get(id.0 as usize)
+    }
+
+    /// From the start to the end of everything: the host's work and what it asked for.
+    pub fn makespan(&self) -> Picoseconds {
+        self.end.time
+    }
+
+    /// Time that a unit is busy.
+    pub fn busy(&self, unit: Unit) -> Picoseconds {
+        self.spans.iter().filter(|span| span.unit == unit).map(Span::duration).sum()
+    }
+}
