@@ -308,13 +308,13 @@ impl Streams {
 }
 
 /// An id as a colour: red is its lowest byte, alpha 1.
-fn color_of_id(id: u32) -> [u32; 4] {
+pub(super) fn color_of_id(id: u32) -> [u32; 4] {
     let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
     [part(0), part(8), part(16), 1.0_f32.to_bits()]
 }
 
 /// The id in an `A8R8G8B8` pixel.
-const fn id_of_color(raw: u32) -> u32 {
+pub(super) const fn id_of_color(raw: u32) -> u32 {
     (raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16
 }
 

@@ -86,7 +86,7 @@ impl Kernel {
 }
 
 /// A program of this folder, judged by the device's own rules.
-fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, EngineError> {
+pub(super) fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, EngineError> {
     let refused = |problem: String| EngineError::Refused { kernel: kernel.name, device: profile.name.clone(), problem };
     let program = assemble(kernel.text).map_err(|e| refused(e.to_string()))?;
     check(program, profile).map_err(|e| refused(e.to_string()))

@@ -7,10 +7,13 @@ mod bundle;
 mod crossbar;
 mod kernel;
 pub mod kernels;
+pub mod model;
 mod rays;
 pub mod reference;
 mod units;
+mod vertex_crossbar;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit};
 pub use kernel::{Form, Kernel};
 pub use rays::{RayBatch, RayBatchError};
+pub use vertex_crossbar::VertexCrossbar;

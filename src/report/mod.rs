@@ -1,15 +1,17 @@
 //! Rows and pictures in the forms that people and programs read.
 //!
-//! A [`Table`] goes out as text, CSV, JSON or HTML; a [`picture`] as PNG, or as EXR where the numbers matter; a
+//! A [`Table`] goes out as text, CSV, JSON or HTML; a [`Chart`] as SVG; a [`picture`] as PNG, or as EXR where the numbers matter; a
 //! [`Page`] is one HTML file with everything inside it. Everything here makes bytes: who calls it writes them, whole
 //! files at a time, through `io::atomic`.
 
+mod chart;
 mod exr;
 mod page;
 pub mod picture;
 mod provenance;
 mod table;
 
+pub use self::chart::{Chart, Line};
 pub use self::exr::{Channel, exr};
 pub use page::{Figure, Page};
 pub use provenance::Provenance;
@@ -35,7 +37,7 @@ pub enum ReportError {
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::report::encode))]
     Encode {
-        /// `PNG`, `EXR`, `CSV` or `JSON`.
+        /// `PNG`, `EXR`, `CSV`, `JSON` or `SVG`.
         format: &'static str,
         /// What the encoder said.
         reason: String,

@@ -30,6 +30,7 @@ enum Block {
     Text(String),
     Table(Table),
     Figures(Vec<Figure>),
+    Drawing { svg: String, caption: String },
 }
 
 /// A report under construction: blocks in the order in which they were added, the provenance last.
@@ -70,6 +71,12 @@ impl Page {
         self.with(Block::Figures(figures))
     }
 
+    /// Adds an SVG drawing of our own making, which is put in as it is, with what stands under it.
+    #[must_use]
+    pub fn drawing(self, svg: impl Into<String>, caption: impl Into<String>) -> Self {
+        self.with(Block::Drawing { svg: svg.into(), caption: caption.into() })
+    }
+
     fn with(mut self, block: Block) -> Self {
         self.blocks.push(block);
         self
@@ -104,6 +111,9 @@ fn render_block(block: &Block) -> Markup {
         Block::Heading(text) => html! { h2 { (text) } },
         Block::Text(text) => html! { p { (text) } },
         Block::Table(table) => render_table(table),
+        Block::Drawing { svg, caption } => html! {
+            figure.drawing { (PreEscaped(svg)) figcaption { (caption) } }
+        },
         Block::Figures(figures) => html! {
             div.figures {
                 @for figure in figures {
@@ -162,6 +172,8 @@ td.number { text-align: right; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(17rem, 1fr)); gap: 1.2rem; margin: 1rem 0; }
 figure { margin: 0; }
 img { width: 100%; height: auto; image-rendering: pixelated; background: var(--soft); border: 1px solid var(--rule); box-sizing: border-box; }
+figure.drawing { margin: 1rem 0; max-width: 46rem; }
+.drawing svg { width: 100%; height: auto; border: 1px solid var(--rule); box-sizing: border-box; }
 figcaption { font-size: .85rem; color: var(--quiet); margin-top: .3rem; }
 .provenance { margin-top: 3rem; border-top: 1px solid var(--rule); font-size: .85rem; color: var(--quiet); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .2rem 1rem; }

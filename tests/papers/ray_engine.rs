@@ -2,12 +2,15 @@
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
+use crossbar::geom::teapot::teapot;
 use crossbar::ray_engine::reference::{cross, dot, intersect, sub};
-use crossbar::ray_engine::{Form, Kernel, kernels};
+use crossbar::ray_engine::{Answer, Crossbar, Form, Kernel, RayBatch, VertexCrossbar, kernels};
+use crossbar::scene::Camera;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
 use refsim::isa::{OpcodeClass, Program, RegisterFile};
+use refsim::machine::ExecutorKind;
 
 /// Random triangles, and rays through their insides.
 fn interior_hits(count: u64) -> impl Iterator<Item = ([f64; 3], [f64; 3], [[f64; 3]; 3])> {
@@ -93,7 +96,8 @@ fn every_kernel_is_accepted_by_the_cards_that_run_it() {
     let profile = |name| Profile::named(name).expect("a profile");
     for kernel in kernels::ALL {
         let devices: &[&str] = match kernel.name {
-            name if name.ends_with(".vsa") => &["r200", "r300", "r350", "nv35"],
+            name if name.ends_with(".vsa") => &["r200", "nv20", "nv25", "r300", "r350", "nv35"],
+            "id.psa" => &["r200", "nv20", "nv25", "r300", "nv35"],
             name if name.starts_with("float") => &["r300", "r350", "nv30", "nv35"],
             _ => &["r200"],
         };
@@ -119,4 +123,25 @@ fn cards_get_the_form_that_they_can_run() {
     assert_eq!(form("r300", true).ok(), Some(Form::Float), "all eight equations");
     assert_eq!(form("ideal-s3.12", true).ok(), Some(Form::OneOrigin), "fixed point as the cards had it");
     assert!(form("nv20", true).is_err(), "a GeForce3 has neither");
+}
+
+#[test]
+fn the_vertex_units_find_what_the_pixel_pipelines_find() {
+    let mesh = teapot(1).expect("the teapot tessellates");
+    let camera = Camera::teapot(16, 16).expect("a camera of any size");
+    let rays = RayBatch::new(16, 16, camera.rays()).expect("a ray a pixel");
+    let profile = |name| Profile::named(name).expect("a profile");
+    let vertex = VertexCrossbar::new(profile("nv20"), ExecutorKind::Batch).intersect(&mesh, &rays).expect("it runs");
+    let pixel = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch)
+        .intersect(&mesh, &rays, Sides::Front)
+        .expect("it runs");
+    let triangles = |answer: &Answer| answer.hits.iter().map(|h| h.map(|h| h.triangle)).collect::<Vec<_>>();
+    assert_eq!(triangles(&vertex), triangles(&pixel));
+    let hits = vertex.hits.iter().flatten().count();
+    assert!(hits > 40, "the teapot fills a part of the picture: {hits} of 256");
+    for (a, b) in vertex.hits.iter().flatten().zip(pixel.hits.iter().flatten()) {
+        assert!((a.t - b.t).abs() <= b.t * 2e-5, "24 bits of depth against fp32: {} and {}", a.t, b.t);
+    }
+    assert_eq!(vertex.events.vertices, 3 * 256 * mesh.len() as u64, "three vertices a test");
+    assert_eq!(vertex.events.vertex_instructions, 20 * vertex.events.vertices);
 }

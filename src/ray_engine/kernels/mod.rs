@@ -33,4 +33,6 @@ kernels! {
     ANY_ORIGIN_BOTH_SIGNED "any_origin_both_signed.psa"
     FLOAT "float.psa"
     FLOAT_BOTH "float_both.psa"
+    VERTEX_TEST "vertex_test.vsa"
+    ID "id.psa"
 }

@@ -1,0 +1,82 @@
+//! The paper's cost equations (section 6.1): what a card's fill and read-back rates make of R rays and T triangles.
+//!
+//! Host arithmetic for people to read; the timing model of the emulator counts whole picoseconds.
+
+/// The two rates of equation 11.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostRates {
+    /// Pixels a second, the pixel program included. Positive.
+    pub fill_pixels_per_s: f64,
+    /// Bytes a second from the card to the host. Positive; infinite for a card whose results stay where they are.
+    pub readback_bytes_per_s: f64,
+}
+
+impl CostRates {
+    /// Equation 11: seconds for `triangles` against `rays`, with `gamma` bytes read back a ray.
+    pub fn seconds(&self, rays: f64, triangles: f64, gamma: f64) -> f64 {
+        triangles * rays / self.fill_pixels_per_s + rays * gamma / self.readback_bytes_per_s
+    }
+
+    /// Equation 11 turned round: tests a second, for any number of rays.
+    pub fn tests_per_s(&self, triangles: f64, gamma: f64) -> f64 {
+        triangles / self.seconds(1.0, triangles, gamma)
+    }
+
+    /// Results a second that read-back alone allows.
+    pub fn results_per_s(&self, gamma: f64) -> f64 {
+        self.readback_bytes_per_s / gamma
+    }
+
+    /// The number of triangles at which half the fill rate is reached: drawing then takes as long as reading back.
+    pub fn half_rate_triangles(&self, gamma: f64) -> f64 {
+        self.fill_pixels_per_s * gamma / self.readback_bytes_per_s
+    }
+
+    /// `T_min`: the fewest triangles at which the card is not slower than a host of `host_tests_per_s`; `None` if the host is
+    /// at least as fast as the card ever is.
+    pub fn least_triangles(&self, host_tests_per_s: f64, gamma: f64) -> Option<u32> {
+        let gained = host_tests_per_s.recip() - self.fill_pixels_per_s.recip();
+        (gained > 0.0).then(|| (gamma / self.readback_bytes_per_s / gained).ceil().max(1.0) as u32)
+    }
+
+    /// The fill rate at which equation 11 gives `tests_per_s`; infinite or negative if read-back alone takes longer.
+    pub fn implied_fill(tests_per_s: f64, triangles: f64, gamma: f64, readback_bytes_per_s: f64) -> f64 {
+        triangles / (triangles / tests_per_s - gamma / readback_bytes_per_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GEFORCE3: CostRates = CostRates { fill_pixels_per_s: 390e6, readback_bytes_per_s: 250e6 };
+
+    #[test]
+    fn the_worked_numbers_of_section_6_1() {
+        assert_eq!(GEFORCE3.results_per_s(4.0), 62.5e6);
+        assert_eq!(GEFORCE3.results_per_s(16.0), 15.625e6);
+        assert_eq!((GEFORCE3.tests_per_s(10.0, 4.0) / 1e6).round(), 240.0);
+        assert_eq!((GEFORCE3.half_rate_triangles(4.0) * 100.0).round(), 624.0);
+        assert_eq!((GEFORCE3.half_rate_triangles(16.0) * 100.0).round(), 2496.0);
+    }
+
+    #[test]
+    fn the_card_pays_from_the_least_number_of_triangles_on_and_not_before() {
+        for host in [1e6, 20e6, 40e6, 100e6, 389e6] {
+            for gamma in [1.0, 4.0, 16.0] {
+                let least = GEFORCE3.least_triangles(host, gamma).expect("the card is faster");
+                assert!(GEFORCE3.tests_per_s(f64::from(least), gamma) >= host * (1.0 - 1e-12));
+                assert!(least == 1 || GEFORCE3.tests_per_s(f64::from(least - 1), gamma) < host);
+            }
+        }
+        assert_eq!(GEFORCE3.least_triangles(390e6, 4.0), None);
+    }
+
+    #[test]
+    fn the_implied_fill_gives_the_rate_back() {
+        let fill = CostRates::implied_fill(286e6, 10.0, 4.0, 250e6);
+        assert_eq!((fill / 1e5).round(), 5273.0);
+        let card = CostRates { fill_pixels_per_s: fill, ..GEFORCE3 };
+        assert!((card.tests_per_s(10.0, 4.0) / 286e6 - 1.0).abs() < 1e-12);
+    }
+}
