@@ -2,6 +2,8 @@
 
 #[path = "timing_queue/examples.rs"]
 mod examples;
+#[path = "timing_queue/host.rs"]
+mod host;
 #[path = "timing_queue/laws.rs"]
 mod laws;
 

@@ -7,6 +7,7 @@
 //! give the same timeline to the last clock.
 
 mod cost;
+pub mod host;
 pub mod queue;
 pub mod timeline;
 mod units;
