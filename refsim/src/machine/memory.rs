@@ -1,7 +1,9 @@
 //! Memory of the card: textures, targets, depth buffers, and the way in and out.
 
+use super::record::depth_size;
 use super::{Machine, MachineError};
 use crate::device::Profile;
+use crate::event::Event;
 use crate::num::Format;
 use crate::output::{DepthFormat, DepthSurface, TargetTile};
 use crate::texture::{Image, TargetRounding, TexelFormat};
@@ -109,7 +111,10 @@ impl Machine {
             let device = self.profile.name.clone();
             return Err(MachineError::FloatLevels { levels, format: image.format(), device });
         }
-        Ok(self.keep(image))
+        let bytes = image.bytes().len() as u64;
+        let id = self.keep(image);
+        self.note_upload(id, bytes);
+        Ok(id)
     }
 
     /// Makes a colour target of zero bytes. It can be sampled in later draws if the device has textures of the format.
@@ -117,7 +122,7 @@ impl Machine {
     /// # Errors
     /// If the device lacks the format, or the target is too large for it.
     pub fn create_target(&mut self, format: TexelFormat, width: u32, height: u32) -> Result<TextureId, MachineError> {
-        self.create_target_from(Image::new_2d(format, width, height)?)
+        self.keep_target(Image::new_2d(format, width, height)?)
     }
 
     /// Makes a colour target that starts as an image.
@@ -125,6 +130,13 @@ impl Machine {
     /// # Errors
     /// As [`Machine::create_target`].
     pub fn create_target_from(&mut self, image: Image) -> Result<TextureId, MachineError> {
+        let bytes = image.bytes().len() as u64;
+        let id = self.keep_target(image)?;
+        self.note_upload(id, bytes);
+        Ok(id)
+    }
+
+    fn keep_target(&mut self, image: Image) -> Result<TextureId, MachineError> {
         check_target_format(&self.profile, image.format())?;
         let limit = self.profile.limits.max_target_size;
         check_size(&self.profile, "target", limit, "max_target_size", &image)?;
@@ -151,6 +163,10 @@ impl Machine {
         TextureId(self.memory.textures.len() - 1)
     }
 
+    fn note_upload(&self, id: TextureId, bytes: u64) {
+        self.recorder.push(|| Event::Upload { resource: id.into(), bytes });
+    }
+
     /// Replaces the contents of a texture or target by an image of the same format and extents.
     ///
     /// # Errors
@@ -165,6 +181,7 @@ impl Machine {
         let (region, bytes) = (held.region(), image.bytes());
         if held.bytes().len() == bytes.len() && region == image.region() {
             self.memory.texture_mut(id)?.bytes_mut().copy_from_slice(bytes);
+            self.note_upload(id, bytes.len() as u64);
             return Ok(());
         }
         let (expected, found) = (held.bytes().len(), bytes.len());
@@ -177,7 +194,10 @@ impl Machine {
     /// If the handle is dead.
     pub fn clear_target(&mut self, id: TextureId, color: [u32; 4]) -> Result<(), MachineError> {
         let rounding = self.profile.rules.target_rounding;
-        self.memory.texture_mut(id)?.clear(Format::FP32, color, rounding);
+        let image = self.memory.texture_mut(id)?;
+        image.clear(Format::FP32, color, rounding);
+        let bytes = image.bytes().len() as u64;
+        self.recorder.push(|| Event::Clear { resource: id.into(), bytes });
         Ok(())
     }
 
@@ -187,7 +207,10 @@ impl Machine {
     /// If the handle is dead.
     pub fn clear_depth(&mut self, id: DepthId, depth: u32) -> Result<(), MachineError> {
         let rounding: TargetRounding = self.profile.rules.depth_rounding;
-        self.memory.depth_mut(id)?.clear(depth, rounding);
+        let surface = self.memory.depth_mut(id)?;
+        surface.clear(depth, rounding);
+        let bytes = depth_size(surface);
+        self.recorder.push(|| Event::Clear { resource: id.into(), bytes });
         Ok(())
     }
 
@@ -219,7 +242,9 @@ impl Machine {
     /// # Errors
     /// If the handle is dead.
     pub fn read_back(&self, id: TextureId) -> Result<&Image, MachineError> {
-        self.memory.current(id)
+        let image = self.memory.current(id)?;
+        self.note_read_back(id.into(), image.bytes().len() as u64);
+        Ok(image)
     }
 
     /// Reads a depth buffer back.
@@ -227,7 +252,9 @@ impl Machine {
     /// # Errors
     /// If the handle is dead.
     pub fn read_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
-        self.memory.current_depth(id)
+        let surface = self.memory.current_depth(id)?;
+        self.note_read_back(id.into(), depth_size(surface));
+        Ok(surface)
     }
 }
 

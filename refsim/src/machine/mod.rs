@@ -15,6 +15,8 @@ mod draw;
 mod error;
 mod executor;
 mod memory;
+mod record;
+mod state;
 mod trace;
 mod validate;
 mod vertices;
@@ -32,6 +34,8 @@ use crate::exec::batch::{BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use memory::Memory;
+use record::Recorder;
+use validate::Plan;
 
 /// An emulated card.
 #[derive(Debug)]
@@ -41,12 +45,13 @@ pub struct Machine {
     simd: Option<SimdLevel>,
     pool: Option<rayon::ThreadPool>,
     memory: Memory,
+    recorder: Recorder,
 }
 
 impl Machine {
     /// A machine with empty memory, on the global worker threads.
     pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor, simd: None, pool: None, memory: Memory::default() }
+        Self { profile, executor, simd: None, pool: None, memory: Memory::default(), recorder: Recorder::default() }
     }
 
     /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.
@@ -83,14 +88,21 @@ impl Machine {
     /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
+        let events = self.shade(call, &plan)?;
+        self.note_draw(call, &plan, &events, None);
+        Ok(events)
+    }
+
+    /// Draws a checked call.
+    fn shade(&mut self, call: &DrawCall<'_>, plan: &Plan) -> Result<DrawEvents, MachineError> {
         #[cfg(feature = "wgpu")]
         if self.executor == ExecutorKind::Wgpu {
-            return self.draw_on_gpu(call, &plan);
+            return self.draw_on_gpu(call, plan);
         }
         let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
-            walk::draw(memory, profile, call, &plan, kind, &executor)
+            walk::draw(memory, profile, call, plan, kind, &executor)
         };
         let drawn = match &self.pool {
             Some(pool) => pool.install(work),

@@ -197,7 +197,7 @@ pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_
     out
 }
 
-fn depth_bytes(format: crate::output::DepthFormat) -> u64 {
+pub(super) fn depth_bytes(format: crate::output::DepthFormat) -> u64 {
     use crate::output::DepthFormat::{Float24, Float32, Unorm16, Unorm24, Unorm32};
     match format {
         Unorm16 => 2,

@@ -1,7 +1,4 @@
-//! What happened during a draw, as counts: the only door from values to time.
-//!
-//! Counts are sums of whole numbers, so they are the same for every thread count and every executor. They say how
-//! much work a card would have had, never how long it took: that is the timing model's question.
+//! What a draw call did, as counts.
 
 use std::ops::AddAssign;
 

@@ -1,0 +1,205 @@
+//! The log of a machine: what the host asked of the card, in order.
+
+use super::{DrawEvents, ProgramWork, SAMPLERS, SamplerTraffic};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Names something in the memory of one card, as its handles number them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ResourceId {
+    /// A texture or a colour target: a target is a texture.
+    Texture(usize),
+    /// A depth buffer.
+    Depth(usize),
+}
+
+/// Names a fence of one machine (NV_fence).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FenceId(pub u32);
+
+/// Whether the host waits for what it reads back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ReadBackMode {
+    /// The host waits until the last byte is there.
+    Synchronous,
+    /// The host goes on; a fence tells when the bytes are there.
+    Asynchronous,
+}
+
+/// Work of the host between two calls, counted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HostWork {
+    /// Which kind of operation, as the host model names it.
+    pub kind: Cow<'static, str>,
+    /// How many of them.
+    pub operations: u64,
+}
+
+/// One thing that the host asked of the card, or did itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Data went to the card.
+    Upload {
+        /// Where to.
+        resource: ResourceId,
+        /// How many bytes.
+        bytes: u64,
+    },
+    /// The next draw runs under other state than the last.
+    StateChange {
+        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth buffer,
+        /// depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
+        changes: u32,
+    },
+    /// A target or depth buffer was filled with one value.
+    Clear {
+        /// Which.
+        resource: ResourceId,
+        /// Its size.
+        bytes: u64,
+    },
+    /// A draw.
+    Draw(Box<DrawRecord>),
+    /// Data came back from the card.
+    ReadBack {
+        /// Where from.
+        resource: ResourceId,
+        /// How many bytes.
+        bytes: u64,
+        /// Whether the host waited.
+        mode: ReadBackMode,
+        /// The fence behind an asynchronous read-back: it is passed when the last byte has come.
+        fence: Option<FenceId>,
+    },
+    /// A fence was put behind everything asked so far.
+    SetFence(FenceId),
+    /// The host looked whether a fence is passed.
+    TestFence(FenceId),
+    /// The host waited until a fence was passed.
+    FinishFence(FenceId),
+    /// The host worked on its own.
+    Host(HostWork),
+}
+
+/// How texels of one level are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FilterKind {
+    /// One texel.
+    #[default]
+    Nearest,
+    /// Two along each axis, where texels are magnified, minified or both.
+    Linear,
+}
+
+/// How levels are combined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum MipKind {
+    /// One level, always the same.
+    #[default]
+    None,
+    /// One level, the nearest.
+    Nearest,
+    /// Two levels.
+    Linear,
+}
+
+/// A texture as a draw had it bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SamplerRecord {
+    /// The sampler, in ps_1_x the stage.
+    pub sampler: u8,
+    /// The texture.
+    pub texture: ResourceId,
+    /// Name of the texel format.
+    pub format: &'static str,
+    /// Bytes of a texel.
+    pub texel_bytes: u32,
+    /// Bytes of the whole texture, mip levels included.
+    pub texture_bytes: u64,
+    /// Filter within a level.
+    pub filter: FilterKind,
+    /// Filter between levels; `None` too where the texture has a single level.
+    pub mip: MipKind,
+    /// What became of the texels touched, if that was observed.
+    pub traffic: Option<SamplerTraffic>,
+}
+
+/// A colour target of a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TargetRecord {
+    /// The target.
+    pub target: ResourceId,
+    /// Bytes of a pixel.
+    pub pixel_bytes: u32,
+    /// Whether fragments that pass write it.
+    pub written: bool,
+    /// Whether they read it first, for blending or for a partial write mask.
+    pub read: bool,
+}
+
+/// The depth buffer of a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthRecord {
+    /// The depth buffer.
+    pub buffer: ResourceId,
+    /// Bytes of a pixel.
+    pub pixel_bytes: u32,
+    /// Whether depth is tested.
+    pub test: bool,
+    /// Whether the depth of a fragment that passes is stored.
+    pub write: bool,
+    /// Whether the pixel program decides the depth.
+    pub replaced: bool,
+}
+
+/// One draw: what it did, and with what.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DrawRecord {
+    /// What happened.
+    pub counts: DrawEvents,
+    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades whole
+    /// quads: the lanes outside the triangle cost what the others do.
+    pub quads: u64,
+    /// The pixel program.
+    pub pixel: Arc<ProgramWork>,
+    /// The vertex program, if vertices did not come transformed.
+    pub vertex: Option<Arc<ProgramWork>>,
+    /// The textures, by rising sampler.
+    pub samplers: Vec<SamplerRecord>,
+    /// The colour targets.
+    pub targets: Vec<TargetRecord>,
+    /// The depth buffer.
+    pub depth: Option<DepthRecord>,
+    /// Whether there was an alpha test.
+    pub alpha_test: bool,
+    /// Whether targets were blended into.
+    pub blend: bool,
+}
+
+impl DrawRecord {
+    /// What the draw reads: its textures, and targets and depth buffer where they are read.
+    pub fn reads(&self) -> Vec<ResourceId> {
+        let mut out: Vec<_> = self.samplers.iter().map(|s| s.texture).collect();
+        out.extend(self.targets.iter().filter(|t| t.read).map(|t| t.target));
+        out.extend(self.depth.iter().filter(|d| d.test).map(|d| d.buffer));
+        out
+    }
+
+    /// What the draw writes: targets, and the depth buffer where it is written.
+    pub fn writes(&self) -> Vec<ResourceId> {
+        let mut out: Vec<_> = self.targets.iter().filter(|t| t.written).map(|t| t.target).collect();
+        out.extend(self.depth.iter().filter(|d| d.test && d.write).map(|d| d.buffer));
+        out
+    }
+
+    /// Whether the textures were observed: then every bound sampler has its traffic.
+    pub fn is_observed(&self) -> bool {
+        self.samplers.iter().all(|s| s.traffic.is_some())
+    }
+
+    /// Texel reads of a sampler (0 to 15).
+    pub fn fetches(&self, sampler: u8) -> u64 {
+        let index = usize::from(sampler).min(SAMPLERS - 1);
+        self.counts.fragments.fetches.get(index).copied().unwrap_or_default()
+    }
+}

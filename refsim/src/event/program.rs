@@ -1,0 +1,375 @@
+//! What a program is made of, as the issue units of a card see it.
+
+use crate::isa::{
+    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile, Stage, Version,
+};
+
+/// Passes through a loop, at most: as executors have it.
+const MOST_PASSES: u64 = 255;
+/// Instructions that walking through calls and loops looks at, at most.
+const MOST_STEPS: usize = 1 << 16;
+
+/// One arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ArithmeticSlot {
+    /// The instruction (the first of the pair).
+    pub opcode: Opcode,
+    /// The second instruction of the pair: what the program says (ps_1_x), or what a card with a vector and a scalar unit
+    /// could pair by itself ([`Self::independent`]).
+    pub partner: Option<Opcode>,
+    /// Whether the pair is not the program's own: two neighbours, one writing colour alone, the other alpha alone, that do
+    /// not need each other.
+    pub independent: bool,
+    /// Slots by the opcode table, of the longer of the two.
+    pub slots: u16,
+    /// How often a fragment (a vertex) comes here, loops unrolled.
+    pub times: u64,
+}
+
+/// One texture instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TextureSlot {
+    /// The instruction.
+    pub opcode: Opcode,
+    /// The sampler that it reads; `None` if it reads no texel (`texcrd`, `texkill`, `texm3x2pad`...).
+    pub sampler: Option<u8>,
+    /// Whether its coordinates are computed by the program; false if they are interpolated.
+    pub dependent: bool,
+    /// How often a fragment comes here.
+    pub times: u64,
+}
+
+/// The work of one phase. Only ps_1_4 programs have two; in the others all is one phase.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PhaseWork {
+    /// The arithmetic slots, in order.
+    pub arithmetic: Vec<ArithmeticSlot>,
+    /// The texture instructions, in order.
+    pub textures: Vec<TextureSlot>,
+}
+
+/// What a program is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ProgramWork {
+    /// Its version.
+    pub version: Version,
+    /// Its phases, in order.
+    pub phases: Vec<PhaseWork>,
+    /// Temporaries live at once, at most, counted in halves: 2 for one in full precision, 1 for one that only `_pp`
+    /// instructions write.
+    pub live_halves: u32,
+    /// Instructions of flow control, once each.
+    pub flow: u32,
+}
+
+/// Integer and boolean constants, by which static flow goes: what the host set; what the program defines wins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FlowConstants<'a> {
+    /// `i0` on.
+    pub int: &'a [[i32; 4]],
+    /// `b0` on.
+    pub boolean: &'a [bool],
+}
+
+impl ProgramWork {
+    /// Takes a program apart. Loops are unrolled by their constants and calls followed; of branches on a constant the one
+    /// taken counts, of branches on a computed value both, as on cards that predicate.
+    pub fn new(program: &Program, constants: FlowConstants<'_>) -> Self {
+        let times = executions(program, constants);
+        let marker = program.phase_marker();
+        let mut phases = vec![PhaseWork::default(); if marker.is_some() { 2 } else { 1 }];
+        let mut at = 0;
+        let code = &program.instructions;
+        while let Some(instruction) = code.get(at) {
+            let phase = usize::from(marker.is_some_and(|m| at > m));
+            let mut taken = 1;
+            match instruction.opcode.info().class {
+                OpcodeClass::Arithmetic => {
+                    let (slot, count) = arithmetic(program, at, times[at]);
+                    phases[phase].arithmetic.push(slot);
+                    taken = count;
+                }
+                OpcodeClass::Texture => phases[phase].textures.push(texture(program, at, times[at])),
+                OpcodeClass::Flow | OpcodeClass::Marker => {}
+            }
+            at += taken;
+        }
+        for phase in &mut phases {
+            phase.arithmetic.retain(|slot| slot.times > 0);
+            phase.textures.retain(|slot| slot.times > 0);
+        }
+        let flow = code.iter().filter(|i| i.opcode.info().class == OpcodeClass::Flow).count() as u32;
+        Self { version: program.version, phases, live_halves: live_halves(program), flow }
+    }
+
+    /// Arithmetic slots that a fragment or vertex executes, pairs of the program's own as one.
+    pub fn arithmetic_slots(&self) -> u64 {
+        self.phases.iter().flat_map(|p| &p.arithmetic).map(|s| s.times * u64::from(s.slots)).sum()
+    }
+
+    /// Texture instructions that a fragment executes.
+    pub fn texture_slots(&self) -> u64 {
+        self.phases.iter().flat_map(|p| &p.textures).map(|s| s.times).sum()
+    }
+}
+
+/// The arithmetic slot that begins at `at`, and how many instructions it takes up.
+fn arithmetic(program: &Program, at: usize, times: u64) -> (ArithmeticSlot, usize) {
+    let code = &program.instructions;
+    let instruction = &code[at];
+    let cost = |i: &Instruction| i.opcode.info().slot_cost(program.version).arithmetic;
+    let alone = ArithmeticSlot {
+        opcode: instruction.opcode,
+        partner: None,
+        independent: false,
+        slots: cost(instruction),
+        times,
+    };
+    let Some(next) = code.get(at + 1).filter(|i| i.opcode.info().class == OpcodeClass::Arithmetic) else {
+        return (alone, 1);
+    };
+    let slots = cost(instruction).max(cost(next));
+    if next.coissue {
+        return (ArithmeticSlot { partner: Some(next.opcode), slots, ..alone }, 2);
+    }
+    let lone = !code.get(at + 2).is_some_and(|i| i.coissue);
+    if program.version.is_ps_2() && lone && slots == 1 && can_pair(instruction, next) {
+        return (ArithmeticSlot { partner: Some(next.opcode), independent: true, slots, ..alone }, 2);
+    }
+    (alone, 1)
+}
+
+/// Whether a card with a vector and a scalar unit can issue two neighbours together.
+fn can_pair(first: &Instruction, second: &Instruction) -> bool {
+    let (Some(a), Some(b)) = (first.destination, second.destination) else { return false };
+    if first.predicate.is_some() || second.predicate.is_some() {
+        return false;
+    }
+    let color = |d: &Destination| d.mask.0 != 0 && d.mask.0 & Mask::ALPHA.0 == 0;
+    let alpha = |d: &Destination| d.mask == Mask::ALPHA;
+    let split = (color(&a) && alpha(&b)) || (alpha(&a) && color(&b));
+    split && !second.sources.iter().any(|s| s.register == a.register)
+}
+
+fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
+    let instruction = &program.instructions[at];
+    let opcode = instruction.opcode;
+    let reads = !matches!(
+        opcode,
+        Opcode::TexCoord
+            | Opcode::TexCrd
+            | Opcode::TexKill
+            | Opcode::TexDepth
+            | Opcode::TexM3x2Pad
+            | Opcode::TexM3x3Pad
+            | Opcode::TexM3x2Depth
+            | Opcode::TexDp3
+            | Opcode::TexM3x3
+    );
+    let sampler = match instruction.sources.get(1) {
+        Some(sampler) if program.version.is_ps_2() => Some(sampler.register.index),
+        _ => instruction.destination.map(|d| d.register.index),
+    };
+    // From ps_1_4 on a source names the coordinates; before, what reads another stage's result depends on it.
+    let dependent = match instruction.sources.first() {
+        None => false,
+        Some(_) if program.version.is_ps_1_1_to_1_3() => true,
+        Some(source) => source.register.file != RegisterFile::Texture,
+    };
+    let sampler = sampler.filter(|_| reads).and_then(|n| u8::try_from(n).ok());
+    TextureSlot { opcode, sampler, dependent: dependent && reads, times }
+}
+
+/// How often each instruction is executed.
+fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
+    let mut walk = Walk { program, constants, times: vec![0; program.instructions.len()], steps: 0 };
+    let end = program.instructions.iter().position(|i| i.opcode == Opcode::Label);
+    walk.run(0, end.unwrap_or(program.instructions.len()), 1, 0);
+    walk.times
+}
+
+/// On its way through the structure of a program.
+struct Walk<'a> {
+    program: &'a Program,
+    constants: FlowConstants<'a>,
+    times: Vec<u64>,
+    steps: usize,
+}
+
+impl Walk<'_> {
+    /// Counts the instructions `from..to`, each executed `times` more.
+    fn run(&mut self, from: usize, to: usize, times: u64, calls: u32) {
+        let mut at = from;
+        while at < to && self.steps < MOST_STEPS {
+            self.steps += 1;
+            self.times[at] = self.times[at].saturating_add(times);
+            let instruction = &self.program.instructions[at];
+            at = match instruction.opcode {
+                Opcode::If | Opcode::IfC => self.branch(at, to, times, calls),
+                Opcode::Rep | Opcode::Loop => {
+                    let end = self.end_of(at, to);
+                    let passes = self.passes(instruction);
+                    self.run(at + 1, end, times.saturating_mul(passes), calls);
+                    end
+                }
+                Opcode::Call | Opcode::CallNz if calls < 4 => {
+                    if instruction.opcode == Opcode::Call || self.truth(instruction.sources.get(1)) != Some(false) {
+                        self.call(instruction, times, calls);
+                    }
+                    at + 1
+                }
+                Opcode::Ret => to,
+                _ => at + 1,
+            };
+        }
+    }
+
+    /// An `if` at `at`; where the walk goes on.
+    fn branch(&mut self, at: usize, to: usize, times: u64, calls: u32) -> usize {
+        let end = self.end_of(at, to);
+        let code = &self.program.instructions;
+        let taken = match code[at].opcode {
+            Opcode::If => self.truth(code[at].sources.first()),
+            _ => None,
+        };
+        let otherwise = self.else_of(at, end);
+        if taken != Some(false) {
+            self.run(at + 1, otherwise.unwrap_or(end), times, calls);
+        }
+        if let Some(otherwise) = otherwise.filter(|_| taken != Some(true)) {
+            self.run(otherwise + 1, end, times, calls);
+        }
+        end
+    }
+
+    fn call(&mut self, instruction: &Instruction, times: u64, calls: u32) {
+        let code = &self.program.instructions;
+        let label = instruction.sources.first().map(|s| s.register.index);
+        let found =
+            code.iter().position(|i| i.opcode == Opcode::Label && i.sources.first().map(|s| s.register.index) == label);
+        if let Some(start) = found {
+            let end = code[start + 1..].iter().position(|i| i.opcode == Opcode::Label).map(|n| start + 1 + n);
+            self.run(start + 1, end.unwrap_or(code.len()), times, calls + 1);
+        }
+    }
+
+    /// The instruction that closes the block opened at `at`.
+    fn end_of(&self, at: usize, to: usize) -> usize {
+        let mut depth = 0_u32;
+        for (i, instruction) in self.program.instructions.iter().enumerate().take(to).skip(at) {
+            match instruction.opcode {
+                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => depth += 1,
+                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => {
+                    depth = depth.saturating_sub(1);
+                    if depth == 0 {
+                        return i;
+                    }
+                }
+                _ => {}
+            }
+        }
+        to
+    }
+
+    /// The `else` of the `if` at `at` that ends at `end`.
+    fn else_of(&self, at: usize, end: usize) -> Option<usize> {
+        let mut depth = 0_u32;
+        for (i, instruction) in self.program.instructions.iter().enumerate().take(end).skip(at) {
+            match instruction.opcode {
+                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => depth += 1,
+                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => depth = depth.saturating_sub(1),
+                Opcode::Else if depth == 1 => return Some(i),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn passes(&self, instruction: &Instruction) -> u64 {
+        let files = instruction.sources.iter().map(|s| s.register);
+        let Some(register) = files.into_iter().find(|r| r.file == RegisterFile::ConstantInt) else { return 1 };
+        let defined = self.program.constants.iter().rev().find_map(|c| match c.value {
+            ConstantValue::Int(value) if c.register.index == register.index => Some(value[0]),
+            _ => None,
+        });
+        let set = self.constants.int.get(usize::from(register.index)).map(|v| v[0]);
+        u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MOST_PASSES)
+    }
+
+    /// The value of a boolean operand; `None` if it is computed.
+    fn truth(&self, source: Option<&crate::isa::Source>) -> Option<bool> {
+        let source = source.filter(|s| s.register.file == RegisterFile::ConstantBool)?;
+        let index = source.register.index;
+        let defined = self.program.constants.iter().rev().find_map(|c| match c.value {
+            ConstantValue::Bool(value) if c.register.index == index => Some(value),
+            _ => None,
+        });
+        let value = defined.or_else(|| self.constants.boolean.get(usize::from(index)).copied()).unwrap_or(false);
+        Some(value != (source.modifier == crate::isa::Modifier::Not))
+    }
+}
+
+/// Temporaries live at once, in halves, taking the program as a straight line (loops do not lengthen lives).
+fn live_halves(program: &Program) -> u32 {
+    let is_temp = |file: RegisterFile| file == RegisterFile::Temp;
+    let mut full = [false; 64];
+    for destination in program.instructions.iter().filter_map(|i| i.destination) {
+        if let Some(slot) =
+            full.get_mut(usize::from(destination.register.index)).filter(|_| is_temp(destination.register.file))
+        {
+            *slot |= !destination.partial_precision;
+        }
+    }
+    // Components live after the last instruction: ps_1_x leaves its result in r0.
+    let mut live = [0_u8; 64];
+    if program.version.is_ps_1_x() && program.version.stage() == Stage::Pixel {
+        live[0] = 0b1111;
+    }
+    let halves = |live: &[u8; 64]| {
+        live.iter().zip(&full).filter(|(l, _)| **l != 0).map(|(_, full)| 1 + u32::from(*full)).sum::<u32>()
+    };
+    let mut most = halves(&live);
+    for instruction in program.instructions.iter().rev() {
+        let read_back = instruction.opcode.info().destination == crate::isa::DestinationRule::Read;
+        if let Some(d) = instruction.destination.filter(|d| is_temp(d.register.file))
+            && let Some(slot) = live.get_mut(usize::from(d.register.index))
+        {
+            if read_back || matches!(instruction.opcode, Opcode::TexDepth) {
+                *slot |= 0b1111;
+            } else if instruction.predicate.is_none() {
+                *slot &= !d.mask.0;
+            }
+        }
+        for source in instruction.sources.iter().filter(|s| is_temp(s.register.file)) {
+            if let Some(slot) = live.get_mut(usize::from(source.register.index)) {
+                let lanes = lanes_read(instruction);
+                *slot |= lanes.components().fold(0, |mask, lane| mask | 1 << (source.swizzle.0[lane] & 3));
+            }
+        }
+        most = most.max(halves(&live));
+    }
+    most
+}
+
+/// The lanes of its sources that an instruction looks at.
+fn lanes_read(instruction: &Instruction) -> Mask {
+    match instruction.opcode {
+        Opcode::Dp3 | Opcode::Crs | Opcode::Nrm | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
+        Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow | Opcode::SinCos => Mask(0b0001),
+        Opcode::Mov
+        | Opcode::Add
+        | Opcode::Sub
+        | Opcode::Mul
+        | Opcode::Mad
+        | Opcode::Lrp
+        | Opcode::Cnd
+        | Opcode::Cmp
+        | Opcode::Abs
+        | Opcode::Min
+        | Opcode::Max
+        | Opcode::Frc
+        | Opcode::Sge
+        | Opcode::Slt => instruction.destination.map_or(Mask::ALL, |d| d.mask),
+        _ => Mask::ALL,
+    }
+}

@@ -1,0 +1,295 @@
+//! The machine's log: what was asked of it, in order, for the timing model to read.
+//!
+//! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits of
+//! one that does not, and the log is the same whichever executor draws, on any number of threads.
+
+use super::state::State;
+use super::validate::Plan;
+use super::vertices::{VertexStage, set_up};
+use super::walk::{ROUND, depth_bytes};
+use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
+use crate::event::{
+    DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
+    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord,
+};
+use crate::exec::{CheckedProgram, Constants, program};
+use crate::isa::{Opcode, RegisterFile};
+use crate::output::DepthSurface;
+use crate::raster::{ComponentMask, Edge, TriangleSetup};
+use crate::texture::{Filter, Image, MipFilter, Region};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Coverages remembered within a draw: a crossbar draws one outline again and again.
+const MOST_OUTLINES: usize = 1024;
+
+/// The log and what it compares the next draw with.
+#[derive(Debug, Default)]
+pub(super) struct Recorder {
+    on: bool,
+    /// Read-backs log through a shared machine.
+    log: Mutex<Log>,
+}
+
+#[derive(Debug, Default)]
+struct Log {
+    events: Vec<Event>,
+    state: Option<State>,
+    fences: u32,
+}
+
+impl Recorder {
+    fn with<T>(&self, work: impl FnOnce(&mut Log) -> T) -> Option<T> {
+        self.on.then(|| work(&mut self.log.lock().unwrap_or_else(PoisonError::into_inner)))
+    }
+
+    /// Writes an event down, if the machine records.
+    pub(super) fn push(&self, event: impl FnOnce() -> Event) {
+        self.with(|log| log.events.push(event()));
+    }
+
+    /// Whether the machine records.
+    pub(super) fn is_on(&self) -> bool {
+        self.on
+    }
+}
+
+impl From<TextureId> for ResourceId {
+    fn from(id: TextureId) -> Self {
+        Self::Texture(id.0)
+    }
+}
+
+impl From<DepthId> for ResourceId {
+    fn from(id: DepthId) -> Self {
+        Self::Depth(id.0)
+    }
+}
+
+/// The log.
+impl Machine {
+    /// Starts or stops writing down what is asked of the machine. What the log holds stays in it.
+    pub fn record(&mut self, on: bool) {
+        self.recorder.on = on;
+    }
+
+    /// What was asked since the last time, in order.
+    pub fn take_log(&mut self) -> Vec<Event> {
+        let log = self.recorder.log.get_mut().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut log.events)
+    }
+
+    /// Reads a texture or target back without making the host wait: in the log the host goes on, and the fence is passed
+    /// when the last byte has come. The image is that of [`Machine::read_back`]: time changes no value.
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn read_back_async(&self, id: TextureId) -> Result<(FenceId, &Image), MachineError> {
+        let image = self.memory.current(id)?;
+        let fence = self.next_fence();
+        let bytes = image.bytes().len() as u64;
+        let mode = ReadBackMode::Asynchronous;
+        self.recorder.push(|| Event::ReadBack { resource: id.into(), bytes, mode, fence: Some(fence) });
+        Ok((fence, image))
+    }
+
+    /// As [`Machine::read_back_async`], of a depth buffer.
+    ///
+    /// # Errors
+    /// If the handle is dead.
+    pub fn read_depth_async(&self, id: DepthId) -> Result<(FenceId, &DepthSurface), MachineError> {
+        let surface = self.memory.current_depth(id)?;
+        let fence = self.next_fence();
+        let bytes = depth_size(surface);
+        let mode = ReadBackMode::Asynchronous;
+        self.recorder.push(|| Event::ReadBack { resource: id.into(), bytes, mode, fence: Some(fence) });
+        Ok((fence, surface))
+    }
+
+    /// Puts a fence behind everything asked so far (`SetFenceNV`).
+    pub fn set_fence(&self) -> FenceId {
+        let fence = self.next_fence();
+        self.recorder.push(|| Event::SetFence(fence));
+        fence
+    }
+
+    /// The host looks whether a fence is passed (`TestFenceNV`). What it sees is the timeline's business: the machine itself
+    /// is always done with everything.
+    pub fn test_fence(&self, fence: FenceId) {
+        self.recorder.push(|| Event::TestFence(fence));
+    }
+
+    /// The host waits until a fence is passed (`FinishFenceNV`).
+    pub fn finish_fence(&self, fence: FenceId) {
+        self.recorder.push(|| Event::FinishFence(fence));
+    }
+
+    /// The host works on its own: `operations` of a kind that the host model knows by name.
+    pub fn host_work(&self, kind: impl Into<Cow<'static, str>>, operations: u64) {
+        self.recorder.push(|| Event::Host(HostWork { kind: kind.into(), operations }));
+    }
+
+    /// A number that no fence of the log has yet; always the same where there is no log.
+    fn next_fence(&self) -> FenceId {
+        let number = self.recorder.with(|log| {
+            log.fences = log.fences.wrapping_add(1);
+            log.fences
+        });
+        FenceId(number.unwrap_or_default())
+    }
+
+    /// A synchronous read-back.
+    pub(super) fn note_read_back(&self, resource: ResourceId, bytes: u64) {
+        let mode = ReadBackMode::Synchronous;
+        self.recorder.push(|| Event::ReadBack { resource, bytes, mode, fence: None });
+    }
+
+    /// A draw that was made.
+    pub(super) fn note_draw(
+        &self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+        counts: &DrawEvents,
+        traffic: Option<&[SamplerTraffic; SAMPLERS]>,
+    ) {
+        if !self.recorder.is_on() {
+            return;
+        }
+        let record = self.draw_record(call, plan, counts, traffic);
+        let state = State::of(call);
+        self.recorder.with(|log| {
+            let changes = state.changes_from(log.state.as_ref());
+            log.state = Some(state);
+            if changes > 0 {
+                log.events.push(Event::StateChange { changes });
+            }
+            log.events.push(Event::Draw(Box::new(record)));
+        });
+    }
+
+    fn draw_record(
+        &self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+        counts: &DrawEvents,
+        traffic: Option<&[SamplerTraffic; SAMPLERS]>,
+    ) -> DrawRecord {
+        let vertex = match &call.vertices {
+            VertexSource::Transformed(_) => None,
+            VertexSource::Program { program, constants, .. } => Some(Arc::new(work(program, constants))),
+        };
+        DrawRecord {
+            counts: *counts,
+            quads: self.quads(call, plan),
+            pixel: Arc::new(work(call.pixel_program, call.pixel_constants)),
+            vertex,
+            samplers: self.samplers(call, traffic),
+            targets: self.targets(call),
+            depth: call.depth_buffer.and_then(|id| self.depth_record(call, id)),
+            alpha_test: call.alpha_test.is_some(),
+            blend: call.blend.is_some(),
+        }
+    }
+
+    fn samplers(&self, call: &DrawCall<'_>, traffic: Option<&[SamplerTraffic; SAMPLERS]>) -> Vec<SamplerRecord> {
+        let mut out = Vec::new();
+        for (sampler, bound) in (0_u8..).zip(&call.samplers) {
+            let Some((bound, image)) = bound.and_then(|b| Some((b, self.memory.texture(b.texture).ok()?))) else {
+                continue;
+            };
+            let state = bound.state;
+            let linear = state.min == Filter::Linear || state.mag == Filter::Linear;
+            out.push(SamplerRecord {
+                sampler,
+                texture: bound.texture.into(),
+                format: image.format().name(),
+                texel_bytes: image.format().bytes() as u32,
+                texture_bytes: image.bytes().len() as u64,
+                filter: if linear { FilterKind::Linear } else { FilterKind::Nearest },
+                mip: match state.mip {
+                    _ if image.levels().len() == 1 => MipKind::None,
+                    MipFilter::None => MipKind::None,
+                    MipFilter::Nearest => MipKind::Nearest,
+                    MipFilter::Linear => MipKind::Linear,
+                },
+                traffic: traffic.and_then(|all| all.get(usize::from(sampler)).copied()),
+            });
+        }
+        out
+    }
+
+    fn targets(&self, call: &DrawCall<'_>) -> Vec<TargetRecord> {
+        let named = crate::exec::colors_written(program(call.pixel_program));
+        let mut out = Vec::new();
+        for (i, (&id, mask)) in call.targets.iter().zip(call.masks).enumerate() {
+            let Ok(image) = self.memory.texture(id) else { continue };
+            let stored = image.format().record().stored();
+            let wanted = stored.iter().filter(|c| mask.has(c.stored_from)).count();
+            let written = named >> i & 1 == 1 && wanted > 0;
+            let read = written && (call.blend.is_some() || wanted < stored.len());
+            out.push(TargetRecord { target: id.into(), pixel_bytes: image.format().bytes() as u32, written, read });
+        }
+        out
+    }
+
+    fn depth_record(&self, call: &DrawCall<'_>, id: DepthId) -> Option<DepthRecord> {
+        let surface = self.memory.depth(id).ok()?;
+        let code = &program(call.pixel_program).instructions;
+        let replaced = code.iter().any(|i| {
+            matches!(i.opcode, Opcode::TexDepth | Opcode::TexM3x2Depth)
+                || i.destination.is_some_and(|d| d.register.file == RegisterFile::DepthOut)
+        });
+        Some(DepthRecord {
+            buffer: id.into(),
+            pixel_bytes: depth_bytes(surface.format()) as u32,
+            test: call.depth.test.is_some(),
+            write: call.depth.test.is_some() && call.depth.write,
+            replaced,
+        })
+    }
+
+    /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading them.
+    fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
+        let stage = VertexStage::new(call, &self.profile.rules, (ExecutorKind::Batch, None), ComponentMask::NONE);
+        let mut outlines = BTreeMap::new();
+        let round = (ROUND / plan.triangles.len().max(1)).max(1);
+        let (mut first, mut quads) = (0, 0);
+        while first < plan.instance_count {
+            let count = round.min(plan.instance_count - first);
+            let batch = stage.run(first, count, plan);
+            let (setups, _) = set_up(&batch.vertices, count, plan, &self.profile);
+            quads += setups.iter().map(|setup| covered(setup, &mut outlines)).sum::<u64>();
+            first += count;
+        }
+        quads
+    }
+}
+
+/// An outline: edges and bounding box.
+type Outline = ([(i64, i64, i64, i64); 3], (u32, u32, u32, u32));
+
+/// Quads that a triangle covers.
+fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 {
+    let edge = |e: &Edge| (e.a, e.b, e.c, e.bias);
+    let Region { x, y, width, height } = setup.bounds;
+    let outline = (setup.edges.each_ref().map(edge), (x, y, width, height));
+    if let Some(&known) = outlines.get(&outline) {
+        return known;
+    }
+    let quads = setup.quads(setup.bounds).count() as u64;
+    if outlines.len() < MOST_OUTLINES {
+        outlines.insert(outline, quads);
+    }
+    quads
+}
+
+/// What a checked program is made of under its constants.
+fn work(checked: &CheckedProgram, constants: &Constants) -> ProgramWork {
+    ProgramWork::new(program(checked), FlowConstants { int: &constants.int, boolean: &constants.boolean })
+}
+
+/// Bytes of a depth buffer as the card holds it.
+pub(super) fn depth_size(surface: &DepthSurface) -> u64 {
+    depth_bytes(surface.format()) * u64::from(surface.width()) * u64::from(surface.height())
+}
