@@ -313,3 +313,49 @@ fn texture(dice: &mut Dice) -> Image {
     let kind = TextureKind::D2;
     Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
 }
+
+/// More steps than a record holds, with blending over what another triangle left: traced as the reference traces it.
+#[test]
+fn long_traces_are_whole() {
+    let Some(gpu) = gpu() else { return };
+    let profile = ideal("fp16");
+    let text = "ps_2_a\ndcl t0\nmov r0, t0\nrep i0\nadd r0, r0, c0\nif_gt r0.x, c0.y\nmul r0, r0, c0.z\nendif\nendrep\n\
+                mov oC0, r0";
+    let program = checked(text, &profile);
+    let mut host = running::constants(&[[0.5, 1.25, 0.5, 0.125]]);
+    host.int = vec![[150, 0, 0, 0]];
+    let mut pair = Pair::new(&profile, &gpu, NumberMode::Integer);
+    let target = pair.target(TexelFormat::Rgba16f, 9, 7, bits([0.25; 4]));
+    let depth = pair.depth(DepthFormat::Unorm16, 9, 7, 0x3f80_0000);
+    let corners = vertices(&mut Dice(11), 12);
+    let source = VertexSource::Transformed(&corners);
+    let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
+    let one = BlendEquation { source: BlendFactor::One, destination: BlendFactor::One, op: BlendOp::Add };
+    call.blend = Some(BlendState { color: one, alpha: one });
+    call.depth_buffer = Some(depth);
+    call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
+    let pixels: Vec<(u32, u32)> = (0..63).map(|i| (i % 9, i / 9)).collect();
+    let traced = |machine: &Machine| {
+        let mut found = machine.trace_pixels(&call, &pixels).unwrap_or_else(|e| panic!("{e}"));
+        let steps = found.iter_mut().flatten().flat_map(|fragment| &mut fragment.shading.steps);
+        steps.for_each(|step| step.flags = refsim::num::Flags::empty());
+        found
+    };
+    let (expected, found) = (traced(&pair.reference), traced(&pair.device));
+    let most = expected.iter().flatten().map(|f| f.shading.steps.len()).max();
+    assert!(most > Some(300), "{most:?}");
+    assert!(expected.iter().any(|fragments| fragments.len() > 1), "one triangle over another");
+    for ((expected, found), pixel) in expected.iter().zip(&found).zip(&pixels) {
+        assert_eq!(expected.len(), found.len(), "{pixel:?}");
+        for (a, b) in expected.iter().zip(found) {
+            let parts = a.shading.steps.iter().zip(&b.shading.steps).position(|(a, b)| a != b);
+            assert_eq!((a, parts), (b, None), "{pixel:?}");
+        }
+    }
+    // Nothing was drawn; and what was drawn is what the trace finds.
+    pair.same(&[target], Some(depth), "before");
+    pair.draw(&call, "after a trace");
+    pair.same(&[target], Some(depth), "after");
+    assert_ne!(traced(&pair.device), found, "a trace starts from what was drawn");
+    assert_eq!(traced(&pair.device), traced(&pair.reference));
+}

@@ -1,4 +1,4 @@
-//! Traces against each other: for random programs and draws the batch executor's trace of every pixel is the scalar
+//! Traces against each other: for random programs and draws every other executor's trace of every pixel is the scalar
 //! executor's, step by step, and following a pixel tells the truth about what the draw leaves there.
 
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
@@ -25,34 +25,67 @@ fn case(n: u64) -> Case {
     case
 }
 
+/// The seeds from 0, fewer in the short form; the one that was asked for.
+fn seeds(short: u64) -> std::ops::Range<u64> {
+    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok());
+    let all = if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * short } else { short };
+    one.map_or(0..all, |seed: u64| seed..seed + 1)
+}
+
+/// Compares the traces of one case; counts steps and fragments.
+fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
+    let (mut steps, mut fragments) = (0, 0);
+    let text = case.pixel.join("\n");
+    let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+    let traces = |executor: &Executor| {
+        let traced = case.scene.traces(executor, &programs);
+        without_flags(traced.unwrap_or_else(|e| panic!("seed {seed}, {}: {e}", executor.name)))
+    };
+    let (a, b) = (traces(&REFERENCE), traces(other));
+    for (pixel, (a, b)) in a.iter().zip(&b).enumerate() {
+        let place = format!("seed {seed}, {}, pixel {pixel}", other.name);
+        assert_eq!(a.len(), b.len(), "{place}: triangles\n{text}");
+        for (a, b) in a.iter().zip(b) {
+            for (k, (a, b)) in a.shading.steps.iter().zip(&b.shading.steps).enumerate() {
+                assert_eq!(a, b, "{place}, step {k}\n{text}");
+            }
+            assert_eq!(a, b, "{place}\n{text}");
+            steps += a.shading.steps.len();
+            fragments += 1;
+        }
+    }
+    follows_the_draw(case, &programs, &a, seed);
+    (steps, fragments)
+}
+
 #[test]
 fn the_batch_trace_is_the_scalar_trace() {
     let (mut steps, mut fragments) = (0, 0);
-    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok());
-    let all = if std::env::var_os("CROSSBAR_FULL").is_some() { 4500 } else { 150 };
     let batch = EXECUTORS.iter().find(|e| e.name.starts_with("batch")).unwrap_or_else(|| panic!("a batch executor"));
-    for seed in one.map_or(0..all, |seed: u64| seed..seed + 1) {
-        let case = case(seed);
-        let text = case.pixel.join("\n");
-        let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-        let traces = |executor: &Executor| {
-            without_flags(case.scene.traces(executor, &programs).unwrap_or_else(|e| panic!("seed {seed}: {e}")))
-        };
-        let (a, b) = (traces(&REFERENCE), traces(batch));
-        for (pixel, (a, b)) in a.iter().zip(&b).enumerate() {
-            assert_eq!(a.len(), b.len(), "seed {seed}, pixel {pixel}: triangles\n{text}");
-            for (a, b) in a.iter().zip(b) {
-                for (k, (a, b)) in a.shading.steps.iter().zip(&b.shading.steps).enumerate() {
-                    assert_eq!(a, b, "seed {seed}, pixel {pixel}, step {k}\n{text}");
-                }
-                assert_eq!(a, b, "seed {seed}, pixel {pixel}\n{text}");
-                steps += a.shading.steps.len();
-                fragments += 1;
-            }
-        }
-        follows_the_draw(&case, &programs, &a, seed);
+    let seeds = seeds(150);
+    for seed in seeds.clone() {
+        let found = same(seed, &case(seed), batch);
+        steps += found.0;
+        fragments += found.1;
     }
-    assert!(one.is_some() || (steps > 100_000 && fragments > 10_000), "{steps} {fragments}");
+    assert!(seeds.count() == 1 || (steps > 100_000 && fragments > 10_000), "{steps} {fragments}");
+}
+
+#[cfg(feature = "wgpu")]
+#[test]
+fn the_gpu_trace_is_the_scalar_trace() {
+    for executor in EXECUTORS.iter().filter(|e| e.name.starts_with("wgpu")) {
+        let (mut steps, mut fragments) = (0, 0);
+        let seeds = seeds(16);
+        for seed in seeds.clone() {
+            let mut case = case(seed);
+            case.scene.size = case.scene.size.map(|side| side.min(9));
+            let found = same(seed, &case, executor);
+            steps += found.0;
+            fragments += found.1;
+        }
+        assert!(seeds.count() == 1 || (steps > 2_000 && fragments > 200), "{steps} {fragments}");
+    }
 }
 
 /// What the last fragment of every pixel leaves is what the draw leaves, and fates are counted as the draw counts them.

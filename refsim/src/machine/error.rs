@@ -13,12 +13,6 @@ pub enum MachineError {
     #[cfg(feature = "wgpu")]
     #[error(transparent)]
     Gpu(#[from] crate::exec::gpu::GpuError),
-    /// Pixels can't be followed on a GPU.
-    #[cfg(feature = "wgpu")]
-    #[error(
-        "a draw on a GPU can't be followed instruction by instruction: follow it on the scalar or the batch executor"
-    )]
-    NotFollowed,
     /// The pixel program has no form for GPUs.
     #[cfg(feature = "wgpu")]
     #[error(transparent)]

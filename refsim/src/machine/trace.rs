@@ -1,5 +1,7 @@
 //! Following pixels through a draw.
 
+#[cfg(feature = "wgpu")]
+use super::device::Follower;
 use super::validate::Plan;
 use super::vertices::{VertexStage, raster_rules};
 use super::walk::{ROUND, load};
@@ -11,6 +13,10 @@ use crate::output::{MOST_TARGETS, TargetTile};
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
+
+/// Pixels that a GPU follows together.
+#[cfg(feature = "wgpu")]
+const ON_GPU: usize = 512;
 
 /// A fragment of one pixel: where it came from, what the program did with it, what it did to the targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,12 +72,15 @@ impl Machine {
         call: &DrawCall<'_>,
         pixels: &[(u32, u32)],
     ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
-        #[cfg(feature = "wgpu")]
-        if self.executor == ExecutorKind::Wgpu {
-            return Err(MachineError::NotFollowed);
-        }
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
+        #[cfg(feature = "wgpu")]
+        if self.executor == ExecutorKind::Wgpu {
+            for some in followed.chunks_mut(ON_GPU) {
+                self.follow_on_gpu(call, &plan, some)?;
+            }
+            return Ok(followed.into_iter().map(|pixel| pixel.fragments).collect());
+        }
         let mut work = || {
             let tracer = tracer((self.executor, self.simd), &tile_draw(&self.profile, &self.memory, call));
             self.follow(call, &plan, tracer.as_ref(), &mut followed);
@@ -97,7 +106,7 @@ impl Machine {
         let Some(corners) = plan.triangles.get(triangle).filter(|_| instance < plan.instance_count) else {
             return Ok(None);
         };
-        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd), ComponentMask::ALL);
+        let stage = VertexStage::new(call, &self.profile.rules, self.vertex_executor(), ComponentMask::ALL);
         let vertices = stage.run(instance, 1, &plan).vertices;
         let [a, b, c] = corners.map(|corner| vertices.get(corner).copied());
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
@@ -118,7 +127,22 @@ impl Machine {
 
     /// Takes all triangles of a call to all pixels, in rounds as the draw does.
     fn follow(&self, call: &DrawCall<'_>, plan: &Plan, tracer: &dyn PixelTracer, followed: &mut [Followed]) {
-        let stage = VertexStage::new(call, &self.profile.rules, (self.executor, self.simd), ComponentMask::ALL);
+        let pass = |setups: &[Placed]| {
+            followed.par_iter_mut().for_each(|pixel| pixel.pass(setups, tracer));
+            Ok(())
+        };
+        // Nothing in there fails.
+        let _ = self.rounds(call, plan, pass);
+    }
+
+    /// Vertices and set-ups of a call in rounds as the draw makes them.
+    fn rounds(
+        &self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+        mut pass: impl FnMut(&[Placed]) -> Result<(), MachineError>,
+    ) -> Result<(), MachineError> {
+        let stage = VertexStage::new(call, &self.profile.rules, self.vertex_executor(), ComponentMask::ALL);
         let rules = raster_rules(&self.profile);
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
@@ -126,11 +150,37 @@ impl Machine {
             let count = round.min(plan.instance_count - first);
             let vertices = stage.run(first, count, plan).vertices;
             for triangles in (0..count * plan.triangles.len()).collect::<Vec<_>>().chunks(ROUND) {
-                let setups = set_up(&vertices, triangles, first, plan, &rules);
-                followed.par_iter_mut().for_each(|pixel| pixel.pass(&setups, tracer));
+                pass(&set_up(&vertices, triangles, first, plan, &rules))?;
             }
             first += count;
         }
+        Ok(())
+    }
+
+    /// Who processes vertices: for a GPU the batch executor.
+    fn vertex_executor(&self) -> (ExecutorKind, Option<SimdLevel>) {
+        match self.executor {
+            #[cfg(feature = "wgpu")]
+            ExecutorKind::Wgpu => (ExecutorKind::Batch, None),
+            kind => (kind, self.simd),
+        }
+    }
+
+    #[cfg(feature = "wgpu")]
+    fn follow_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [Followed]) -> Result<(), MachineError> {
+        let places: Vec<(u32, u32)> = pixels.iter().map(|p| (p.tile.region.x, p.tile.region.y)).collect();
+        let states = pixels.iter().map(|p| PixelState::of(&p.tile)).collect();
+        let mut follower = Follower::new(self, call, &places, states)?;
+        self.rounds(call, plan, |placed| {
+            let setups: Vec<&TriangleSetup> = placed.iter().map(|(.., setup)| setup).collect();
+            for (pixel, found) in pixels.iter_mut().zip(follower.pass(&setups)?) {
+                pixel.fragments.extend(found.into_iter().map(|f| {
+                    let (instance, triangle, part, _) = placed[f.triangle];
+                    FragmentTrace { instance, triangle, part, before: f.before, shading: f.shading, after: f.after }
+                }));
+            }
+            Ok(())
+        })
     }
 }
 
@@ -183,7 +233,7 @@ fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'
             Some(tracer) => Box::new(tracer.with_simd_level(simd)),
             None => Box::new(ScalarTiles::new(draw)),
         },
-        // Refused before it comes to this.
+        // A GPU follows pixels another way.
         #[cfg(feature = "wgpu")]
         ExecutorKind::Wgpu => Box::new(ScalarTiles::new(draw)),
     }

@@ -29,7 +29,7 @@ pub const SAVED_ROWS: usize = 21;
 const NO_TEST: u32 = 16;
 
 /// Where things lie in `draw`: after nine formats of eight words.
-const FIELDS: [(&str, usize); 24] = [
+const FIELDS: [(&str, usize); 25] = [
     ("D_STRIDE", 72),
     ("D_SETUP_WORDS", 73),
     ("D_GROUPS", 74),
@@ -61,11 +61,13 @@ const FIELDS: [(&str, usize); 24] = [
     // How many, then their numbers.
     ("D_COMPONENTS", 134),
     ("D_TARGETS", 176),
-    ("D_END", 176 + 4 * target::WORDS),
+    // Where records begin in `video`, words of each, how many words of steps are kept, and from which on.
+    ("D_FOLLOW", 176 + 4 * target::WORDS),
+    ("D_END", 180 + 4 * target::WORDS),
 ];
 
 /// Words of `draw` that the kernel reads.
-pub const DRAW_WORDS: usize = 176 + 4 * target::WORDS;
+pub const DRAW_WORDS: usize = 180 + 4 * target::WORDS;
 
 /// Loop passes of finding out whether a triangle covers anything.
 const LOOK_COST: u32 = 12;
@@ -106,6 +108,11 @@ const fn along(l1: u32, l2: u32, format: u32) -> [[u32; 5]; 4] {
 
 /// The text of the kernel with the arithmetic of `library`, without program and textures: `shade` is missing.
 pub fn text(library: &str) -> String {
+    with_entry(library, KERNEL)
+}
+
+/// The parts of the kernel around another way to walk through the triangles.
+pub(super) fn with_entry(library: &str, entry: &str) -> String {
     let mut out = String::new();
     for (name, at) in FIELDS {
         out += &format!("const {name}: u32 = {at}u;\n");
@@ -125,7 +132,7 @@ pub fn text(library: &str) -> String {
     for (name, value) in steps {
         out += &format!("const {name}: u32 = {value}u;\n");
     }
-    for part in [INTERFACE, library, WIDE, RASTER, OUTPUT, KERNEL] {
+    for part in [INTERFACE, library, WIDE, RASTER, OUTPUT, entry] {
         out += part;
         out.push('\n');
     }
@@ -228,7 +235,7 @@ impl DrawWords {
         }
     }
 
-    fn set(&mut self, name: &str, values: &[u32]) {
+    pub(super) fn set(&mut self, name: &str, values: &[u32]) {
         self.put(field(name), values);
     }
 
@@ -281,13 +288,17 @@ impl DrawWords {
         self.set("D_CONVERTS", &[weights, back, source_word(&self.iterator)]);
     }
 
+    pub(super) fn words(&self) -> &[u32] {
+        &self.words
+    }
+
     /// Words of one set-up.
     pub fn setup_words(&self) -> usize {
         35 + 3 * self.components.len()
     }
 
     /// Loop passes that a triangle costs an invocation, but for its program.
-    fn cost(&self) -> u32 {
+    pub(super) fn cost(&self) -> u32 {
         let targets = (0..4).filter(|i| self.words[field("D_TARGETS") + i * target::WORDS] == 1).count();
         1500 + 110 * self.components.len() as u32 + 1500 * targets as u32
     }

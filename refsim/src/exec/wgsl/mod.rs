@@ -3,6 +3,7 @@
 //!
 //! - [`accuracy`]: what WGSL allows a device's own floats.
 //! - `interface`: what the parts share. [`kernel`] and [`target`]: rasterisation, interpolation, tests, blending, targets.
+//! - [`follow`]: the kernel that tells everything about single pixels.
 //! - [`number`]: arithmetic in every format of [`crate::num`]. [`texture`]: texture reads out of a storage buffer.
 //!   [`program`]: pixel and vertex programs.
 //!
@@ -10,6 +11,7 @@
 //! sign-extended; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
 
 pub mod accuracy;
+pub mod follow;
 pub mod kernel;
 pub mod number;
 pub mod program;

@@ -22,7 +22,7 @@ use lower::Lowered;
 pub use microcode::Microcode;
 pub use text::Unrolled;
 use thiserror::Error;
-pub use trace::{TRACE_WORDS, trace_steps};
+pub use trace::{TRACE_WORDS, trace_delivered, trace_steps};
 
 /// The function for vertex outputs in a module that has none.
 pub const NO_OUTPUT: &str = "fn output_put(word: u32, row: vec4<u32>) {\n}\n";

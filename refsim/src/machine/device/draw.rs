@@ -71,7 +71,7 @@ impl Card {
         let stage = VertexStage::new(call, &profile.rules, (ExecutorKind::Batch, None), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let mut words = self.place(memory, profile, call)?;
-        let (shader, samplers) = shader(self, memory, profile, call)?;
+        let (shader, samplers) = shader(self, memory, profile, call, false)?;
         self.board.start(&shader, &samplers, COUNT_WORDS)?;
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
@@ -87,15 +87,21 @@ impl Card {
             }
             first += count;
         }
+        let found = self.uncut()?;
+        events.fragments = counts(&found);
+        events.bytes = bytes(memory, call, &stage, &events);
+        Ok(events)
+    }
+
+    /// The counts, if no loop was cut off.
+    pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
             let adapter = self.board.gpu().adapter().name.clone();
             let reason = "its driver ends long loops early; use another adapter or executor".to_owned();
             return Err(GpuError::Device { adapter, reason }.into());
         }
-        events.fragments = counts(&found);
-        events.bytes = bytes(memory, call, &stage, &events);
-        Ok(events)
+        Ok(found)
     }
 
     /// Makes sure that targets are on the GPU; what the kernel is told of the draw.
@@ -158,10 +164,7 @@ impl Card {
     ) -> Result<(), MachineError> {
         let columns = part.tiles.min(ROW);
         let groups = [columns as u32, part.tiles.div_ceil(ROW) as u32, 1];
-        let budget = match self.board.gpu().adapter().kind {
-            AdapterKind::Software => SOFTWARE_BUDGET,
-            _ => BUDGET,
-        };
+        let budget = budget(self.board.gpu());
         let registers = shader.registers;
         let mut dispatch = Dispatch { tiles: part.tiles, groups: columns, registers, resumes: false, budget };
         loop {
@@ -173,6 +176,14 @@ impl Card {
             }
             dispatch.resumes = true;
         }
+    }
+}
+
+/// Loop passes that an invocation may make in one dispatch.
+pub(super) fn budget(gpu: &Gpu) -> u32 {
+    match gpu.adapter().kind {
+        AdapterKind::Software => SOFTWARE_BUDGET,
+        _ => BUDGET,
     }
 }
 

@@ -5,7 +5,10 @@
 
 mod batches;
 mod draw;
+mod follow;
 mod shader;
+
+pub(super) use follow::Follower;
 
 use super::MachineError;
 use crate::exec::gpu::{Board, Gpu, GpuError};
@@ -19,6 +22,9 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub(super) struct Card {
     board: Board,
+    mode: NumberMode,
+    /// Its arithmetic.
+    library: String,
     /// The pixel module.
     text: String,
     textures: BTreeMap<usize, Held<Image>>,
@@ -106,8 +112,9 @@ impl Card {
             NumberMode::Integer => NativeOperations::empty(),
             NumberMode::Native => gpu.native()?,
         };
-        let text = shader::machine_text(&number::library(mode, native));
-        Ok(Self { board: Board::new(gpu)?, text, textures: BTreeMap::new(), depths: BTreeMap::new() })
+        let library = number::library(mode, native);
+        let text = shader::machine_text(&library);
+        Ok(Self { board: Board::new(gpu)?, mode, library, text, textures: BTreeMap::new(), depths: BTreeMap::new() })
     }
 
     /// The contents of texture `number`, of which the host holds `host`.

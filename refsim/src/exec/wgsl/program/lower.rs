@@ -1,5 +1,6 @@
 //! Programs on their way to a GPU: the batch executor's graph, and what becomes of its values.
 
+use super::trace::delivered_registers;
 use crate::device::Rules;
 use crate::exec::batch::arith::Formats;
 use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts, loop_counter};
@@ -66,8 +67,8 @@ pub(super) struct Step {
 pub(super) enum Body {
     /// All values at once: what becomes of them; texture reads of each fragment by sampler; slots it counts for.
     Straight { sinks: Vec<Sink>, fetches: Vec<usize>, cost: u32 },
-    /// Instruction by instruction, registers in the slots below `first_free`; and what is done at the end.
-    Flow { steps: Vec<Step>, first_free: Slot, end: Vec<Sink> },
+    /// Instruction by instruction, registers in the slots below `first_free`; and what is done before and at the end.
+    Flow { start: Vec<Sink>, steps: Vec<Step>, first_free: Slot, end: Vec<Sink> },
 }
 
 /// A program as values and their uses.
@@ -161,7 +162,7 @@ impl Lowered {
 }
 
 fn straight(t: &mut Translator<'_>, program: &Program, traced: bool) -> Body {
-    let mut taps: Vec<Sink> = Vec::new();
+    let mut taps = if traced { delivered_sinks(t, program) } else { Vec::new() };
     let mut written: Vec<(usize, Vec<u8>, Vec<Node>)> = Vec::new();
     let ends = decode(t, program, |at, effects| {
         let values = effects.iter().filter_map(|effect| match effect {
@@ -261,7 +262,20 @@ fn flow(t: &mut Translator<'_>, program: &Program, parts: Parts, end: Vec<Sink>,
             counter: loop_counter(instruction, t.constants),
         });
     }
-    Body::Flow { steps, first_free, end }
+    let start = if traced { delivered_sinks(t, program) } else { Vec::new() };
+    Body::Flow { start, steps, first_free, end }
+}
+
+/// Tells of the input registers before anything runs, by numbers past those of the instructions.
+fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
+    let all = t.make.graph.constant(TRUE);
+    let numbers = program.instructions.len()..;
+    let sink = |(at, register)| {
+        let mut nodes = [0, 1, 2, 3].map(|c| t.held(&register, c)).to_vec();
+        nodes.extend([all; 4]);
+        Sink::new(Use::Trace(at, Mask::ALL), nodes)
+    };
+    numbers.zip(delivered_registers(program)).map(sink).collect()
 }
 
 /// What an instruction under lane masks does with its results.

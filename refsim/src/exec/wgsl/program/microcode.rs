@@ -55,9 +55,10 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
             let here = maker.words.len() as u32;
             maker.words.extend([op::STEP, here + 3, (*cost).min(0xffff) | u32::from(NONE) << 16]);
         }
-        Body::Flow { steps, first_free, end } => {
+        Body::Flow { start, steps, first_free, end } => {
             // Slot 0 is the machine's own.
             maker.words.extend([op::ZERO, 1, u32::from(*first_free) - 1]);
+            maker.block(start);
             maker.steps(steps);
             maker.words[1] = maker.words.len() as u32;
             maker.block(end);

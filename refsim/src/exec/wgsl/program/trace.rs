@@ -4,11 +4,13 @@ use crate::device::Rules;
 use crate::exec::batch::graph::Arith;
 use crate::exec::batch::program::pixel_formats;
 use crate::exec::trace::as_written;
-use crate::exec::{CheckedProgram, Step, program};
-use crate::isa::{Mask, RegisterFile};
+use crate::exec::{CheckedProgram, Step, inputs_read, program};
+use crate::isa::{Mask, Program, Register, RegisterFile};
 use crate::num::Flags;
+use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
 
-/// Words that an executed instruction puts down: its number, the components written, four raw values.
+/// Words that an executed instruction puts down: its number, the components written, four raw values. Input registers come
+/// first, with numbers past those of the instructions.
 pub const TRACE_WORDS: usize = 6;
 
 /// The steps of a lane (0 to 3) out of the `q_traced` words that a shader made by [`super::PixelShader::traced`] put down,
@@ -27,5 +29,29 @@ pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane:
         });
         as_written(Step { instruction, lane, mask, value, flags: Flags::empty() }, source)
     };
-    words.chunks_exact(TRACE_WORDS).map(step).collect()
+    let told = words.chunks_exact(TRACE_WORDS);
+    told.filter(|words| (words[0] as usize) < source.instructions.len()).map(step).collect()
+}
+
+/// The input registers as instructions read them, out of the same words, as [`crate::exec::Shading`] holds them.
+pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -> Vec<(Register, [u32; 4])> {
+    let source = program(checked);
+    let Some(formats) = pixel_formats(rules) else { return Vec::new() };
+    let main = formats.lane(Arith::Main);
+    let first = source.instructions.len();
+    let told = |at: usize| words.chunks_exact(TRACE_WORDS).find(|words| words[0] as usize == at);
+    let registers = (first..).zip(delivered_registers(source));
+    registers
+        .filter_map(|(at, register)| told(at).map(|words| (register, [2, 3, 4, 5].map(|i| main.encode(words[i])))))
+        .collect()
+}
+
+/// The input registers that hold interpolated values.
+pub(super) fn delivered_registers(program: &Program) -> Vec<Register> {
+    let reads = inputs_read(program);
+    let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
+    let sets = (0u16..8).filter(|_| program.version.is_ps_2());
+    let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
+    let read = |(register, first): &(Register, usize)| reads.has(first + 4 * usize::from(register.index));
+    colors.chain(sets).filter(read).map(|(register, _)| register).collect()
 }

@@ -1,0 +1,154 @@
+//! The kernel that follows single pixels: its text, what it is told, and its records.
+
+use super::kernel::{DrawWords, with_entry};
+use super::program::{TRACE_WORDS, trace_delivered, trace_steps};
+use crate::device::Rules;
+use crate::exec::batch::graph::Arith;
+use crate::exec::batch::program::pixel_formats;
+use crate::exec::scalar::{DepthValue, FragmentResult};
+use crate::exec::{CheckedProgram, Shading, program};
+use crate::isa::Opcode;
+use crate::num::Format;
+use crate::output::FragmentFate;
+use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, FragmentInput};
+
+/// The kernel's entry point: a workgroup of one invocation a pixel.
+pub const ENTRY: &str = "follow_main";
+/// Words of `tiles` a pixel: column, row, first of its triangles there, how many, column in the targets.
+pub const JOB_WORDS: usize = 5;
+/// Words of a record before its steps.
+pub const HEAD: usize = RESULTS + 19;
+/// Where a record holds interpolated components and depth, what the program left.
+const INPUT: usize = 4;
+const RESULTS: usize = INPUT + 42;
+const NOTHING: u32 = 1;
+const FRAGMENT: u32 = 2;
+const UNFINISHED: u32 = 3;
+
+/// The text of the kernel with the arithmetic of `library`, without program and textures.
+pub fn text(library: &str) -> String {
+    let names = [("NOTHING", NOTHING), ("FRAGMENT", FRAGMENT), ("UNFINISHED", UNFINISHED)];
+    let places = [("HEAD", HEAD as u32), ("INPUT", INPUT as u32), ("RESULTS", RESULTS as u32)];
+    let constants: String =
+        names.iter().chain(&places).map(|(name, value)| format!("const FOLLOW_{name}: u32 = {value}u;\n")).collect();
+    with_entry(library, &(constants + include_str!("follow.wgsl")))
+}
+
+/// One dispatch of the kernel.
+#[derive(Clone, Copy, Debug)]
+pub struct Dispatch {
+    /// Pixels.
+    pub jobs: usize,
+    /// Rows of `scratch` that the program's registers take; [`super::kernel::SAVED_ROWS`] follow.
+    pub registers: usize,
+    /// Whether it goes on where the one before, which was the same, ran out of its budget.
+    pub resumes: bool,
+    /// Loop passes of an invocation, about.
+    pub budget: u32,
+    /// The first word of the records in `video`.
+    pub records: usize,
+    /// Steps that a record has room for.
+    pub room: usize,
+    /// The number of the first step that is kept.
+    pub skipped: usize,
+}
+
+impl Dispatch {
+    /// Words of a record.
+    pub fn record_words(&self) -> usize {
+        HEAD + TRACE_WORDS * self.room
+    }
+}
+
+impl DrawWords {
+    /// The words of `draw` for following pixels.
+    pub fn follow(&mut self, dispatch: &Dispatch) -> &[u32] {
+        let cost = self.cost();
+        let resumes = u32::from(dispatch.resumes);
+        self.set("D_TILES", &[dispatch.jobs as u32]);
+        self.set("D_STRIDE", &[dispatch.jobs as u32]);
+        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.budget.max(cost + 10_000), cost, 3, 5]);
+        let kept = [dispatch.record_words(), TRACE_WORDS * dispatch.room, TRACE_WORDS * dispatch.skipped];
+        self.set("D_FOLLOW", &[dispatch.records, kept[0], kept[1], kept[2]].map(|word| word as u32));
+        self.words()
+    }
+}
+
+/// What the kernel tells of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<'w> {
+    words: &'w [u32],
+}
+
+impl<'w> Record<'w> {
+    /// Out of its words: at least [`HEAD`].
+    pub fn new(words: &'w [u32]) -> Option<Self> {
+        (words.len() >= HEAD).then_some(Self { words })
+    }
+
+    /// Whether the dispatch must be made again.
+    pub fn is_unfinished(&self) -> bool {
+        self.words[0] == UNFINISHED
+    }
+
+    /// The place in the pixel's list of the first triangle that covers it; `None` if none does.
+    pub fn triangle(&self) -> Option<usize> {
+        (self.words[0] == FRAGMENT).then_some(self.words[1] as usize)
+    }
+
+    /// Steps that there were, kept or not.
+    pub fn steps(&self) -> usize {
+        self.words[3] as usize / TRACE_WORDS
+    }
+
+    /// The words of the steps that are kept; `skipped` is that of the dispatch.
+    pub fn kept(&self, skipped: usize) -> &'w [u32] {
+        let words = &self.words[HEAD..];
+        let count = self.steps().saturating_sub(skipped) * TRACE_WORDS;
+        &words[..count.min(words.len())]
+    }
+
+    /// What happened to the fragment, of which `steps` are the words of all steps.
+    pub fn shading(&self, steps: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Shading {
+        Shading {
+            input: self.input(),
+            delivered: trace_delivered(steps, checked, rules),
+            steps: trace_steps(steps, checked, rules, lane),
+            output: self.output(checked, rules),
+            fate: match self.words[2] {
+                1 => FragmentFate::KilledByShader,
+                2 => FragmentFate::AlphaFailed,
+                3 => FragmentFate::DepthFailed,
+                _ => FragmentFate::Passed,
+            },
+        }
+    }
+
+    fn input(&self) -> FragmentInput {
+        let at = |component: usize| self.words[INPUT + component];
+        FragmentInput {
+            t: std::array::from_fn(|set| std::array::from_fn(|c| at(4 * set + c))),
+            v: std::array::from_fn(|color| std::array::from_fn(|c| at(COLOR_COMPONENT + 4 * color + c))),
+            fog: at(FOG_COMPONENT),
+            depth: at(41),
+        }
+    }
+
+    fn output(&self, checked: &CheckedProgram, rules: &Rules) -> FragmentResult {
+        let Some(formats) = pixel_formats(rules) else { return FragmentResult::default() };
+        let main = formats.lane(Arith::Main);
+        let words = &self.words[RESULTS..HEAD];
+        let (depth, is_main) = (words[1], words[2] == 1);
+        // One instruction decides depth in single precision, always.
+        let single = program(checked).instructions.iter().any(|i| i.opcode == Opcode::TexM3x2Depth);
+        FragmentResult {
+            killed: words[0] == 1,
+            colors: std::array::from_fn(|target| std::array::from_fn(|c| main.encode(words[3 + 4 * target + c]))),
+            depth: match (is_main, single) {
+                (true, _) => Some(DepthValue { format: rules.format, bits: main.encode(depth) }),
+                (false, true) => Some(DepthValue { format: Format::FP32, bits: depth }),
+                (false, false) => None,
+            },
+        }
+    }
+}

@@ -1,0 +1,98 @@
+// Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in its
+// record what the rasteriser gave there, what every instruction wrote, what the program left and what became of it. One
+// invocation a workgroup: lanes that go different ways would spend each other's loop passes.
+//
+// `tiles` holds five words a pixel: column, row, first triangle of its list, how many, column in the targets.
+
+// Where the steps of the record begin.
+var<private> f_steps: u32;
+
+fn trace_put(at: u32, word: u32) {
+    // Words before the window wrap to numbers past it.
+    let place = at - draw[D_FOLLOW + 3u];
+    if (place < draw[D_FOLLOW + 2u]) {
+        video[f_steps + place] = word;
+    }
+}
+
+// The results of a lane, after its program.
+fn f_results(record: u32, lane: u32, place: u32) {
+    let killed = select(0u, 1u, q_killed[lane]);
+    video[record + FOLLOW_RESULTS] = killed;
+    video[record + FOLLOW_RESULTS + 1u] = q_depth[lane];
+    video[record + FOLLOW_RESULTS + 2u] = select(0u, 1u, q_depth_is_main[lane]);
+    for (var i = 0u; i < 16u; i++) {
+        video[record + FOLLOW_RESULTS + 3u + i] = q_color[i >> 2u][i & 3u][lane];
+    }
+    video[record + 2u] = o_merge(lane, place, 0u);
+    video[record + 3u] = q_traced;
+}
+
+@compute @workgroup_size(1)
+fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
+    let job = group.x;
+    if (job >= draw[D_TILES]) {
+        return;
+    }
+    let x = tiles[5u * job];
+    let y = tiles[5u * job + 1u];
+    let first = tiles[5u * job + 2u];
+    let count = tiles[5u * job + 3u];
+    let lane = (x & 1u) | ((y & 1u) << 1u);
+    q_invocation = job;
+    q_stride = draw[D_STRIDE];
+    q_save = draw[D_SAVE];
+    let record = draw[D_FOLLOW] + job * draw[D_FOLLOW + 1u];
+    f_steps = record + FOLLOW_HEAD;
+    let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
+    var i = 0u;
+    if (draw[D_RESUMES] == 1u) {
+        let state = scratch[state_at];
+        if (state.w == 1u) {
+            return;
+        }
+        i = state.x;
+        q_suspended = state.y == 1u;
+        q_traced = state.z;
+    }
+    var budget = draw[D_BUDGET];
+    var status = FOLLOW_NOTHING;
+    for (; i < count; i++) {
+        if (budget < LOOK_COST + draw[D_COST]) {
+            status = FOLLOW_UNFINISHED;
+            break;
+        }
+        budget -= LOOK_COST;
+        let at = tiles[first + i] * draw[D_SETUP_WORDS];
+        if (!r_cover(at, x & 0xfffffffeu, y & 0xfffffffeu)[lane]) {
+            continue;
+        }
+        r_interpolate(at);
+        for (var c = 0u; c < 41u; c++) {
+            video[record + FOLLOW_INPUT + c] = q_input[c][lane];
+        }
+        video[record + FOLLOW_INPUT + 41u] = q_depth[lane];
+        q_covered = vec4<u32>(lane) == vec4<u32>(0u, 1u, 2u, 3u);
+        q_run = vec4<bool>(true);
+        q_trace = lane + 1u;
+        q_budget = budget - draw[D_COST];
+        shade();
+        status = select(FOLLOW_FRAGMENT, FOLLOW_UNFINISHED, q_suspended);
+        break;
+    }
+    video[record] = status;
+    video[record + 1u] = i;
+    if (status == FOLLOW_FRAGMENT) {
+        f_results(record, lane, tiles[5u * job + 4u]);
+    }
+    let ended = select(1u, 0u, status == FOLLOW_UNFINISHED);
+    scratch[state_at] = vec4<u32>(i, select(0u, 1u, q_suspended), q_traced, ended);
+    // Had the driver ended loops before their time, this one would end too.
+    var passes = 0u;
+    for (var k = 0u; k < draw[D_PROOF]; k++) {
+        passes += draw[D_PROOF + 1u];
+    }
+    if (passes != draw[D_PROOF] * draw[D_PROOF + 1u]) {
+        atomicAdd(&counts[COUNT_CUT], 1u);
+    }
+}

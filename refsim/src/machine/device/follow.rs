@@ -1,0 +1,243 @@
+//! Following pixels on the GPU: each round takes every pixel to the next triangle that covers it.
+//!
+//! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a dispatch,
+//! which is why this is no [`crate::exec::PixelTracer`].
+
+use super::shader::shader;
+use super::{Card, draw};
+use crate::exec::gpu::{Gpu, Shader};
+use crate::exec::wgsl::follow::{Dispatch, HEAD, JOB_WORDS, Record};
+use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, SAVED_ROWS};
+use crate::exec::wgsl::program::TRACE_WORDS;
+use crate::exec::wgsl::target::TargetPlace;
+use crate::exec::wgsl::{NumberMode, texture};
+use crate::exec::{Shading, colors_written, inputs_read, output_rules, program};
+use crate::isa::OpcodeClass;
+use crate::machine::trace::PixelState;
+use crate::machine::{DrawCall, Machine, MachineError};
+use crate::output::MOST_TARGETS;
+use crate::raster::TriangleSetup;
+use crate::texture::{Image, TextureKind};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Steps of a record in a program with flow control, which may run any number.
+const FLOW_STEPS: usize = 256;
+/// Input registers that are told of before the steps, at most.
+const INPUTS: usize = 10;
+
+/// A fragment of a followed pixel: the triangle's place among the set-ups of the pass; what it found, what was done, what
+/// it left.
+pub(in crate::machine) struct Followed {
+    pub(in crate::machine) triangle: usize,
+    pub(in crate::machine) before: PixelState,
+    pub(in crate::machine) shading: Shading,
+    pub(in crate::machine) after: PixelState,
+}
+
+/// Pixels on their way through a draw.
+pub(in crate::machine) struct Follower<'a> {
+    card: Card,
+    machine: &'a Machine,
+    call: &'a DrawCall<'a>,
+    pixels: Vec<(u32, u32)>,
+    states: Vec<PixelState>,
+    words: DrawWords,
+    shader: Shader,
+    /// The targets of the followed pixels, a row, and one column more for what is run again.
+    colors: Vec<(usize, Image)>,
+    depth: Option<usize>,
+    records: usize,
+    room: usize,
+}
+
+/// A pixel's way through one pass.
+struct Way {
+    triangles: Vec<u32>,
+    /// How many of them it is past.
+    at: usize,
+}
+
+impl<'a> Follower<'a> {
+    /// Pixels, and what the targets hold there.
+    pub(in crate::machine) fn new(
+        machine: &'a Machine,
+        call: &'a DrawCall<'a>,
+        pixels: &[(u32, u32)],
+        states: Vec<PixelState>,
+    ) -> Result<Self, MachineError> {
+        let (memory, profile) = (&machine.memory, &machine.profile);
+        let mut card = match &memory.card {
+            Some(card) => Card::new(Arc::clone(card.board.gpu()), card.mode)?,
+            None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
+        };
+        let (shader, samplers) = shader(&mut card, memory, profile, call, true)?;
+        let width = pixels.len() as u32 + 1;
+        let (mut targets, mut colors) = ([None; MOST_TARGETS], Vec::new());
+        for (slot, &id) in targets.iter_mut().zip(&call.targets) {
+            let format = memory.texture(id)?.format();
+            let image = Image::new(format, TextureKind::Rectangle, [width, 1, 1], 1)?;
+            let base = card.board.allocate(texture::image_size(&image))?;
+            *slot = Some(TargetPlace { format, base: base as u32, width });
+            colors.push((base, image));
+        }
+        let mut depth = None;
+        if let Some(id) = call.depth_buffer {
+            let base = card.board.allocate(width as usize)?;
+            depth = Some(DepthPlace { format: memory.depth(id)?.format(), base: base as u32, width });
+        }
+        let source = program(call.pixel_program);
+        let room = match source.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow) {
+            true => FLOW_STEPS,
+            false => source.instructions.len() + INPUTS,
+        };
+        let words = DrawWords::new(&DrawState {
+            rules: &profile.rules,
+            output: &call.output_state(),
+            output_rules: &output_rules(&profile.rules),
+            components: inputs_read(source),
+            written: colors_written(source),
+            targets,
+            depth,
+        });
+        let records = card.board.allocate(pixels.len() * (HEAD + TRACE_WORDS * room))?;
+        card.board.start(&shader, &samplers, COUNT_WORDS)?;
+        let depth = depth.map(|place| place.base as usize);
+        let pixels = pixels.to_vec();
+        let follower = Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room };
+        follower.send()?;
+        Ok(follower)
+    }
+
+    /// Sends what the pixels' targets hold.
+    fn send(&self) -> Result<(), MachineError> {
+        for (i, (base, image)) in self.colors.iter().enumerate() {
+            let mut image = image.clone();
+            for (x, state) in (0u32..).zip(&self.states) {
+                image.set_raw(0, 0, 0, x, state.colors[i].unwrap_or_default());
+            }
+            self.card.board.write(*base, &texture::image_words(&image))?;
+        }
+        if let Some(base) = self.depth {
+            let depths: Vec<u32> = self.states.iter().map(|state| state.depth.unwrap_or_default()).collect();
+            self.card.board.write(base, &depths)?;
+        }
+        Ok(())
+    }
+
+    /// What they hold now.
+    fn fetch(&self) -> Result<Vec<PixelState>, MachineError> {
+        let mut states = self.states.clone();
+        for (i, (base, image)) in self.colors.iter().enumerate() {
+            let mut image = image.clone();
+            let words = self.card.board.read(*base, texture::image_size(&image))?;
+            texture::words_to_image(&words, &mut image)?;
+            for (x, state) in (0u32..).zip(&mut states) {
+                state.colors[i] = Some(image.raw(0, 0, 0, x));
+            }
+        }
+        if let Some(base) = self.depth {
+            for (state, depth) in states.iter_mut().zip(self.card.board.read(base, self.pixels.len())?) {
+                state.depth = Some(depth);
+            }
+        }
+        Ok(states)
+    }
+
+    /// Takes the pixels through some triangles: the fragments of each pixel, in order.
+    pub(in crate::machine) fn pass(&mut self, setups: &[&TriangleSetup]) -> Result<Vec<Vec<Followed>>, MachineError> {
+        let mut packed = Vec::with_capacity(setups.len() * self.words.setup_words());
+        setups.iter().for_each(|setup| self.words.setup(setup, &mut packed));
+        self.card.board.set_setups(&packed)?;
+        let mut ways: Vec<Way> =
+            self.pixels.iter().map(|&pixel| Way { triangles: near(setups, pixel), at: 0 }).collect();
+        let mut out: Vec<Vec<Followed>> = self.pixels.iter().map(|_| Vec::new()).collect();
+        loop {
+            let jobs: Vec<usize> = (0..ways.len()).filter(|&p| ways[p].at < ways[p].triangles.len()).collect();
+            if jobs.is_empty() {
+                return Ok(out);
+            }
+            self.round(&jobs, &mut ways, &mut out)?;
+        }
+    }
+
+    /// Takes pixels to the next triangle that covers each.
+    fn round(&mut self, jobs: &[usize], ways: &mut [Way], out: &mut [Vec<Followed>]) -> Result<(), MachineError> {
+        let lists: Vec<_> = jobs.iter().map(|&p| (p, p, ways[p].at..ways[p].triangles.len())).collect();
+        let words = self.run(&lists, ways, 0)?;
+        let size = HEAD + TRACE_WORDS * self.room;
+        let after = self.fetch()?;
+        for (&p, words) in jobs.iter().zip(words.chunks_exact(size)) {
+            let Some(record) = Record::new(words) else { continue };
+            let Some(place) = record.triangle() else {
+                ways[p].at = ways[p].triangles.len();
+                continue;
+            };
+            let place = ways[p].at + place;
+            let steps = self.steps(&record, p, place, ways)?;
+            let (x, y) = self.pixels[p];
+            let lane = ((x & 1) | (y & 1) << 1) as usize;
+            let shading = record.shading(&steps, self.call.pixel_program, &self.machine.profile.rules, lane);
+            let triangle = ways[p].triangles[place] as usize;
+            out[p].push(Followed { triangle, before: self.states[p], shading, after: after[p] });
+            ways[p].at = place + 1;
+        }
+        self.states = after;
+        Ok(())
+    }
+
+    /// The words of all steps: those that a record had no room for are found by running the pixel again.
+    fn steps(&mut self, record: &Record<'_>, p: usize, place: usize, ways: &[Way]) -> Result<Vec<u32>, MachineError> {
+        let mut steps = record.kept(0).to_vec();
+        while steps.len() < TRACE_WORDS * record.steps() {
+            let skipped = steps.len() / TRACE_WORDS;
+            let words = self.run(&[(p, self.pixels.len(), place..place + 1)], ways, skipped)?;
+            let more = Record::new(&words).map_or(&[][..], |record| record.kept(skipped));
+            if more.is_empty() {
+                break;
+            }
+            steps.extend(more);
+        }
+        Ok(steps)
+    }
+
+    /// The records of pixels: their numbers, columns in the targets, parts of their lists.
+    fn run(
+        &mut self,
+        jobs: &[(usize, usize, Range<usize>)],
+        ways: &[Way],
+        skipped: usize,
+    ) -> Result<Vec<u32>, MachineError> {
+        let (mut told, mut lists) = (Vec::new(), Vec::new());
+        for (p, column, range) in jobs {
+            let ((x, y), first) = (self.pixels[*p], JOB_WORDS * jobs.len() + lists.len());
+            told.extend([x, y, first as u32, range.len() as u32, *column as u32]);
+            lists.extend_from_slice(&ways[*p].triangles[range.clone()]);
+        }
+        told.append(&mut lists);
+        let (registers, budget) = (self.shader.registers, draw::budget(self.card.board.gpu()));
+        let (records, room) = (self.records, self.room);
+        let mut dispatch = Dispatch { jobs: jobs.len(), registers, resumes: false, budget, records, room, skipped };
+        let size = dispatch.record_words();
+        loop {
+            let words = self.words.follow(&dispatch);
+            let rows = (registers + SAVED_ROWS) * jobs.len();
+            self.card.board.dispatch(&self.shader, words, &told, [jobs.len() as u32, 1, 1], rows)?;
+            let found = self.card.board.read(records, jobs.len() * size)?;
+            if !found.chunks_exact(size).any(|words| Record::new(words).is_some_and(|r| r.is_unfinished())) {
+                self.card.uncut()?;
+                return Ok(found);
+            }
+            dispatch.resumes = true;
+        }
+    }
+}
+
+/// The triangles whose bounds hold a pixel.
+fn near(setups: &[&TriangleSetup], (x, y): (u32, u32)) -> Vec<u32> {
+    let holds = |setup: &TriangleSetup| {
+        let b = &setup.bounds;
+        (b.x..b.x + b.width).contains(&x) && (b.y..b.y + b.height).contains(&y)
+    };
+    (0u32..).zip(setups).filter(|(_, setup)| holds(setup)).map(|(i, _)| i).collect()
+}
