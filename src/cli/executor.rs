@@ -1,5 +1,8 @@
 //! `--executor`, `--adapter`, `--native`: who computes on the card.
 
+#[cfg(feature = "wgpu")]
+use std::io::Write as _;
+
 use clap::ValueEnum;
 use refsim::machine::{Executor, ExecutorKind};
 
@@ -37,8 +40,16 @@ impl GpuArgs {
     #[cfg(feature = "wgpu")]
     fn open(&self) -> Result<Executor, Problem> {
         use refsim::exec::{gpu::Gpu, wgsl::NumberMode};
-        let gpu = Gpu::open(self.adapter.as_deref())
-            .map_err(|e| Problem::usage(e.to_string(), "`crossbar devices --adapters` lists the adapters"))?;
+        let refused = |e: refsim::exec::gpu::GpuError| {
+            Problem::usage(e.to_string(), "`crossbar devices --adapters` lists the adapters")
+        };
+        let gpu = Gpu::open(self.adapter.as_deref()).map_err(refused)?;
+        if self.native
+            && let Some(departures) = gpu.probed().map_err(refused)?.departures()
+        {
+            // Nothing is to be done if nobody reads this.
+            writeln!(std::io::stderr().lock(), "note: {departures}").ok();
+        }
         let mode = if self.native { NumberMode::Native } else { NumberMode::Integer };
         Ok(Executor::Gpu { gpu: std::sync::Arc::new(gpu), mode })
     }

@@ -38,6 +38,17 @@ impl Executor {
         Ok(machine)
     }
 
+    /// What is known to differ from IEEE 754 in the floats that it computes with.
+    pub(crate) fn departures(&self) -> Option<String> {
+        #[cfg(feature = "wgpu")]
+        if self.mode == Some(NumberMode::Native)
+            && let Ok(Some(gpu)) = testing::shared()
+        {
+            return gpu.probed().ok()?.departures();
+        }
+        None
+    }
+
     /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for everybody. A
     /// native float mode, for example, serves one format only.
     pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {

@@ -2,6 +2,7 @@
 
 use super::adapter::{Adapter, describe, pick};
 use super::error::GpuError;
+use super::probe::ProbeReport;
 use crate::exec::wgsl::NativeOperations;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -48,7 +49,7 @@ pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipelines: Mutex<BTreeMap<PipelineKey, Pipeline>>,
-    native: OnceLock<NativeOperations>,
+    probed: OnceLock<ProbeReport>,
 }
 
 impl Gpu {
@@ -69,7 +70,7 @@ impl Gpu {
         let wanted = wgpu::DeviceDescriptor { label: Some("refsim"), required_limits, ..Default::default() };
         let (device, queue) = pollster::block_on(raw.request_device(&wanted))
             .map_err(|e| GpuError::Open { adapter: adapter.name.clone(), reason: e.to_string() })?;
-        Ok(Self { adapter, device, queue, pipelines: Mutex::default(), native: OnceLock::new() })
+        Ok(Self { adapter, device, queue, pipelines: Mutex::default(), probed: OnceLock::new() })
     }
 
     /// What it is.
@@ -77,16 +78,24 @@ impl Gpu {
         &self.adapter
     }
 
-    /// The single precision operations whose results are exact here, in the adapter's own floats; found out once.
+    /// What a full probe of the adapter's own floats saw; made once.
+    ///
+    /// # Errors
+    /// As [`super::probe()`].
+    pub fn probed(&self) -> Result<&ProbeReport, GpuError> {
+        if let Some(known) = self.probed.get() {
+            return Ok(known);
+        }
+        let found = super::probe(self, super::FULL_PROBE)?;
+        Ok(self.probed.get_or_init(|| found))
+    }
+
+    /// The single precision operations whose results are exact here, in the adapter's own floats.
     ///
     /// # Errors
     /// As [`super::probe()`].
     pub fn native(&self) -> Result<NativeOperations, GpuError> {
-        if let Some(known) = self.native.get() {
-            return Ok(*known);
-        }
-        let found = super::probe(self, super::FULL_PROBE)?.native();
-        Ok(*self.native.get_or_init(|| found))
+        Ok(self.probed()?.native())
     }
 
     /// Words of the largest buffer that a shader can use.

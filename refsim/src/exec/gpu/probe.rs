@@ -1,7 +1,8 @@
 //! Whether an adapter's own single precision is IEEE 754, bit for bit, operation by operation.
 //!
-//! Native mode uses those operations of the device that this found exact. Where they aren't, results are compared inside the
-//! interval that WGSL allows ([`crate::exec::wgsl::accuracy`]).
+//! Native mode uses those operations of the device that this found exact, and integers for the others: so its results have the
+//! very bits of IEEE 754 on every adapter. What an operation may give that isn't exact is the interval that WGSL allows
+//! ([`crate::exec::wgsl::accuracy`]); a result outside it is a fault of the driver.
 
 use serde::Serialize;
 
@@ -93,6 +94,36 @@ impl ProbeReport {
             native.remove(report.operation.native());
         }
         native
+    }
+
+    /// The operations that differ from IEEE 754 somewhere.
+    pub fn differing(&self) -> impl Iterator<Item = &OperationReport> {
+        self.operations.iter().filter(|report| !report.exact())
+    }
+
+    /// Says which operations differ, what becomes of that, and where the adapter leaves WGSL; `None` if none does.
+    pub fn departures(&self) -> Option<String> {
+        let names = |of: &mut dyn Iterator<Item = &OperationReport>| of.map(|r| r.name).collect::<Vec<_>>().join(", ");
+        let differing = names(&mut self.differing());
+        if differing.is_empty() {
+            return None;
+        }
+        let outside = names(&mut self.differing().filter(|report| !report.conforms()));
+        let within = match outside.as_str() {
+            "" => "within what WGSL allows".to_owned(),
+            outside => format!("outside of what WGSL allows in {outside}"),
+        };
+        let adapter = &self.adapter;
+        Some(format!(
+            "in the floats of {adapter}, results of {differing} differ from IEEE 754, {within}; native mode computes them by integers"
+        ))
+    }
+
+    /// Whether a result of the adapter's own floats may stand: an operation that the probe found exact must give the bits of
+    /// IEEE 754, one that it found to differ a result in the interval that WGSL allows.
+    pub fn accepts(&self, operation: SingleOperation, operands: [u32; 3], got: u32) -> bool {
+        let differs = self.differing().any(|report| report.operation == operation);
+        got == operation.exact(operands) || (differs && allowed(operation, operands).contains(got))
     }
 
     /// Whether no result lay outside what WGSL allows.
@@ -218,5 +249,57 @@ impl Drawn {
             return [self.edges[at % count], self.edges[at / count], third];
         }
         [self.operand(), self.operand(), self.operand()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A probe that saw these results: operation, operands, bits.
+    fn seen(results: &[(SingleOperation, [u32; 3], u32)]) -> ProbeReport {
+        let mut operations: Vec<OperationReport> = SingleOperation::ALL.into_iter().map(OperationReport::new).collect();
+        for &(operation, operands, got) in results {
+            let report = operations.iter_mut().find(|report| report.operation == operation);
+            report.into_iter().for_each(|report| note(report, operands, got));
+        }
+        ProbeReport { adapter: "made up".to_owned(), operations }
+    }
+
+    const THIRD: [u32; 3] = [0x3f80_0000, 0x4040_0000, 0];
+
+    #[test]
+    fn an_exact_adapter_owes_the_very_bits() {
+        let exact = SingleOperation::Div.exact(THIRD);
+        let report = seen(&[(SingleOperation::Div, THIRD, exact)]);
+        assert_eq!((report.departures(), report.native()), (None, NativeOperations::all()));
+        assert!(report.accepts(SingleOperation::Div, THIRD, exact));
+        assert!(!report.accepts(SingleOperation::Div, THIRD, exact + 1));
+    }
+
+    #[test]
+    fn operations_that_differ_are_named_and_held_to_their_interval() {
+        let exact = SingleOperation::Div.exact(THIRD);
+        let report = seen(&[(SingleOperation::Div, THIRD, exact + 2), (SingleOperation::Add, THIRD, 0x4080_0000)]);
+        assert_eq!(
+            report.departures().as_deref(),
+            Some(
+                "in the floats of made up, results of div differ from IEEE 754, within what WGSL allows; native mode computes them \
+                 by integers"
+            )
+        );
+        assert_eq!(report.native(), NativeOperations::all().difference(NativeOperations::DIV));
+        // 2.5 ULPs for a division; nothing for what the probe found exact.
+        assert!(report.accepts(SingleOperation::Div, THIRD, exact + 2));
+        assert!(!report.accepts(SingleOperation::Div, THIRD, exact + 4));
+        assert!(!report.accepts(SingleOperation::Add, THIRD, 0x4080_0001));
+    }
+
+    #[test]
+    fn results_outside_of_wgsl_are_named() {
+        let report = seen(&[(SingleOperation::Add, THIRD, 0x4080_0003), (SingleOperation::Min, [0, 1 << 31, 0], 0)]);
+        let text = report.departures().unwrap_or_default();
+        assert!(text.contains("outside of what WGSL allows in add;"), "{text}");
+        assert!(!report.conforms() && !report.native().contains(NativeOperations::ADD));
     }
 }
