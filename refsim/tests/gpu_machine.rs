@@ -323,7 +323,7 @@ fn long_traces_are_whole() {
                 mov oC0, r0";
     let program = checked(text, &profile);
     let mut host = running::constants(&[[0.5, 1.25, 0.5, 0.125]]);
-    host.int = vec![[150, 0, 0, 0]];
+    host.int = vec![[250, 0, 0, 0]];
     let mut pair = Pair::new(&profile, &gpu, NumberMode::Integer);
     let target = pair.target(TexelFormat::Rgba16f, 9, 7, bits([0.25; 4]));
     let depth = pair.depth(DepthFormat::Unorm16, 9, 7, 0x3f80_0000);
