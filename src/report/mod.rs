@@ -10,6 +10,7 @@ mod page;
 pub mod picture;
 mod provenance;
 mod table;
+pub mod trace;
 
 pub use self::chart::{Chart, Line};
 pub use self::exr::{Channel, exr};

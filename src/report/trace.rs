@@ -1,0 +1,167 @@
+//! Traces for the viewers of Chrome and Perfetto: the JSON object form of the trace event format.
+//!
+//! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata (`M`),
+//! arrows are flows (`s` to `f`). Times are given in picoseconds and written in microseconds, as the format wants.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// The number of the one process.
+const PROCESS: u32 = 1;
+
+/// Something that lasts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slice {
+    /// The lane, by its place in [`Trace::lanes`].
+    pub lane: usize,
+    /// What it shows.
+    pub name: String,
+    /// What viewers filter by.
+    pub category: String,
+    /// From when, in picoseconds.
+    pub start: u64,
+    /// How long, in picoseconds.
+    pub duration: u64,
+    /// What a viewer shows beside it.
+    pub details: Map<String, Value>,
+}
+
+/// An arrow from a moment of one slice to a moment of another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arrow {
+    /// Lane and picosecond at which it starts; inside a slice or at one of its ends.
+    pub from: (usize, u64),
+    /// Lane and picosecond at which it ends.
+    pub to: (usize, u64),
+}
+
+/// What happened when, on lanes side by side.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trace {
+    /// What the whole is called.
+    pub title: String,
+    /// The names of the lanes, from the top.
+    pub lanes: Vec<String>,
+    /// Slices; those of one lane lie beside each other or within each other.
+    pub slices: Vec<Slice>,
+    /// Arrows.
+    pub arrows: Vec<Arrow>,
+    /// What else to know, for people who open the file.
+    pub about: Map<String, Value>,
+}
+
+/// An event of the format.
+#[derive(Serialize)]
+#[serde(tag = "ph")]
+enum Event<'a> {
+    #[serde(rename = "X")]
+    Complete {
+        name: &'a str,
+        cat: &'a str,
+        ts: f64,
+        dur: f64,
+        pid: u32,
+        tid: u32,
+        #[serde(skip_serializing_if = "Map::is_empty")]
+        args: &'a Map<String, Value>,
+    },
+    #[serde(rename = "M")]
+    Metadata { name: &'a str, pid: u32, tid: u32, args: Value },
+    #[serde(rename = "s")]
+    FlowStart { name: &'a str, cat: &'a str, id: usize, ts: f64, pid: u32, tid: u32 },
+    #[serde(rename = "f")]
+    FlowEnd { name: &'a str, cat: &'a str, id: usize, ts: f64, pid: u32, tid: u32, bp: &'a str },
+}
+
+impl Trace {
+    /// Writes the file: slices in the order of time, one event a line.
+    ///
+    /// # Errors
+    /// What `out` says.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{{\"displayTimeUnit\":\"ns\",\"otherData\":{},", Value::Object(self.about.clone()))?;
+        write!(out, "\"traceEvents\":[")?;
+        let mut first = true;
+        self.events(&mut |event| {
+            write!(out, "{}\n", if std::mem::take(&mut first) { "" } else { "," })?;
+            serde_json::to_writer(&mut *out, &event).map_err(io::Error::from)
+        })?;
+        writeln!(out, "\n]}}")
+    }
+
+    fn events(&self, write: &mut dyn FnMut(Event<'_>) -> io::Result<()>) -> io::Result<()> {
+        let named = |name, tid, args| Event::Metadata { name, pid: PROCESS, tid, args };
+        write(named("process_name", 0, json!({ "name": self.title })))?;
+        for (lane, name) in self.lanes.iter().enumerate() {
+            write(named("thread_name", tid(lane), json!({ "name": name })))?;
+            write(named("thread_sort_index", tid(lane), json!({ "sort_index": tid(lane) })))?;
+        }
+        let mut slices: Vec<&Slice> = self.slices.iter().collect();
+        // Of those that start together, the longest holds the others.
+        slices.sort_by_key(|slice| (slice.start, slice.lane, std::cmp::Reverse(slice.duration)));
+        for Slice { lane, name, category, start, duration, details } in slices {
+            let (ts, dur) = (microseconds(*start), microseconds(*duration));
+            write(Event::Complete { name, cat: category, ts, dur, pid: PROCESS, tid: tid(*lane), args: details })?;
+        }
+        for (id, arrow) in self.arrows.iter().enumerate() {
+            let (name, cat, pid) = ("critical path", "path", PROCESS);
+            let (lane, at) = arrow.from;
+            write(Event::FlowStart { name, cat, id, ts: microseconds(at), pid, tid: tid(lane) })?;
+            let (lane, at) = arrow.to;
+            write(Event::FlowEnd { name, cat, id, ts: microseconds(at), pid, tid: tid(lane), bp: "e" })?;
+        }
+        Ok(())
+    }
+}
+
+/// The thread of a lane; 0 is the process itself.
+fn tid(lane: usize) -> u32 {
+    u32::try_from(lane).unwrap_or(u32::MAX - 1).saturating_add(1)
+}
+
+/// Exact up to 9007 s: a double has 53 bits.
+fn microseconds(picoseconds: u64) -> f64 {
+    picoseconds as f64 / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_trace_word_for_word() {
+        let slice = |lane, name: &str, start, duration| Slice {
+            lane,
+            name: name.to_owned(),
+            category: "work".to_owned(),
+            start,
+            duration,
+            details: Map::new(),
+        };
+        let trace = Trace {
+            title: "two \"units\"".to_owned(),
+            lanes: vec!["host".to_owned(), "card".to_owned()],
+            slices: vec![slice(1, "b", 2_500_000, 1), slice(0, "a", 0, 2_500_000)],
+            arrows: vec![Arrow { from: (0, 2_500_000), to: (1, 2_500_000) }],
+            about: Map::new(),
+        };
+        let mut text = Vec::new();
+        trace.write(&mut text).expect("memory takes everything");
+        let expected = r#"{"displayTimeUnit":"ns","otherData":{},
+"traceEvents":[
+{"ph":"M","name":"process_name","pid":1,"tid":0,"args":{"name":"two \"units\""}},
+{"ph":"M","name":"thread_name","pid":1,"tid":1,"args":{"name":"host"}},
+{"ph":"M","name":"thread_sort_index","pid":1,"tid":1,"args":{"sort_index":1}},
+{"ph":"M","name":"thread_name","pid":1,"tid":2,"args":{"name":"card"}},
+{"ph":"M","name":"thread_sort_index","pid":1,"tid":2,"args":{"sort_index":2}},
+{"ph":"X","name":"a","cat":"work","ts":0.0,"dur":2.5,"pid":1,"tid":1},
+{"ph":"X","name":"b","cat":"work","ts":2.5,"dur":1e-6,"pid":1,"tid":2},
+{"ph":"s","name":"critical path","cat":"path","id":0,"ts":2.5,"pid":1,"tid":1},
+{"ph":"f","name":"critical path","cat":"path","id":0,"ts":2.5,"pid":1,"tid":2,"bp":"e"}
+]}
+"#;
+        assert_eq!(String::from_utf8(text).expect("text"), expected);
+    }
+}
