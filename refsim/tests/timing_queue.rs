@@ -6,6 +6,8 @@ mod examples;
 mod host;
 #[path = "timing_queue/laws.rs"]
 mod laws;
+#[path = "timing_queue/replay.rs"]
+mod replay;
 
 use refsim::timing::queue::{Fence, Queue, QueueFigures, ReadBackMode, ResourceId};
 use refsim::timing::timeline::{Timeline, Unit};

@@ -1,7 +1,7 @@
 //! A case in the memory of a card: ready to be drawn, or followed pixel by pixel.
 
 use refsim::{
-    event::DrawEvents,
+    event::{DrawEvents, Event},
     exec::ResolvedConstants,
     machine::{
         AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, StepRate, TextureId,
@@ -36,7 +36,20 @@ impl<'s> Loaded<'s> {
     /// # Errors
     /// If the device cannot do what the case asks.
     pub fn new(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
+        Self::on(executor.into().machine(setup.profile.clone())?, setup)
+    }
+
+    /// The same on a machine that writes down what is asked of it.
+    ///
+    /// # Errors
+    /// As [`Loaded::new`].
+    pub fn recording(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
         let mut machine = executor.into().machine(setup.profile.clone())?;
+        machine.record(true);
+        Self::on(machine, setup)
+    }
+
+    fn on(mut machine: Machine, setup: &'s Setup) -> Result<Self, CaseError> {
         let [width, height] = setup.size;
         let mut targets = Vec::new();
         for &format in &setup.targets {
@@ -94,6 +107,11 @@ impl<'s> Loaded<'s> {
     pub fn targets(&self) -> Result<Vec<&Image>, CaseError> {
         let surfaces: Result<_, MachineError> = self.targets.iter().map(|&id| self.machine.read_back(id)).collect();
         Ok(surfaces?)
+    }
+
+    /// What was asked of the machine, in order, if it writes that down.
+    pub fn take_log(&mut self) -> Vec<Event> {
+        self.machine.take_log()
     }
 
     /// What the depth buffer holds, if there is one.

@@ -7,6 +7,7 @@
 mod device;
 mod error;
 mod loaded;
+mod log;
 mod probe;
 mod run;
 pub mod schema;
@@ -21,6 +22,7 @@ mod vertices;
 pub use device::Overrides;
 pub use error::CaseError;
 pub use loaded::Loaded;
+pub use log::log;
 pub use probe::{Found, ProbeResult};
 pub use run::{Outcome, Picture, ShaderSlots, run};
 pub use setup::{Setup, Vertices};

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use refsim::device::Profile;
-use refsim::event::DrawEvents;
+use refsim::event::{DrawEvents, Event};
 use refsim::exec::Constants;
 use refsim::machine::{
     AttributeStream, DepthId, DrawCall, Executor, Machine, MachineError, StepRate, TextureId, VertexSource,
@@ -82,6 +82,8 @@ pub struct Answer {
     pub events: DrawEvents,
     /// The pixel program that ran.
     pub kernel: &'static str,
+    /// What was asked of the card, in order; empty unless it was to be recorded.
+    pub log: Vec<Event>,
 }
 
 /// A card that intersects rays with triangles.
@@ -119,7 +121,16 @@ impl Crossbar {
     /// # Errors
     /// [`EngineError`] if the card has no program for it, or refuses the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET)
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, false)
+    }
+
+    /// The same, and the log of the card: one bucket after the other, as on a card with one set of textures and targets. The answer is
+    /// that of [`Crossbar::intersect`], and the log the same for every executor and number of threads.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, true)
     }
 
     /// The program for a use: chosen once.
@@ -139,6 +150,7 @@ impl Crossbar {
         rays: &RayBatch,
         sides: Sides,
         side: u32,
+        record: bool,
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         if mesh.len() > MOST_TRIANGLES {
@@ -146,20 +158,23 @@ impl Crossbar {
         }
         if rays.rays().is_empty() || mesh.is_empty() {
             let hits = vec![None; rays.rays().len()];
-            return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name });
+            return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() });
         }
         let units = Units::choose(kernel.form, mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
-            let mut card = Card::set_up(&self.profile, &self.executor, &kernel, &bucket, &units)?;
+            let mut machine = self.executor.machine(self.profile.clone())?;
+            machine.record(record);
+            let mut card = Card::set_up(machine, &kernel, &bucket, &units)?;
             let events = card.draw(&kernel, mesh, &units, &triangles)?;
-            Ok((region, card.read_back(&bucket, &units)?, events))
+            Ok((region, card.read_back(&bucket, &units)?, events, card.machine.take_log()))
         };
         let drawn: Vec<_> = self.buckets(mesh, rays, side).into_par_iter().map(draw).collect::<Result<_, _>>()?;
-        let mut answer =
-            Answer { hits: vec![None; rays.rays().len()], events: DrawEvents::default(), kernel: kernel.name };
-        for (region, hits, events) in drawn {
+        let hits = vec![None; rays.rays().len()];
+        let mut answer = Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() };
+        for (region, hits, events, log) in drawn {
             answer.events += events;
+            answer.log.extend(log);
             for (row, hits) in (region.y..).zip(hits.chunks(region.width as usize)) {
                 let start = row as usize * rays.width() as usize + region.x as usize;
                 answer.hits[start..start + hits.len()].copy_from_slice(hits);
@@ -176,7 +191,7 @@ impl Crossbar {
         let mut hits = Vec::with_capacity(rays.len());
         for chunk in rays.chunks(LIST_BATCH) {
             let batch = RayBatch::from_list(chunk);
-            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET)?;
+            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET, false)?;
             hits.extend((0..chunk.len()).map(|i| answer.hits[batch.pixel_of(i)]));
         }
         Ok(hits)
@@ -207,21 +222,17 @@ struct Card {
 }
 
 impl Card {
-    fn set_up(
-        profile: &Profile,
-        executor: &Executor,
-        kernel: &Kernel,
-        rays: &RayBatch,
-        units: &Units,
-    ) -> Result<Self, EngineError> {
-        let mut machine = executor.machine(profile.clone())?;
+    fn set_up(mut machine: Machine, kernel: &Kernel, rays: &RayBatch, units: &Units) -> Result<Self, EngineError> {
         let mut textures = Vec::new();
         for (sampler, image) in ray_textures(kernel, rays, units).map_err(MachineError::from)? {
             textures.push((sampler, machine.create_texture(image)?));
         }
         let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
-        let format = depth_format(profile, kernel.form);
+        let format = depth_format(machine.profile(), kernel.form);
         let depth = machine.create_depth(format, rays.width(), rays.height())?;
+        // New, they hold just that; a card that keeps them from bucket to bucket has to be told.
+        machine.clear_target(ids, [0; 4])?;
+        machine.clear_depth(depth, 1.0_f32.to_bits())?;
         Ok(Self { machine, textures, ids, depth })
     }
 

@@ -76,7 +76,7 @@ impl VertexCrossbar {
             events += machine.draw(&call)?;
         }
         let hits = read_back(machine, (ids, depth), rays.rays().len(), t_max)?;
-        Ok(Answer { hits, events, kernel: kernels::VERTEX_TEST.name })
+        Ok(Answer { hits, events, kernel: kernels::VERTEX_TEST.name, log: Vec::new() })
     }
 }
 

@@ -9,6 +9,7 @@
 mod cost;
 pub mod host;
 pub mod queue;
+pub mod replay;
 pub mod timeline;
 mod units;
 

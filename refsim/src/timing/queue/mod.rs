@@ -15,6 +15,8 @@ pub use double::DoubleBuffer;
 pub use fence::{Fence, FenceError};
 pub use figures::QueueFigures;
 
+pub use crate::event::ReadBackMode;
+
 use super::timeline::{Label, Mark, SpanKind, Timeline, Unit, WaitReason};
 use super::{DrawCost, Picoseconds};
 use fence::Fences;
@@ -23,15 +25,6 @@ use schedule::{Schedule, Work};
 /// The name of a texture, target or depth buffer; who gives the commands chooses the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ResourceId(pub u64);
-
-/// Whether the host waits for the data that it asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ReadBackMode {
-    /// It waits for all earlier work and for the transfer, as `glReadPixels` did.
-    Synchronous,
-    /// Host and card go on while the bus transfers; only who writes into the resource waits.
-    Asynchronous,
-}
 
 /// When a resource is free to be read and to be written.
 #[derive(Clone, Copy, Debug, Default)]
@@ -143,7 +136,8 @@ impl Queue {
         self.body_ends(shaded.or_later(moved).or_later(vertices.plus(fill)), reads, writes);
     }
 
-    /// Data of a resource go to the host, after all draws before. Asynchronous, it returns a fence that is passed when they have
+    /// Data of a resource go to the host, after all draws before. Synchronous, the host waits for all earlier work and for the
+    /// transfer, as with `glReadPixels`. Asynchronous, host and card go on, only who writes into the resource waits, and it returns a fence that is passed when they have
     /// arrived and everything before is done; setting it costs nothing.
     pub fn read_back(
         &mut self,
@@ -167,13 +161,16 @@ impl Queue {
                 self.schedule.host_waits(self.done, WaitReason::Transfer, given.command);
                 None
             }
-            ReadBackMode::Asynchronous => {
-                let fence = self.fences.generate();
-                // The name is new, so it is known.
-                self.fences.set(fence, self.done).ok();
-                Some(fence)
-            }
+            ReadBackMode::Asynchronous => Some(self.fence_for_free()),
         }
+    }
+
+    /// A fence behind all commands so far that no command sets: part of another one.
+    pub(super) fn fence_for_free(&mut self) -> Fence {
+        let fence = self.fences.generate();
+        // The name is new, so it is known.
+        self.fences.set(fence, self.done).ok();
+        fence
     }
 
     /// The name of a fence that is not set yet.

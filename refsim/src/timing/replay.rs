@@ -1,0 +1,198 @@
+//! A machine's log on the time axis.
+
+use std::collections::BTreeMap;
+
+use super::host::{HostError, HostModel, Operation};
+use super::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ResourceId};
+use super::timeline::Timeline;
+use super::{DrawCost, Picoseconds};
+use crate::event::{self, DrawRecord, Event, FenceId, ReadBackMode};
+
+/// How long a card and its bus need for what a log asks of them.
+pub trait Costs {
+    /// A draw.
+    fn draw(&self, record: &DrawRecord) -> DrawCost;
+    /// Bytes to the card.
+    fn upload(&self, bytes: u64) -> Picoseconds;
+    /// Bytes from the card.
+    fn read_back(&self, bytes: u64) -> Picoseconds;
+    /// Bytes filled with one value.
+    fn clear(&self, bytes: u64) -> Picoseconds;
+    /// Pieces of state changed.
+    fn state(&self, changes: u32) -> Picoseconds;
+}
+
+/// How a log is replayed.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options<'a> {
+    /// What commands cost the host.
+    pub queue: QueueFigures,
+    /// Instead of what the log says of each read-back. Asynchronous, in a log in which nobody then waits for the data, is what
+    /// asynchrony could gain at most.
+    pub read_back: Option<ReadBackMode>,
+    /// Two copies behind every resource: an upload or clear, both of which overwrite all of it, takes the one not used last.
+    pub double_buffered: bool,
+    /// What host work costs; without a model it costs nothing, and [`Replay::uncosted`] counts it.
+    pub host: Option<&'a HostModel>,
+}
+
+/// A log that can't be replayed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+pub enum ReplayError {
+    /// A fence was asked before it was set.
+    #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
+    #[diagnostic(code(timing::replay_fence), help("set the fence before it is tested or waited for"))]
+    Fence {
+        /// The place in the log, from 0.
+        event: usize,
+        /// Its name in the log.
+        fence: FenceId,
+    },
+    /// Host work of an unknown kind.
+    #[error("event {event}: the host model can't cost it")]
+    #[diagnostic(code(timing::replay_host))]
+    Host {
+        /// The place in the log, from 0.
+        event: usize,
+        /// Why.
+        #[source]
+        source: HostError,
+    },
+}
+
+/// What a replay found.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Replay {
+    /// When everything happened.
+    pub timeline: Timeline,
+    /// The cost of each draw, in the order of the log.
+    pub draws: Vec<DrawCost>,
+    /// What each test of a fence would have said.
+    pub fence_tests: Vec<bool>,
+    /// Host operations that cost nothing because there is no host model.
+    pub uncosted: u64,
+}
+
+/// Puts a log on the time axis.
+///
+/// # Errors
+/// [`ReplayError`]: fences that are not set, host work of a kind that the model does not know.
+pub fn replay(log: &[Event], costs: &impl Costs, options: &Options<'_>) -> Result<Replay, ReplayError> {
+    let mut player = Player {
+        queue: Queue::new(options.queue),
+        options,
+        copies: BTreeMap::new(),
+        fences: BTreeMap::new(),
+        found: Replay::default(),
+    };
+    for (place, event) in log.iter().enumerate() {
+        player.play(place, event, costs)?;
+    }
+    Ok(Replay { timeline: player.queue.timeline(), ..player.found })
+}
+
+struct Player<'a> {
+    queue: Queue,
+    options: &'a Options<'a>,
+    copies: BTreeMap<event::ResourceId, DoubleBuffer>,
+    fences: BTreeMap<FenceId, Fence>,
+    found: Replay,
+}
+
+impl Player<'_> {
+    fn play(&mut self, place: usize, event: &Event, costs: &impl Costs) -> Result<(), ReplayError> {
+        match event {
+            Event::Upload { resource, bytes } => {
+                let copy = self.overwritten(*resource);
+                self.queue.upload(copy, costs.upload(*bytes), format!("upload {}", name(*resource)));
+            }
+            Event::StateChange { changes } => {
+                self.queue.state(costs.state(*changes), format!("{changes} state changes"))
+            }
+            Event::Clear { resource, bytes } => {
+                let copy = self.overwritten(*resource);
+                self.queue.clear(copy, costs.clear(*bytes), format!("clear {}", name(*resource)));
+            }
+            Event::Draw(record) => self.draw(record, costs.draw(record)),
+            Event::ReadBack { resource, bytes, mode, fence } => {
+                let copy = self.current(*resource);
+                let mode = self.options.read_back.unwrap_or(*mode);
+                let label = format!("read back {}", name(*resource));
+                let passed = self.queue.read_back(copy, costs.read_back(*bytes), mode, label);
+                if let Some(id) = fence {
+                    let passed = passed.unwrap_or_else(|| self.queue.fence_for_free());
+                    self.fences.insert(*id, passed);
+                }
+            }
+            Event::SetFence(id) => {
+                let fence = self.queue.set_fence();
+                self.fences.insert(*id, fence);
+            }
+            Event::TestFence(id) => {
+                let fence = self.fence(place, *id)?;
+                let answer = self.queue.test(fence).map_err(|error| unset(place, *id, error))?;
+                self.found.fence_tests.push(answer);
+            }
+            Event::FinishFence(id) => {
+                let fence = self.fence(place, *id)?;
+                self.queue.finish(fence).map_err(|error| unset(place, *id, error))?;
+            }
+            Event::Host(work) => {
+                let operation =
+                    Operation::named(&work.kind).map_err(|source| ReplayError::Host { event: place, source })?;
+                match self.options.host {
+                    Some(model) => {
+                        let label = format!("{} {operation}", work.operations);
+                        self.queue.host(model.time_of(operation, work.operations), label);
+                    }
+                    None => self.found.uncosted = self.found.uncosted.saturating_add(work.operations),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, record: &DrawRecord, cost: DrawCost) {
+        let reads: Vec<ResourceId> = record.reads().into_iter().map(|resource| self.current(resource)).collect();
+        let writes: Vec<ResourceId> = record.writes().into_iter().map(|resource| self.current(resource)).collect();
+        self.queue.draw(&reads, &writes, cost, format!("draw {}", self.found.draws.len()));
+        self.found.draws.push(cost);
+    }
+
+    fn fence(&self, event: usize, fence: FenceId) -> Result<Fence, ReplayError> {
+        self.fences.get(&fence).copied().ok_or(ReplayError::Fence { event, fence })
+    }
+
+    /// The copy of a resource that is in use.
+    fn current(&mut self, resource: event::ResourceId) -> ResourceId {
+        self.copies_of(resource).current()
+    }
+
+    /// The copy of a resource to overwrite.
+    fn overwritten(&mut self, resource: event::ResourceId) -> ResourceId {
+        let double = self.options.double_buffered;
+        let copies = self.copies_of(resource);
+        if double { copies.flip() } else { copies.current() }
+    }
+
+    fn copies_of(&mut self, resource: event::ResourceId) -> &mut DoubleBuffer {
+        let number = match resource {
+            event::ResourceId::Texture(number) => 4 * number as u64,
+            event::ResourceId::Depth(number) => 4 * number as u64 + 2,
+        };
+        let copies = || DoubleBuffer::new(ResourceId(number), ResourceId(number + 1));
+        self.copies.entry(resource).or_insert_with(copies)
+    }
+}
+
+/// The queue made the fence, so that it can only be unset.
+fn unset(event: usize, fence: FenceId, _: FenceError) -> ReplayError {
+    ReplayError::Fence { event, fence }
+}
+
+fn name(resource: event::ResourceId) -> String {
+    match resource {
+        event::ResourceId::Texture(number) => format!("texture {number}"),
+        event::ResourceId::Depth(number) => format!("depth buffer {number}"),
+    }
+}
