@@ -5,15 +5,19 @@
 
 mod bundle;
 mod crossbar;
+mod host_test;
+mod host_tracer;
 mod kernel;
 pub mod kernels;
 pub mod model;
+pub mod octree;
 mod rays;
 pub mod reference;
 mod units;
 mod vertex_crossbar;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit};
+pub use host_tracer::{HostCounts, HostTracer};
 pub use kernel::{Form, Kernel};
 pub use rays::{RayBatch, RayBatchError};
 pub use vertex_crossbar::VertexCrossbar;

@@ -5,3 +5,4 @@ mod comparing;
 mod geometry;
 mod ground_truth;
 mod models;
+mod octree;

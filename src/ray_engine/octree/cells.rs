@@ -1,0 +1,87 @@
+//! GPU cells: where triangles are close enough together for the card (section 6.2).
+
+use std::ops::RangeInclusive;
+
+use super::{Node, Octree};
+
+/// A cell of an octree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CellId(pub(super) u32);
+
+impl CellId {
+    /// The cell's number: at most the count of all cells.
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose number of
+/// different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GpuCells {
+    /// For each node, where its triangles stand; empty for a node that is no GPU cell.
+    spans: Vec<(u32, u32)>,
+    triangles: Vec<u32>,
+    count: usize,
+}
+
+impl GpuCells {
+    /// Marks the cells of `octree` with at least `range.start()` triangles, the T_min of section 6.1, and at most
+    /// `range.end()`, more than which one pass is not to draw.
+    pub fn mark(octree: &Octree, range: RangeInclusive<usize>) -> Self {
+        let mut cells = Self { spans: vec![(0, 0); octree.nodes.len()], triangles: Vec::new(), count: 0 };
+        cells.visit(octree, 0, &range);
+        cells
+    }
+
+    /// The triangles of a GPU cell in rising order; `None` for other cells.
+    pub fn triangles(&self, cell: CellId) -> Option<&[u32]> {
+        let (first, count) = *self.spans.get(cell.index())?;
+        (count > 0).then(|| &self.triangles[first as usize..(first + count) as usize])
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = CellId> + '_ {
+        (0_u32..).zip(&self.spans).filter(|(_, span)| span.1 > 0).map(|(i, _)| CellId(i))
+    }
+
+    fn visit(&mut self, octree: &Octree, node: u32, range: &RangeInclusive<usize>) {
+        let mut all = Vec::new();
+        gather(octree, node, &mut all);
+        all.sort_unstable();
+        all.dedup();
+        // Below, there are no more.
+        if all.len() < *range.start() || all.is_empty() {
+            return;
+        }
+        if range.contains(&all.len()) {
+            self.spans[node as usize] = (self.triangles.len() as u32, all.len() as u32);
+            self.triangles.extend(all);
+            self.count += 1;
+            return;
+        }
+        if let Node::Inner(first) = octree.nodes[node as usize] {
+            for child in first..first + 8 {
+                self.visit(octree, child, range);
+            }
+        }
+    }
+}
+
+/// The triangles of all leaves below a node, some of them more than once.
+fn gather(octree: &Octree, node: u32, into: &mut Vec<u32>) {
+    match octree.nodes[node as usize] {
+        Node::Leaf(..) => into.extend_from_slice(octree.list(node)),
+        Node::Inner(first) => (first..first + 8).for_each(|child| gather(octree, child, into)),
+    }
+}

@@ -1,0 +1,177 @@
+//! The parametric traversal.
+
+use std::ops::ControlFlow;
+
+use super::cells::{CellId, GpuCells};
+use super::{Node, Octree};
+use crate::geom::Ray;
+
+/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the middle of
+/// two such parameters still tells which half of a cell the ray is in.
+const STILL: f64 = 1e-200;
+
+/// What to do after a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on to the next cell.
+    Continue,
+    /// The ray needs nothing more.
+    Stop,
+}
+
+/// What traversals did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TraversalCounts {
+    /// Cells entered, the root and cut cells among them.
+    pub cells: u64,
+    /// Leaves entered.
+    pub leaves: u64,
+    /// GPU cells met.
+    pub gpu_cells: u64,
+}
+
+impl std::ops::AddAssign for TraversalCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.cells += other.cells;
+        self.leaves += other.leaves;
+        self.gpu_cells += other.gpu_cells;
+    }
+}
+
+/// A cell that a ray goes through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visit<'a> {
+    /// Which.
+    pub cell: CellId,
+    /// Its triangles in rising order.
+    pub triangles: &'a [u32],
+    /// Whether it is a GPU cell.
+    pub gpu: bool,
+    /// Where the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind the origin.
+    pub t: [f64; 2],
+}
+
+/// The parameters at which a ray meets the lower and the upper planes of a cell, after turning it so that it rises.
+type Planes = [[f64; 3]; 2];
+
+/// A traversal on its way.
+struct Walk<'a, F> {
+    octree: &'a Octree,
+    gpu: Option<&'a GpuCells>,
+    /// Child numbers are exchanged where the ray falls.
+    mirror: u32,
+    counts: TraversalCounts,
+    visit: F,
+}
+
+impl Octree {
+    /// Calls `visit` for every cell with triangles that the ray goes through at t >= 0, front to back, until it says stop.
+    /// With `gpu`, GPU cells are visited whole; else all are leaves.
+    pub fn traverse<'a>(
+        &'a self,
+        ray: &Ray,
+        gpu: Option<&'a GpuCells>,
+        visit: impl FnMut(&Visit<'a>) -> Flow,
+    ) -> TraversalCounts {
+        let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
+        for axis in 0..3 {
+            let (mut origin, mut speed) = (f64::from(ray.origin()[axis]), f64::from(ray.direction()[axis]));
+            let (near, far) = (self.corner[axis], self.corner[axis] + self.size);
+            if speed < 0.0 {
+                (origin, speed) = (near + far - origin, -speed);
+                mirror |= 4 >> axis;
+            }
+            // Of either sign.
+            if speed == 0.0 {
+                speed = STILL;
+            }
+            low[axis] = (near - origin) / speed;
+            high[axis] = (far - origin) / speed;
+        }
+        let mut walk = Walk { octree: self, gpu, mirror, counts: TraversalCounts::default(), visit };
+        if latest(low) <= earliest(high) {
+            // Whether it was stopped or ran out of cells is all the same here.
+            let _: ControlFlow<()> = walk.enter(0, [low, high]);
+        }
+        walk.counts
+    }
+}
+
+fn latest(t: [f64; 3]) -> f64 {
+    t[0].max(t[1]).max(t[2])
+}
+
+fn earliest(t: [f64; 3]) -> f64 {
+    t[0].min(t[1]).min(t[2])
+}
+
+impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
+    fn enter(&mut self, node: u32, [low, high]: Planes) -> ControlFlow<()> {
+        let leave = earliest(high);
+        if leave < 0.0 {
+            return ControlFlow::Continue(());
+        }
+        self.counts.cells += 1;
+        let visit = |triangles, gpu| Visit { cell: CellId(node), triangles, gpu, t: [latest(low), leave] };
+        if let Some(triangles) = self.gpu.and_then(|gpu| gpu.triangles(CellId(node))) {
+            self.counts.gpu_cells += 1;
+            return flow((self.visit)(&visit(triangles, true)));
+        }
+        match self.octree.nodes[node as usize] {
+            Node::Leaf(_, count) => {
+                self.counts.leaves += 1;
+                if count == 0 {
+                    ControlFlow::Continue(())
+                } else {
+                    flow((self.visit)(&visit(self.octree.list(node), false)))
+                }
+            }
+            Node::Inner(first) => self.children(first, [low, high]),
+        }
+    }
+
+    /// The children that the ray goes through, in its order.
+    fn children(&mut self, first: u32, [low, high]: Planes) -> ControlFlow<()> {
+        let middle = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
+        let mut child = first_child(low, middle);
+        loop {
+            let half = |axis: usize| if child >> (2 - axis) & 1 == 1 { (middle, high) } else { (low, middle) };
+            let (mut near, mut far) = ([0.0; 3], [0.0; 3]);
+            for axis in 0..3 {
+                let (from, to) = half(axis);
+                (near[axis], far[axis]) = (from[axis], to[axis]);
+            }
+            self.enter(first + (child ^ self.mirror), [near, far])?;
+            // Out through the plane that comes first; from an upper half, out of the parent.
+            let axis = first_axis(far);
+            let bit = 4 >> axis;
+            if child & bit != 0 {
+                return ControlFlow::Continue(());
+            }
+            child |= bit;
+        }
+    }
+}
+
+fn flow(flow: Flow) -> ControlFlow<()> {
+    match flow {
+        Flow::Continue => ControlFlow::Continue(()),
+        Flow::Stop => ControlFlow::Break(()),
+    }
+}
+
+/// The child that the ray enters first: of each axis, the upper half if its middle plane lies behind the entry.
+fn first_child(low: [f64; 3], middle: [f64; 3]) -> u32 {
+    let entry = latest(low);
+    (0..3).filter(|&axis| middle[axis] < entry).map(|axis| 4 >> axis).sum()
+}
+
+fn first_axis(far: [f64; 3]) -> usize {
+    if far[0] <= far[1] {
+        if far[0] <= far[2] { 0 } else { 2 }
+    } else if far[1] <= far[2] {
+        1
+    } else {
+        2
+    }
+}

@@ -1,0 +1,110 @@
+//! The octree loses no hit.
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::random::Keyed;
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::octree::{Flow, GpuCells, Octree, OctreeParameters};
+use crossbar::ray_engine::{Crossbar, Hit, HostTracer, RayBatch};
+use crossbar::scene::Camera;
+use proptest::prelude::*;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+/// Coordinates on a grid, so that triangles are coplanar, degenerate, doubled, and rays run in the planes of cells.
+fn grid() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        6 => (-8i8..=8).prop_map(|i| f32::from(i) / 8.0),
+        2 => -1.0f32..1.0,
+        1 => Just(-0.0f32),
+        1 => prop_oneof![Just(1e-30f32), Just(1e-6), Just(-1e-6)],
+    ]
+}
+
+fn point() -> impl Strategy<Value = [f32; 3]> {
+    [grid(), grid(), grid()]
+}
+
+fn mesh() -> impl Strategy<Value = Mesh> {
+    (prop::collection::vec([point(), point(), point()], 1..40), prop_oneof![Just(1.0f32), Just(1e6), Just(1e-6)])
+        .prop_map(|(triangles, scale)| {
+            let positions: Vec<[f32; 3]> = triangles.into_iter().flatten().map(|p| p.map(|x| x * scale)).collect();
+            let triangles = (0..positions.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            Mesh::new(positions, triangles).expect("finite corners and indices in range")
+        })
+}
+
+/// Along axes, diagonals and anywhere; zeros of both signs.
+fn direction() -> impl Strategy<Value = [f32; 3]> {
+    let part = || prop_oneof![Just(0.0f32), Just(-0.0), Just(1.0), Just(-1.0), -1.0f32..1.0];
+    [part(), part(), part()].prop_filter("a direction", |d| d.iter().any(|x| *x != 0.0))
+}
+
+/// Small cells, so that there are many planes.
+const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth: 8 };
+/// One cell: all pairs.
+const WHOLE: OctreeParameters = OctreeParameters { most_triangles: usize::MAX, most_depth: 0 };
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 2_000 } else { 20_000 }, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_hit_of_all_pairs_is_found(mesh in mesh(), origin in point(), d in direction(), both in any::<bool>(), on_surface in any::<bool>()) {
+        let sides = if both { Sides::Both } else { Sides::Front };
+        let [low, high] = mesh.bounds().expect("it has corners");
+        let reach = (0..3).map(|i| high[i] - low[i]).fold(f32::MIN_POSITIVE, f32::max);
+        let origin = if on_surface { mesh.positions()[0] } else { origin.map(|x| x * reach) };
+        let ray = Ray::new(origin, d).expect("finite, not 0");
+        let (fine, _) = HostTracer::new(&mesh, FINE, sides).nearest(&ray);
+        let (whole, counts) = HostTracer::new(&mesh, WHOLE, sides).nearest(&ray);
+        prop_assert!(counts.tests <= mesh.len() as u64);
+        prop_assert_eq!(fine, whole);
+    }
+
+    #[test]
+    fn gpu_cells_hold_what_their_leaves_hold(mesh in mesh(), least in 1usize..6, more in 0usize..10) {
+        let octree = Octree::new(&mesh, FINE);
+        let cells = GpuCells::mark(&octree, least..=least + more);
+        prop_assert_eq!(cells.iter().count(), cells.len());
+        for cell in cells.iter() {
+            let triangles = cells.triangles(cell).expect("a GPU cell");
+            prop_assert!((least..=least + more).contains(&triangles.len()));
+            prop_assert!(triangles.windows(2).all(|w| w[0] < w[1]), "rising, none twice");
+        }
+    }
+}
+
+#[test]
+fn cells_come_front_to_back_and_cover_the_ray() {
+    let octree = Octree::new(&teapot(4).expect("a teapot"), OctreeParameters::default());
+    let random = Keyed::new(3);
+    for i in 0..2_000 {
+        let point = |s| [0, 1, 2].map(|k| (8.0 * random.unit(i, s, k) - 4.0) as f32);
+        let (from, to) = (point(0), point(1));
+        let Ok(ray) = Ray::new(from, [to[0] - from[0], to[1] - from[1], to[2] - from[2]]) else { continue };
+        let mut last = f64::NEG_INFINITY;
+        octree.traverse(&ray, None, |cell| {
+            assert!(cell.t[0] >= last - 1e-12 && cell.t[0] <= cell.t[1] + 1e-12, "ray {i}: {:?} after {last}", cell.t);
+            last = cell.t[0];
+            Flow::Continue
+        });
+    }
+}
+
+/// The host computes what a card with fp32 pipelines computes, so where a ray is traced does not show.
+#[test]
+fn host_and_card_agree_to_the_bit() {
+    let mesh = teapot(6).expect("a teapot");
+    let camera = Camera::teapot(64, 64).expect("a camera");
+    let rays = RayBatch::new(64, 64, camera.rays()).expect("a ray a pixel");
+    for sides in [Sides::Front, Sides::Both] {
+        let card = Crossbar::new(Profile::named("ideal-fp32").expect("a profile"), ExecutorKind::Batch).all_pairs(true);
+        let on_card = card.intersect(&mesh, &rays, sides).expect("the card intersects").hits;
+        let (on_host, counts) = HostTracer::new(&mesh, OctreeParameters::default(), sides).nearest_all(rays.rays());
+        let bits = |hit: &Option<Hit>| hit.map(|h| (h.triangle, h.t.to_bits()));
+        let differing = on_card.iter().zip(&on_host).filter(|(a, b)| bits(a) != bits(b)).count();
+        assert_eq!(differing, 0, "{sides:?}");
+        assert!(on_host.iter().flatten().count() > 1000);
+        assert!(counts.tests < 64 * 64 * mesh.len() as u64 / 20, "the octree saves tests: {counts:?}");
+    }
+}
