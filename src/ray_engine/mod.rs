@@ -11,6 +11,7 @@ mod kernel;
 pub mod kernels;
 pub mod model;
 pub mod octree;
+pub mod ray_tree;
 mod rays;
 pub mod reference;
 mod units;

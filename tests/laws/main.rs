@@ -6,3 +6,4 @@ mod geometry;
 mod ground_truth;
 mod models;
 mod octree;
+mod ray_tree;

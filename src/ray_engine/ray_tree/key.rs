@@ -1,0 +1,40 @@
+//! A ray as a point of five dimensions.
+
+use crate::geom::Ray;
+
+/// Faces of the unit cube.
+pub(super) const FACES: usize = 6;
+
+/// Where a ray starts, and where its direction meets its face of the cube, both coordinates in [-1, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    pub(super) origin: [f32; 3],
+    pub(super) direction: [f32; 2],
+}
+
+impl Key {
+    /// The face that a ray looks through (0 to 5: +x -x +y -y +z -z; of equal components the first) and its place.
+    pub(super) fn of(ray: &Ray) -> (u32, Self) {
+        let d = ray.direction();
+        let longest = (1..3).fold(0, |best: usize, axis| if d[axis].abs() > d[best].abs() { axis } else { best });
+        let (u, v) = ((longest + 1) % 3, (longest + 2) % 3);
+        let face = 2 * longest as u32 + u32::from(d[longest] < 0.0);
+        let length = d[longest].abs();
+        (face, Self { origin: ray.origin(), direction: [d[u] / length, d[v] / length] })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_go_to_their_faces() {
+        let face = |d| Key::of(&Ray::new([0.0; 3], d).expect("a ray"));
+        assert_eq!(face([2.0, 1.0, -1.0]).0, 0);
+        assert_eq!(face([2.0, 1.0, -1.0]).1.direction, [0.5, -0.5]);
+        assert_eq!(face([0.0, -3.0, 1.0]).0, 3);
+        assert_eq!(face([-0.0, 0.0, -1e-40]).0, 5);
+        assert_eq!(face([1.0, 1.0, 1.0]).0, 0, "the first of equals");
+    }
+}

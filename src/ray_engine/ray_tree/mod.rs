@@ -1,0 +1,175 @@
+//! The 5-D ray tree (section 5.3, after Arvo and Kirk 1987): rays that start near one another and look the same way share a bucket.
+//!
+//! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. The six faces have a tree
+//! each. A bucket that overflows is cut in four: in two at the mean of the origins along the axis on which they vary most, and in two
+//! at the mean of the directions likewise.
+
+mod key;
+mod split;
+mod take;
+
+use crate::geom::Ray;
+use key::Key;
+use split::Split;
+
+pub use take::Taken;
+
+/// How a ray tree is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RayTreeParameters {
+    /// Rays of a bucket: the paper's is 256, two textures of 64 x 4.
+    pub bucket: usize,
+    /// A subtree that is left with at most so many rays becomes one bucket.
+    pub merge: usize,
+}
+
+impl Default for RayTreeParameters {
+    fn default() -> Self {
+        Self { bucket: 256, merge: 128 }
+    }
+}
+
+/// What happened in a tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayTreeCounts {
+    /// Rays put in.
+    pub inserted: u64,
+    /// Nodes that rays went through on their way in, buckets among them.
+    pub nodes_passed: u64,
+    /// Buckets cut in four.
+    pub splits: u64,
+    /// Batches taken out.
+    pub batches: u64,
+    /// Rays that were in a batch's own bucket.
+    pub own: u64,
+    /// Rays that a batch took from its bucket's siblings.
+    pub stolen: u64,
+    /// Levels of inner nodes that became a bucket again.
+    pub levels_merged: u64,
+    /// Batches after which anything was merged.
+    pub merges: u64,
+}
+
+/// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Entry {
+    ray: u32,
+    key: Key,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Bucket(Vec<Entry>),
+    Inner(Split, [u32; 4]),
+}
+
+#[derive(Clone, Debug)]
+struct Node {
+    /// Rays in all buckets below.
+    count: usize,
+    parent: Option<u32>,
+    kind: Kind,
+}
+
+/// Rays in coherent buckets. A ray is told by a number of the caller's.
+#[derive(Clone, Debug)]
+pub struct RayTree {
+    parameters: RayTreeParameters,
+    /// The first six are the faces' roots.
+    nodes: Vec<Node>,
+    free: Vec<u32>,
+    counts: RayTreeCounts,
+}
+
+impl RayTree {
+    /// An empty tree. A bucket holds one ray at least.
+    pub fn new(parameters: RayTreeParameters) -> Self {
+        let parameters = RayTreeParameters { bucket: parameters.bucket.max(1), ..parameters };
+        let root = Node { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
+        Self { parameters, nodes: vec![root; key::FACES], free: Vec::new(), counts: RayTreeCounts::default() }
+    }
+
+    /// Rays in the tree.
+    pub fn len(&self) -> usize {
+        self.nodes[..key::FACES].iter().map(|root| root.count).sum()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What happened so far.
+    pub fn counts(&self) -> RayTreeCounts {
+        self.counts
+    }
+
+    /// The shares of full that the buckets which hold anything are, in no particular order. (The paper: typically 50 to 80 %.)
+    pub fn fullness(&self) -> Vec<f64> {
+        let share = |rays: &Vec<Entry>| rays.len() as f64 / self.parameters.bucket as f64;
+        let bucket = |node: &Node| match &node.kind {
+            Kind::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
+            _ => None,
+        };
+        self.nodes.iter().filter_map(bucket).collect()
+    }
+
+    /// Bytes that the tree holds on to.
+    pub fn bytes(&self) -> usize {
+        let buckets = self.nodes.iter().map(|node| match &node.kind {
+            Kind::Bucket(rays) => rays.capacity() * size_of::<Entry>(),
+            Kind::Inner(..) => 0,
+        });
+        self.nodes.capacity() * size_of::<Node>() + self.free.capacity() * size_of::<u32>() + buckets.sum::<usize>()
+    }
+
+    /// Puts a ray in.
+    pub fn insert(&mut self, ray: u32, at: &Ray) {
+        let (face, key) = Key::of(at);
+        let mut node = face;
+        loop {
+            self.counts.nodes_passed += 1;
+            let here = &mut self.nodes[node as usize];
+            here.count += 1;
+            match &mut here.kind {
+                Kind::Inner(split, children) => node = children[split.child(&key)],
+                Kind::Bucket(rays) => {
+                    rays.push(Entry { ray, key });
+                    break;
+                }
+            }
+        }
+        self.counts.inserted += 1;
+        self.split(node);
+    }
+
+    /// Cuts a bucket that is too full, and any child that is; rays that are all alike stay together.
+    fn split(&mut self, node: u32) {
+        let Kind::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
+        if rays.len() <= self.parameters.bucket {
+            return;
+        }
+        let Some(split) = Split::of(rays) else { return };
+        let mut parts: [Vec<Entry>; 4] = Default::default();
+        for entry in std::mem::take(rays) {
+            parts[split.child(&entry.key)].push(entry);
+        }
+        let children =
+            parts.map(|rays| self.make(Node { count: rays.len(), parent: Some(node), kind: Kind::Bucket(rays) }));
+        self.nodes[node as usize].kind = Kind::Inner(split, children);
+        self.counts.splits += 1;
+        for child in children {
+            self.split(child);
+        }
+    }
+
+    /// A place for a node.
+    fn make(&mut self, node: Node) -> u32 {
+        if let Some(place) = self.free.pop() {
+            self.nodes[place as usize] = node;
+            return place;
+        }
+        self.nodes.push(node);
+        (self.nodes.len() - 1) as u32
+    }
+}

@@ -1,0 +1,106 @@
+//! Taking a batch out: the fullest bucket that a greedy search finds, filled up from its siblings.
+
+use super::{Entry, Kind, Node, RayTree, key};
+
+/// Rays that go to the card together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Taken {
+    /// Their numbers, those of the bucket first; at most a bucket full.
+    pub rays: Vec<u32>,
+    /// How many of them were in the bucket itself.
+    pub own: usize,
+    /// Levels of inner nodes above the bucket that became a bucket again.
+    pub levels_merged: usize,
+}
+
+impl RayTree {
+    /// Takes a batch out: at most a bucket full; nothing from an empty tree. The search goes down to the child with the most
+    /// rays below it, so it need not find the fullest bucket of all.
+    pub fn take(&mut self) -> Taken {
+        let root = self.fullest(0..key::FACES as u32);
+        if self.nodes[root as usize].count == 0 {
+            return Taken::default();
+        }
+        let bucket = self.descend(root);
+        let size = self.parameters.bucket;
+        let mut rays = Vec::with_capacity(size);
+        self.drain(bucket, size, &mut rays);
+        let own = rays.len();
+        // From the nearest relatives first: rays are stolen from the parent's other children, not from farther away.
+        if let Some(parent) = self.nodes[bucket as usize].parent {
+            while rays.len() < size && self.nodes[parent as usize].count > 0 {
+                let donor = self.descend(parent);
+                self.drain(donor, size - rays.len(), &mut rays);
+            }
+        }
+        let levels_merged = self.merge_above(bucket);
+        self.counts.batches += 1;
+        self.counts.own += own as u64;
+        self.counts.stolen += (rays.len() - own) as u64;
+        self.counts.levels_merged += levels_merged as u64;
+        self.counts.merges += u64::from(levels_merged > 0);
+        Taken { rays: rays.into_iter().map(|entry| entry.ray).collect(), own, levels_merged }
+    }
+
+    /// The node with the most rays below it, the first of equals.
+    fn fullest(&self, nodes: impl IntoIterator<Item = u32>) -> u32 {
+        let mut best = (0, None);
+        for node in nodes {
+            let count = self.nodes[node as usize].count;
+            if best.1.is_none_or(|most| count > most) {
+                best = (node, Some(count));
+            }
+        }
+        best.0
+    }
+
+    /// The bucket that a greedy search ends in.
+    fn descend(&self, mut node: u32) -> u32 {
+        while let Kind::Inner(_, children) = &self.nodes[node as usize].kind {
+            node = self.fullest(*children);
+        }
+        node
+    }
+
+    /// Moves up to `most` rays of a bucket, the last first, and corrects the counts above it.
+    fn drain(&mut self, bucket: u32, most: usize, into: &mut Vec<Entry>) {
+        let Kind::Bucket(rays) = &mut self.nodes[bucket as usize].kind else { return };
+        let taken = most.min(rays.len());
+        into.extend(rays.drain(rays.len() - taken..));
+        let mut above = Some(bucket);
+        while let Some(node) = above {
+            self.nodes[node as usize].count -= taken;
+            above = self.nodes[node as usize].parent;
+        }
+    }
+
+    /// Walks up from a bucket: a subtree of few rays becomes one bucket. Gives the levels that went.
+    fn merge_above(&mut self, bucket: u32) -> usize {
+        let mut levels = 0;
+        let mut above = self.nodes[bucket as usize].parent;
+        let few = self.parameters.merge.min(self.parameters.bucket);
+        while let Some(node) = above.filter(|&node| self.nodes[node as usize].count <= few) {
+            let mut rays = Vec::new();
+            self.collect(node, &mut rays);
+            self.nodes[node as usize].kind = Kind::Bucket(rays);
+            above = self.nodes[node as usize].parent;
+            levels += 1;
+        }
+        levels
+    }
+
+    /// Takes everything out of a node's subtree; the nodes below it are free again.
+    fn collect(&mut self, node: u32, into: &mut Vec<Entry>) {
+        let kind = std::mem::replace(&mut self.nodes[node as usize].kind, Kind::Bucket(Vec::new()));
+        match kind {
+            Kind::Bucket(rays) => into.extend(rays),
+            Kind::Inner(_, children) => {
+                for child in children {
+                    self.collect(child, into);
+                    self.nodes[child as usize] = Node { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
+                    self.free.push(child);
+                }
+            }
+        }
+    }
+}
