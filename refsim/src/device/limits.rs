@@ -22,6 +22,23 @@ macro_rules! figures {
             pub(super) fn read(section: &mut Section<'_>) -> Result<Self, DeviceError> {
                 Ok(Self { $($field: section.number(stringify!($field))?,)* ..Self::default() })
             }
+
+            /// The figure of this name, to be changed; `None` if there is no such figure. The inner `None`: the device
+            /// does not state it.
+            pub fn figure_mut(&mut self, name: &str) -> Option<&mut Option<$number>> {
+                match name {
+                    $(stringify!($field) => Some(&mut self.$field),)*
+                    _ => None,
+                }
+            }
+
+            /// The figure of this name; `None` if there is no such figure or the device does not state it.
+            pub fn figure(&self, name: &str) -> Option<$number> {
+                match name {
+                    $(stringify!($field) => self.$field,)*
+                    _ => None,
+                }
+            }
         }
     };
 }
@@ -129,8 +146,40 @@ figures! {
         alu_pairs_per_clock,
         /// Texture reads that a pipeline issues in a clock.
         texture_reads_per_clock,
+        /// Texture reads whose coordinates the program computed, that a pipeline issues in a clock.
+        dependent_reads_per_clock,
+        /// Bytes of one texel that a texture unit delivers in a clock: a larger texel takes more clocks.
+        texel_bytes_per_clock,
+        /// Clocks of a texture read that filters between two mip levels.
+        trilinear_clocks,
+        /// 1 if a pipeline that reads a texture cannot do arithmetic in that clock, 0 if both go on side by side.
+        texture_blocks_arithmetic,
+        /// 1 if neighbours of ps_2_x that write colour and alpha apart are issued as pairs, 0 if not.
+        automatic_pairs,
         /// Registers that can be live without slowing the pipelines, in fp32.
         full_speed_registers,
+        /// Clocks that every two fp32 registers beyond [`Self::full_speed_registers`] add, in percent.
+        register_step_percent,
+        /// Clocks of a vertex unit for one instruction slot.
+        vertex_clocks_per_slot,
+        /// Clocks of triangle set-up for one triangle.
+        setup_clocks_per_triangle,
+        /// Clocks from the first stage of the pipeline to the last: what it takes to fill and drain.
+        pipeline_clocks,
+        /// Clocks of the command processor for one draw.
+        draw_clocks,
+        /// Clocks of the command processor for one piece of state.
+        state_clocks,
+        /// Share of the peak memory bandwidth that is reached, in percent.
+        memory_efficiency_percent,
+        /// Size of the texture cache, in bytes.
+        texture_cache_bytes,
+        /// Size of a line of the texture cache, in bytes.
+        texture_cache_line_bytes,
+        /// Lines among which an address can choose.
+        texture_cache_ways,
+        /// 1 if textures lie in tiles, 0 if row by row.
+        textures_tiled,
         /// Ray-triangle tests a second that a paper measured.
         measured_tests_per_s,
         /// Ray-triangle tests a second that a paper measured on the vertex units.
@@ -151,6 +200,10 @@ figures! {
         upload_bytes_per_s,
         /// Read-back from the card, in bytes a second.
         readback_bytes_per_s,
+        /// From the start of an upload to its first byte, in nanoseconds.
+        upload_latency_ns,
+        /// From the start of a read-back to its first byte, in nanoseconds.
+        readback_latency_ns,
     }
     extra {
         /// Name of the bus, `AGP 4x` for example.

@@ -7,11 +7,16 @@
 //! give the same timeline to the last clock.
 
 mod cost;
+mod error;
 pub mod host;
+mod model;
+pub mod pipeline;
 pub mod queue;
 pub mod replay;
 pub mod timeline;
 mod units;
 
 pub use cost::{Bottleneck, DrawCost};
+pub use error::TimingError;
+pub use model::{Level, Model};
 pub use units::{Clocks, Hertz, Picoseconds};

@@ -19,6 +19,9 @@ pub struct Picoseconds(pub u64);
 pub struct Hertz(u64);
 
 impl Hertz {
+    /// Once a second.
+    pub const ONE: Self = Self(1);
+
     /// A rate; `None` for 0, at which nothing ever ends.
     pub const fn new(per_second: u64) -> Option<Self> {
         if per_second == 0 { None } else { Some(Self(per_second)) }

@@ -1,0 +1,274 @@
+//! The two models of a card: its rates, and its pipeline.
+
+use super::pipeline::{FragmentClocks, PipelineClocks, fragment_clocks, pipeline_clocks};
+use super::{Bottleneck, Clocks, DrawCost, Hertz, Picoseconds, TimingError};
+use crate::device::{Bus, Confidence, FigureRow, Profile, Rates};
+use crate::event::{DrawRecord, ProgramWork};
+
+/// How deep a model looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Level {
+    /// The paper's equation 11: a fill rate, measured where somebody has, and the rates of the bus.
+    Rates,
+    /// From first principles: clocks of the units, memory traffic, latencies.
+    Pipeline,
+}
+
+/// Figures that a log has used up: traffic was observed under them, and scaling them afterwards would say nothing.
+const SPENT: [&str; 5] = [
+    "rates.texture_cache_line_bytes",
+    "rates.texture_cache_ways",
+    "rates.textures_tiled",
+    "rates.texture_blocks_arithmetic",
+    "rates.automatic_pairs",
+];
+
+/// What the pipeline level must be told.
+const PIPELINE_FIGURES: [&str; 14] = [
+    "core_clock_hz",
+    "memory_bytes_per_s",
+    "pixel_pipes",
+    "raster_pixels_per_clock",
+    "texel_bytes_per_clock",
+    "trilinear_clocks",
+    "vertex_clocks_per_slot",
+    "setup_clocks_per_triangle",
+    "pipeline_clocks",
+    "draw_clocks",
+    "state_clocks",
+    "memory_efficiency_percent",
+    "texture_cache_bytes",
+    "texture_cache_line_bytes",
+];
+
+/// What both levels must be told about the bus.
+const BUS_FIGURES: [&str; 2] = ["upload_bytes_per_s", "readback_bytes_per_s"];
+
+/// A model of one device: events in, time out. It never sees a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Model {
+    level: Level,
+    device: String,
+    rates: Rates,
+    bus: Bus,
+    figures: Vec<FigureRow>,
+    /// Which of the cache sizes of an observed draw counts: half, as stated, double.
+    cache: usize,
+}
+
+impl Model {
+    /// The model of a device.
+    ///
+    /// # Errors
+    /// [`TimingError::Missing`] if the device lacks a figure that the level needs; `ideal-` devices have none.
+    pub fn new(level: Level, profile: &Profile) -> Result<Self, TimingError> {
+        let timed = |row: &FigureRow| ["rates.", "clocks.", "bus."].iter().any(|s| row.key.starts_with(s));
+        let model = Self {
+            level,
+            device: profile.name.clone(),
+            rates: profile.rates.clone(),
+            bus: profile.bus.clone(),
+            figures: profile.figures().into_iter().filter(timed).collect(),
+            cache: 1,
+        };
+        match level {
+            Level::Rates if model.rates.measured_fill_pixels_per_s.is_none() => model.need("fill_pixels_per_s")?,
+            Level::Rates => {}
+            Level::Pipeline => PIPELINE_FIGURES.into_iter().try_for_each(|figure| model.need(figure))?,
+        }
+        BUS_FIGURES.into_iter().try_for_each(|figure| model.need(figure))?;
+        Ok(model)
+    }
+
+    /// The level.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// The name of the device.
+    pub fn device(&self) -> &str {
+        &self.device
+    }
+
+    /// What a draw costs.
+    pub fn draw(&self, draw: &DrawRecord) -> DrawCost {
+        match self.level {
+            Level::Rates => self.draw_by_rate(draw),
+            Level::Pipeline => self.draw_by_pipeline(draw),
+        }
+    }
+
+    /// What a draw costs each unit, in clocks of the core; the pipeline's view, whatever the level.
+    pub fn clocks(&self, draw: &DrawRecord) -> PipelineClocks {
+        pipeline_clocks(draw, &self.rates, self.cache)
+    }
+
+    /// What one fragment of a program costs a pixel pipeline that reads plain 32-bit texels.
+    pub fn fragment(&self, program: &ProgramWork) -> FragmentClocks {
+        fragment_clocks(program, &[], &self.rates)
+    }
+
+    /// What one vertex of a program costs a vertex unit.
+    pub fn vertex(&self, program: &ProgramWork) -> Clocks {
+        Clocks(program.arithmetic_slots().saturating_mul(self.rates.vertex_clocks_per_slot.unwrap_or(1)))
+    }
+
+    /// How long it takes to send data to the card.
+    pub fn upload(&self, bytes: u64) -> Picoseconds {
+        rate(self.bus.upload_bytes_per_s).time_of(bytes) + self.latency(self.bus.upload_latency_ns)
+    }
+
+    /// How long it takes to get data back from the card, once it is there to be got.
+    pub fn read_back(&self, bytes: u64) -> Picoseconds {
+        rate(self.bus.readback_bytes_per_s).time_of(bytes) + self.latency(self.bus.readback_latency_ns)
+    }
+
+    /// How long the card takes to change so many pieces of state.
+    pub fn state_change(&self, changes: u32) -> Picoseconds {
+        match self.level {
+            Level::Rates => Picoseconds::ZERO,
+            Level::Pipeline => {
+                let clocks = u64::from(changes).saturating_mul(self.rates.state_clocks.unwrap_or_default());
+                rate(self.rates.core_clock_hz).time_of(clocks)
+            }
+        }
+    }
+
+    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of it.
+    pub fn clear(&self, bytes: u64) -> Picoseconds {
+        match self.level {
+            Level::Rates => Picoseconds::ZERO,
+            Level::Pipeline => rate(self.rates.memory_bytes_per_s).time_of(bytes),
+        }
+    }
+
+    /// Every figure that the level reads, at its present value, with source and confidence.
+    pub fn constants(&self) -> Vec<FigureRow> {
+        let read = |row: &&FigureRow| self.level == Level::Pipeline || self.read_by_rates(&row.key);
+        let mut rows: Vec<FigureRow> = self.figures.iter().filter(read).cloned().collect();
+        for row in &mut rows {
+            if let Some(value) = self.figure(&row.key) {
+                row.value = value.to_string();
+            }
+        }
+        rows
+    }
+
+    /// The guesses among the figures that can be scaled, by key.
+    pub fn guesses(&self) -> Vec<String> {
+        let rows = self.constants().into_iter();
+        let open = rows.filter(|row| row.confidence == Confidence::Guess && self.figure(&row.key).is_some());
+        open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
+    }
+
+    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half and at
+    /// twice the cache's size; between those the nearest is taken.
+    ///
+    /// # Errors
+    /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.
+    pub fn with_scaled(&self, key: &str, numerator: u64, denominator: u64) -> Result<Self, TimingError> {
+        if numerator == 0 || denominator == 0 {
+            return Err(TimingError::Scale { numerator, denominator });
+        }
+        let known = self.guesses();
+        let mut scaled = self.clone();
+        let slot = if known.iter().any(|k| k == key) { scaled.figure_mut(key) } else { None };
+        let Some(slot) = slot else {
+            let (device, known) = (self.device.clone(), known.join(" "));
+            return Err(TimingError::NoGuess { device, key: key.chars().take(60).collect(), known });
+        };
+        let before = *slot;
+        let wide = u128::from(before) * u128::from(numerator) / u128::from(denominator);
+        *slot = u64::try_from(wide).unwrap_or(u64::MAX).max(before.min(1));
+        if key == "rates.texture_cache_bytes" {
+            scaled.cache = match () {
+                () if numerator >= denominator.saturating_mul(2) => 2,
+                () if numerator.saturating_mul(2) <= denominator => 0,
+                () => 1,
+            };
+        }
+        Ok(scaled)
+    }
+
+    /// A figure at its present value.
+    fn figure(&self, key: &str) -> Option<u64> {
+        match key.split_once('.')? {
+            ("rates", name) => self.rates.figure(name),
+            ("bus", name) => self.bus.figure(name),
+            ("clocks", name) => self.rates.instruction_clocks.get(name).map(|&n| n.into()),
+            _ => None,
+        }
+    }
+
+    fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
+        match key.split_once('.')? {
+            ("rates", name) => self.rates.figure_mut(name)?.as_mut(),
+            ("bus", name) => self.bus.figure_mut(name)?.as_mut(),
+            _ => None,
+        }
+    }
+
+    fn read_by_rates(&self, key: &str) -> bool {
+        match key {
+            "rates.measured_fill_pixels_per_s" => true,
+            "rates.fill_pixels_per_s" => self.rates.measured_fill_pixels_per_s.is_none(),
+            "bus.kind" | "bus.upload_bytes_per_s" | "bus.readback_bytes_per_s" => true,
+            _ => false,
+        }
+    }
+
+    /// An error if the device does not state a figure.
+    fn need(&self, figure: &'static str) -> Result<(), TimingError> {
+        if self.rates.figure(figure).or(self.bus.figure(figure)).is_some_and(|n| n > 0) {
+            return Ok(());
+        }
+        let states = |name: &&str| {
+            let profile = Profile::named(name);
+            profile.is_ok_and(|p| p.rates.figure(figure).or(p.bus.figure(figure)).is_some())
+        };
+        let have: Vec<&str> = Profile::card_names().into_iter().filter(|name| states(&name)).collect();
+        Err(TimingError::Missing { device: self.device.clone(), figure, have: have.join(" ") })
+    }
+
+    /// The rates have no latencies.
+    fn latency(&self, nanoseconds: Option<u64>) -> Picoseconds {
+        match self.level {
+            Level::Rates => Picoseconds::ZERO,
+            Level::Pipeline => Picoseconds(nanoseconds.unwrap_or_default().saturating_mul(1000)),
+        }
+    }
+
+    /// Fragments at the fill rate.
+    fn draw_by_rate(&self, draw: &DrawRecord) -> DrawCost {
+        let fill = rate(self.rates.measured_fill_pixels_per_s.or(self.rates.fill_pixels_per_s));
+        let fragments = draw.counts.fragments.generated;
+        let total = fill.time_of(fragments);
+        let core = u128::from(self.rates.core_clock_hz.unwrap_or_default());
+        let clocks = (u128::from(fragments) * core).div_ceil(u128::from(fill.per_second()));
+        DrawCost {
+            shader: total,
+            total,
+            core_clocks: Clocks(u64::try_from(clocks).unwrap_or(u64::MAX)),
+            bottleneck: Bottleneck::Rate,
+            ..DrawCost::default()
+        }
+    }
+
+    fn draw_by_pipeline(&self, draw: &DrawRecord) -> DrawCost {
+        let clocks = self.clocks(draw);
+        let core = rate(self.rates.core_clock_hz);
+        DrawCost {
+            front_end: core.time_of(clocks.front_end().0),
+            shader: core.time_of(clocks.shader().0),
+            memory: core.time_of(clocks.memory.0),
+            total: core.time_of(clocks.total().0),
+            core_clocks: clocks.total(),
+            bottleneck: clocks.bottleneck(),
+        }
+    }
+}
+
+/// A rate that [`Model::new`] has found to be stated.
+fn rate(figure: Option<u64>) -> Hertz {
+    figure.and_then(Hertz::new).unwrap_or(Hertz::ONE)
+}

@@ -1,0 +1,171 @@
+//! A draw through the units of a card: what keeps each of them busy, in clocks of the core.
+//!
+//! All units work at once on different parts of the draw, so the draw takes as long as the busiest of them, and the time
+//! in which the pipeline fills and drains. docs/timing.md has the formulas with a worked example.
+
+mod fragment;
+mod traffic;
+
+pub use fragment::{FragmentClocks, fragment_clocks};
+pub use traffic::{Traffic, traffic};
+
+use super::{Bottleneck, Clocks};
+use crate::device::Rates;
+use crate::event::DrawRecord;
+
+/// Components of a register: a scalar processor computes one a clock.
+const COMPONENTS: u64 = 4;
+/// Fragments of a quad.
+const QUAD: u64 = 4;
+
+/// How long a draw keeps each unit busy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PipelineClocks {
+    /// Vertex units.
+    pub vertices: Clocks,
+    /// Triangle set-up.
+    pub setup: Clocks,
+    /// Arithmetic of the pixel pipelines.
+    pub arithmetic: Clocks,
+    /// Texture units.
+    pub textures: Clocks,
+    /// Whether the two take turns, so that their clocks add up.
+    pub takes_turns: bool,
+    /// Raster back end.
+    pub output: Clocks,
+    /// Memory.
+    pub memory: Clocks,
+    /// Command processor: fixed, before anything else.
+    pub command: Clocks,
+    /// Fill and drain: fixed.
+    pub fill: Clocks,
+    /// What memory moved.
+    pub traffic: Traffic,
+}
+
+impl PipelineClocks {
+    /// Command processor, vertex units and set-up.
+    pub fn front_end(&self) -> Clocks {
+        self.command + self.vertices.max(self.setup)
+    }
+
+    /// Pixel pipelines: arithmetic, textures and back end.
+    pub fn shader(&self) -> Clocks {
+        let pipes = if self.takes_turns { self.arithmetic + self.textures } else { self.arithmetic.max(self.textures) };
+        pipes.max(self.output)
+    }
+
+    /// The busiest unit.
+    pub fn busiest(&self) -> Clocks {
+        self.vertices.max(self.setup).max(self.shader()).max(self.memory)
+    }
+
+    /// From the first clock to the last.
+    pub fn total(&self) -> Clocks {
+        self.command + self.busiest() + self.fill
+    }
+
+    /// What the draw waits for most.
+    pub fn bottleneck(&self) -> Bottleneck {
+        let busiest = self.busiest();
+        if self.command + self.fill >= busiest {
+            return Bottleneck::Overhead;
+        }
+        if busiest == self.memory {
+            return Bottleneck::Memory;
+        }
+        if busiest == self.shader() {
+            return match () {
+                () if self.output == busiest => Bottleneck::Output,
+                () if self.arithmetic >= self.textures => Bottleneck::Arithmetic,
+                () => Bottleneck::Textures,
+            };
+        }
+        if busiest == self.vertices { Bottleneck::Vertices } else { Bottleneck::Setup }
+    }
+}
+
+/// The clocks of a draw. `cache` chooses among the cache sizes of observed traffic: 0 half, 1 as stated, 2 double.
+pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: usize) -> PipelineClocks {
+    let counts = &draw.counts;
+    let fragment = fragment_clocks(&draw.pixel, &draw.samplers, rates);
+    let lanes = wide(draw.quads) * wide(QUAD);
+    let pipes = wide(rates.pixel_pipes.unwrap_or(1));
+    let shaders = Shaders::of(rates);
+    let texture_units = rates.texture_units.map_or(pipes, wide);
+    let triangles = counts.primitives.assembled.max(counts.primitives.rasterised);
+    let traffic = traffic(draw, rates, cache);
+    PipelineClocks {
+        vertices: vertices(draw, rates, &shaders),
+        setup: clocks(wide(triangles) * wide(rates.setup_clocks_per_triangle.unwrap_or_default()), 1),
+        arithmetic: clocks(lanes * wide(fragment.arithmetic.0) * shaders.numerator, pipes * shaders.denominator),
+        textures: clocks(lanes * wide(fragment.textures.0), texture_units),
+        takes_turns: fragment.takes_turns,
+        output: output(draw, rates),
+        memory: memory(&traffic, rates),
+        command: Clocks(counts.draws.saturating_mul(rates.draw_clocks.unwrap_or_default())),
+        fill: Clocks(rates.pipeline_clocks.unwrap_or_default()),
+        traffic,
+    }
+}
+
+/// Clocks of the core that one instruction takes a pipeline, as a fraction: 1 on cards whose pipelines are four components
+/// wide; on those of scalar processors four of their own clocks.
+struct Shaders {
+    numerator: u128,
+    denominator: u128,
+}
+
+impl Shaders {
+    fn of(rates: &Rates) -> Self {
+        match (rates.shader_clock_hz, rates.core_clock_hz) {
+            (Some(shader), Some(core)) => {
+                Self { numerator: wide(COMPONENTS) * wide(core), denominator: wide(shader).max(1) }
+            }
+            _ => Self { numerator: 1, denominator: 1 },
+        }
+    }
+}
+
+/// The instructions executed, over the units; at least what the stated vertex rate takes.
+fn vertices(draw: &DrawRecord, rates: &Rates, shaders: &Shaders) -> Clocks {
+    let slots = wide(draw.counts.vertex_instructions) * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
+    let executed = match rates.vertex_units {
+        Some(units) => clocks(slots, wide(units)),
+        // One pool of processors for vertices and pixels.
+        None => clocks(slots * shaders.numerator, wide(rates.pixel_pipes.unwrap_or(1)) * shaders.denominator),
+    };
+    let fetched = match (rates.vertices_per_s, rates.core_clock_hz) {
+        (Some(rate), Some(core)) => clocks(wide(draw.counts.vertices) * wide(core), wide(rate)),
+        _ => Clocks(0),
+    };
+    executed.max(fetched)
+}
+
+/// Pixels that reach the back end: all that the program did not kill.
+fn output(draw: &DrawRecord, rates: &Rates) -> Clocks {
+    let fragments = &draw.counts.fragments;
+    let pixels = fragments.generated.saturating_sub(fragments.killed);
+    let colored = draw.targets.iter().filter(|t| t.written).count().max(1) as u64;
+    let full = rates.raster_pixels_per_clock.unwrap_or(1);
+    let rate = match rates.depth_only_pixels_per_clock {
+        Some(rate) if draw.targets.iter().all(|t| !t.written) => rate,
+        _ => full,
+    };
+    clocks(wide(pixels) * wide(colored), wide(rate))
+}
+
+fn memory(traffic: &Traffic, rates: &Rates) -> Clocks {
+    let (peak, core) = (rates.memory_bytes_per_s.unwrap_or(1), rates.core_clock_hz.unwrap_or(1));
+    let efficiency = rates.memory_efficiency_percent.unwrap_or(100);
+    clocks(wide(traffic.total()) * wide(core) * 100, wide(peak) * wide(efficiency))
+}
+
+fn wide(n: u64) -> u128 {
+    u128::from(n)
+}
+
+/// A quotient, rounded up.
+fn clocks(work: u128, rate: u128) -> Clocks {
+    Clocks(u64::try_from(work.div_ceil(rate.max(1))).unwrap_or(u64::MAX))
+}

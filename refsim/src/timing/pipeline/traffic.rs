@@ -1,0 +1,57 @@
+//! What a draw moves to and from memory.
+
+use crate::device::Rates;
+use crate::event::{DrawRecord, SamplerRecord};
+
+/// Bytes between the card and its memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Traffic {
+    /// Texels: cache lines fetched, or the estimate where the draw was not observed.
+    pub textures: u64,
+    /// Cache lines among them; 0 where the draw was not observed.
+    pub misses: u64,
+    /// Depth, read and written.
+    pub depth: u64,
+    /// Colour, read and written.
+    pub color: u64,
+    /// Vertices.
+    pub vertices: u64,
+}
+
+impl Traffic {
+    /// All of it.
+    pub fn total(&self) -> u64 {
+        [self.textures, self.depth, self.color, self.vertices].into_iter().fold(0, u64::saturating_add)
+    }
+}
+
+/// The traffic of a draw. Depth, colour and vertices move once an access: these cards' compression and early rejection are
+/// not modelled. Textures move by cache lines that the simulated cache missed (`cache`: at half, at stated, at twice its
+/// size); of a draw that was not observed an estimate is taken ([`estimate`]).
+pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: usize) -> Traffic {
+    let bytes = &draw.counts.bytes;
+    let line = rates.texture_cache_line_bytes.unwrap_or(1);
+    let misses = |s: &SamplerRecord| s.traffic.and_then(|t| t.misses.get(cache).copied());
+    let observed = draw.is_observed();
+    let missed = if observed { draw.samplers.iter().filter_map(misses).fold(0, u64::saturating_add) } else { 0 };
+    Traffic {
+        textures: if observed { missed.saturating_mul(line) } else { estimate(draw, rates) },
+        misses: missed,
+        depth: bytes.depth_read.saturating_add(bytes.depth_written),
+        color: bytes.color_read.saturating_add(bytes.color_written),
+        vertices: bytes.vertices,
+    }
+}
+
+/// Compulsory misses. If all textures that the draw reads fit into the cache, each of their texels comes once; if not, each
+/// comes once for every primitive. Never more than one texel for each read: a filter finds its neighbours in the cache.
+fn estimate(draw: &DrawRecord, rates: &Rates) -> u64 {
+    let read = |s: &&SamplerRecord| draw.fetches(s.sampler) > 0;
+    let size = draw.samplers.iter().filter(read).fold(0_u64, |sum, s| sum.saturating_add(s.texture_bytes));
+    let fits = size <= rates.texture_cache_bytes.unwrap_or_default();
+    let times = if fits { 1 } else { draw.counts.primitives.rasterised };
+    draw.samplers.iter().fold(0, |sum, s| {
+        let read = draw.fetches(s.sampler).saturating_mul(s.texel_bytes.into());
+        sum.saturating_add(read.min(s.texture_bytes.saturating_mul(times)))
+    })
+}

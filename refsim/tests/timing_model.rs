@@ -1,0 +1,140 @@
+//! The timing models on draws of which every count is known.
+
+#[path = "common/running.rs"]
+mod running;
+
+use refsim::device::Profile;
+use refsim::event::{DrawRecord, Event};
+use refsim::exec::Constants;
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{Image, SamplerState, TexelFormat};
+use refsim::timing::{Bottleneck, Clocks, Level, Model, Picoseconds, TimingError};
+use running::{bits, checked};
+
+fn screen() -> [Vertex; 4] {
+    [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| Vertex {
+        position: bits([x, y, 0.5, 1.0]),
+        texcoords: [bits([(x + 1.0) / 2.0, (1.0 - y) / 2.0, 0.0, 1.0]); 8],
+        colors: [bits([0.25, 0.5, 0.75, 1.0]); 2],
+        ..Vertex::default()
+    })
+}
+
+/// A quad over an n x n target with depth test and write, the program's first samplers bound to n x n textures.
+fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) -> DrawRecord {
+    let profile = Profile::named(device).unwrap();
+    let program = checked(text, &profile);
+    let mut machine = Machine::new(profile, ExecutorKind::Scalar);
+    machine.record(true);
+    let textures: Vec<_> =
+        (0..samplers).map(|_| machine.create_texture(Image::new_2d(format, n, n).unwrap()).unwrap()).collect();
+    let target = machine.create_target(TexelFormat::Bgra8, n, n).unwrap();
+    let depth = machine.create_depth(DepthFormat::Unorm24, n, n).unwrap();
+    let (vertices, host) = (screen(), Constants::default());
+    let mut call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target);
+    call.center = PixelCenter::OpenGl;
+    call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
+    call.depth_buffer = Some(depth);
+    for (sampler, texture) in textures.into_iter().enumerate() {
+        call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
+    }
+    machine.draw(&call).unwrap();
+    let log = machine.take_log();
+    let mut draws = log.into_iter().filter_map(|e| if let Event::Draw(draw) = e { Some(*draw) } else { None });
+    draws.next().expect("one draw")
+}
+
+const DUAL: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1";
+
+/// 20 bytes a pixel (two texels, a colour, a depth read and written) are more than the pipelines can hide: 368 Mpixel/s of
+/// the printed 390 on the GeForce3, 520 of the implied 527 on the GeForce4.
+#[test]
+fn dual_texturing_is_bound_by_memory() {
+    for (device, expected, printed) in [("nv20", 368_000_000, 390.0), ("nv25", 520_000_000, 527.3)] {
+        let n = 256_u32;
+        let record = draw(device, DUAL, n, 2, TexelFormat::Rgba8);
+        let model = Model::new(Level::Pipeline, &Profile::named(device).unwrap()).unwrap();
+        let clocks = model.clocks(&record);
+        let vertices = record.counts.bytes.vertices;
+        assert_eq!(clocks.traffic.total() - vertices, u64::from(n * n) * 20, "{device}");
+        assert_eq!(clocks.bottleneck(), Bottleneck::Memory);
+        assert_eq!(clocks.textures, clocks.arithmetic, "one clock for two reads, one for one multiply");
+        // The rate in the middle of a long run: nothing fixed, no vertices.
+        let bandwidth = Profile::named(device).unwrap().rates.memory_bytes_per_s.unwrap();
+        assert_eq!(bandwidth / 20, expected);
+        let rate = f64::from(n * n)
+            / (clocks.memory.0 as f64 / Profile::named(device).unwrap().rates.core_clock_hz.unwrap() as f64);
+        assert!((rate / expected as f64 - 1.0).abs() < 0.001, "{device}: {rate}");
+        assert!((rate / 1e6 / printed - 1.0).abs() < 0.06, "{device}: {rate} of {printed} M");
+    }
+}
+
+#[test]
+fn the_rates_level_is_equation_11() {
+    let record = draw("nv20", DUAL, 128, 2, TexelFormat::Rgba8);
+    let model = Model::new(Level::Rates, &Profile::named("nv20").unwrap()).unwrap();
+    let cost = model.draw(&record);
+    // 16384 / 390 MHz and 4 bytes a pixel at 250 MB/s, each rounded up to a picosecond.
+    assert_eq!(cost.total, Picoseconds((16_384 * 1_000_000_u64).div_ceil(390)));
+    assert_eq!(model.read_back(4 * 16_384), Picoseconds(4 * 16_384 * 4_000));
+    assert_eq!(cost.bottleneck, Bottleneck::Rate);
+    assert_eq!((cost.front_end, cost.memory), (Picoseconds::ZERO, Picoseconds::ZERO));
+}
+
+#[test]
+fn an_ideal_device_has_no_time() {
+    for level in [Level::Rates, Level::Pipeline] {
+        let error = Model::new(level, &Profile::named("ideal-fp32").unwrap()).unwrap_err();
+        let TimingError::Missing { have, .. } = &error else { panic!("{error}") };
+        assert!(have.contains("r200") && have.contains("gt200"), "{error}");
+        for name in Profile::card_names() {
+            Model::new(level, &Profile::named(name).unwrap()).unwrap();
+        }
+    }
+}
+
+#[test]
+fn the_units_count_what_the_program_says() {
+    let model = |device| Model::new(Level::Pipeline, &Profile::named(device).unwrap()).unwrap();
+    let fragment = |device: &str, text: &str| {
+        let record = draw(device, text, 8, 0, TexelFormat::Rgba8);
+        let clocks = model(device).fragment(&record.pixel);
+        (clocks.arithmetic.0, clocks.textures.0, clocks.total().0)
+    };
+    // Two phases: 2 pairs + 1, and 2 + 1 texture instructions at two a clock.
+    let two = "ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nmul r0.rgb, r0, r1\n+mov r0.a, r0.a\nadd r0, r0, r0\nphase\n\
+               texld r1, r0\nmul r0, r0, r1";
+    assert_eq!(fragment("r200", two), (3, 2, 3));
+    // NV30: the same program takes turns, the dependent read at one a clock, two more registers than fp32 runs free.
+    assert_eq!(fragment("nv30", two), (3, 2, 5));
+    // A vec3 and a scalar that do not need each other: one slot on r300, two on nv30.
+    let split = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmul r1.xyz, r0, r0\nmov r1.w, r0.w\nmov oC0, r1";
+    assert_eq!(fragment("r300", split), (2, 1, 2));
+    assert_eq!(fragment("nv30", split), (3, 1, 4));
+    // Six live registers are two steps beyond two: half as much again, twice.
+    let wide = "ps_2_0\ndcl t0\ndcl t1\nmov r0, t0\nmov r1, t1\nmul r2, r0, r1\nmul r3, r0, r2\nmul r4, r1, r3\nmul r5, r2, r4\n\
+                mad r0, r0, r1, r2\nmad r0, r0, r3, r4\nadd r0, r0, r5\nmov oC0, r0";
+    assert_eq!(fragment("nv30", wide).0, 20);
+}
+
+#[test]
+fn a_guess_can_be_scaled_and_nothing_else() {
+    let model = Model::new(Level::Pipeline, &Profile::named("r200").unwrap()).unwrap();
+    let record = draw("r200", "ps_1_4\ntexld r0, t0\nmul r0, r0, r0\nmul r0, r0, r0", 32, 1, TexelFormat::Rgba8);
+    let guesses = model.guesses();
+    assert!(guesses.iter().any(|k| k == "rates.alu_pairs_per_clock"));
+    assert!(!guesses.iter().any(|k| k == "rates.core_clock_hz"));
+    for key in &guesses {
+        let doubled = model.with_scaled(key, 2, 1).unwrap();
+        let row = doubled.constants().into_iter().find(|r| &r.key == key).unwrap();
+        let before = model.constants().into_iter().find(|r| &r.key == key).unwrap();
+        assert_eq!(row.value.parse::<u64>().unwrap(), 2 * before.value.parse::<u64>().unwrap(), "{key}");
+        assert!(model.with_scaled(key, 1, 2).is_ok());
+    }
+    let faster = model.with_scaled("rates.alu_pairs_per_clock", 2, 1).unwrap();
+    assert_eq!((model.clocks(&record).arithmetic, faster.clocks(&record).arithmetic), (Clocks(528), Clocks(264)));
+    assert!(matches!(model.with_scaled("rates.core_clock_hz", 2, 1), Err(TimingError::NoGuess { .. })));
+    assert!(matches!(model.with_scaled("rates.draw_clocks", 0, 1), Err(TimingError::Scale { .. })));
+}
