@@ -169,7 +169,11 @@ impl Crossbar {
             let events = card.draw(&kernel, mesh, &units, &triangles)?;
             Ok((region, card.read_back(&bucket, &units)?, events, card.machine.take_log()))
         };
-        let drawn: Vec<_> = self.buckets(mesh, rays, side).into_par_iter().map(draw).collect::<Result<_, _>>()?;
+        let buckets = self.buckets(mesh, rays, side);
+        let drawn: Vec<_> = match buckets.len() {
+            1 => buckets.into_iter().map(draw).collect::<Result<_, _>>()?,
+            _ => buckets.into_par_iter().map(draw).collect::<Result<_, _>>()?,
+        };
         let hits = vec![None; rays.rays().len()];
         let mut answer = Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() };
         for (region, hits, events, log) in drawn {
@@ -293,7 +297,7 @@ impl Streams {
     fn new(mesh: &Mesh, ids: &[u32]) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
-        let mut triangles: [Vec<[u32; 4]>; 4] = Default::default();
+        let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (id, corners) in ids.iter().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
             for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
                 stream.push([x, y, z, 1.0].map(f32::to_bits));

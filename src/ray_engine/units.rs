@@ -144,7 +144,10 @@ fn extents(rays: &RayBatch) -> [u32; 3] {
 /// Four fp32 channels: x, y, z, 1.
 fn float_texture(extents: [u32; 3], vectors: &[[f64; 3]]) -> Result<Image, TextureError> {
     let texel = |v: &[f64; 3]| [v[0] as f32, v[1] as f32, v[2] as f32, 1.0];
-    let bytes = vectors.iter().flat_map(texel).flat_map(f32::to_le_bytes).collect();
+    let mut bytes = Vec::with_capacity(16 * vectors.len());
+    for value in vectors.iter().flat_map(texel) {
+        bytes.extend_from_slice(&value.to_le_bytes());
+    }
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)
 }
 
@@ -157,7 +160,11 @@ fn pair_texture(signed: bool, extents: [u32; 3], pairs: impl Iterator<Item = [f6
             (((x + 1.0) / 2.0 * 65_535.0).round() as u16).to_le_bytes()
         }
     };
-    let bytes = pairs.flatten().flat_map(code).collect();
+    let mut bytes = Vec::with_capacity(4 * pairs.size_hint().0);
+    for [x, y] in pairs {
+        bytes.extend_from_slice(&code(x));
+        bytes.extend_from_slice(&code(y));
+    }
     let format = if signed { TexelFormat::Rg16Snorm } else { TexelFormat::Rg16 };
     Image::from_bytes(format, TextureKind::D2, extents, 1, bytes)
 }

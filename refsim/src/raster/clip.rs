@@ -20,7 +20,7 @@ impl ClipVertex {
 }
 
 /// The least w kept: 2^-64. It stands for "w > 0" and keeps 1/w finite.
-const LEAST_W: u32 = (127 - 64) << 23;
+pub(crate) const LEAST_W: u32 = (127 - 64) << 23;
 
 /// The planes, each as what must not be below zero.
 #[derive(Clone, Copy, Debug)]

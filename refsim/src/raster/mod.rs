@@ -10,17 +10,20 @@ mod cover;
 mod error;
 mod fan;
 mod interpolate;
+mod plane;
 mod setup;
 mod vertex;
 
 pub use assembly::{Primitive, assemble};
+pub(crate) use clip::LEAST_W;
 pub use cover::{PixelQuad, QuadIterator};
 pub use error::RasterError;
 pub(crate) use interpolate::interpolated;
 pub use interpolate::{ComponentMask, FragmentInput, Weights};
+pub(crate) use plane::component_plane;
 pub use setup::{
     ClipSpace, Cull, Dropped, Edge, PixelCenter, Plane, RasterRules, RasterState, SetupReport, TriangleSetup, Viewport,
     setup,
 };
-pub(crate) use setup::{component_plane, unclipped};
+pub(crate) use setup::{Corner, FARTHEST, GUARD_BAND, shape};
 pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT, Vertex};

@@ -4,15 +4,16 @@ use super::RasterError;
 use super::clip::{ClipVertex, clip, is_inside};
 use super::fan::clipped_setup;
 use super::interpolate::ComponentMask;
+use super::plane::{plane, planes};
 use super::vertex::{COMPONENTS, Vertex};
 use crate::device::Rules;
-use crate::num::{self, Format};
+use crate::num::Format;
 use crate::texture::{Region, value};
 
 /// How far past the viewport a triangle may reach before it is clipped, in viewports: 8 (FP32 bits).
 pub(crate) const GUARD_BAND: u32 = 0x4100_0000;
 /// Positions saturate here, in pixels either way. With 8 subpixel bits an edge function stays below 2^56.
-const FARTHEST: i64 = 1 << 17;
+pub(crate) const FARTHEST: i64 = 1 << 17;
 /// The largest viewport side, and how far it may lie from the origin.
 const MOST_PIXELS: u32 = 16_384;
 
@@ -227,7 +228,7 @@ pub fn setup(
 }
 
 /// Sets a triangle up if no clip plane cuts it; `None` if one does.
-pub(crate) fn unclipped(
+fn unclipped(
     triangle: [&Vertex; 3],
     state: &RasterState,
     rules: &RasterRules,
@@ -240,11 +241,13 @@ pub(crate) fn unclipped(
 
 /// A corner in window space.
 #[derive(Clone, Copy)]
-pub(super) struct Corner {
-    x: i64,
-    y: i64,
-    depth: u32,
-    reciprocal_w: u32,
+pub(crate) struct Corner {
+    /// Column and row in units of the snapping grid, at most [`FARTHEST`] pixels either way.
+    pub(crate) x: i64,
+    pub(crate) y: i64,
+    /// FP32 bits, as is the other one.
+    pub(crate) depth: u32,
+    pub(crate) reciprocal_w: u32,
 }
 
 /// Viewport transform in FP32 steps, then snapping to the grid (nearest, halves up).
@@ -294,6 +297,18 @@ pub(super) fn prepare(
     state: &RasterState,
     rules: &RasterRules,
 ) -> Result<TriangleSetup, Dropped> {
+    let mut done = shape(corners, vertices.map(|v| v.position[3]), state, rules)?;
+    (done.planes, done.constant) = planes(vertices, rules.iterator_format);
+    Ok(done)
+}
+
+/// [`prepare`] without the planes, which are left zero.
+pub(crate) fn shape(
+    corners: [Corner; 3],
+    ws: [u32; 3],
+    state: &RasterState,
+    rules: &RasterRules,
+) -> Result<TriangleSetup, Dropped> {
     let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
     let [c0, c1, c2] = corners;
     // Half-integer centres need one fraction bit.
@@ -322,9 +337,7 @@ pub(super) fn prepare(
     let sign = signed.signum();
     let edge = |p: (i64, i64), q: (i64, i64)| edge_through(p, q, sign, center, unit_bits);
     let area = signed.abs();
-    let (planes, constant) = planes(vertices, rules.iterator_format);
     let depths = [c0.depth, c1.depth, c2.depth];
-    let ws = vertices.map(|v| v.position[3]);
     Ok(TriangleSetup {
         edges: [edge(points[1], points[2]), edge(points[2], points[0]), edge(points[0], points[1])],
         area,
@@ -333,8 +346,8 @@ pub(super) fn prepare(
         clockwise,
         depth: plane(depths, Format::FP32),
         depth_constant: depths[0] == depths[1] && depths[1] == depths[2],
-        planes,
-        constant,
+        planes: [Plane::default(); COMPONENTS],
+        constant: ComponentMask::NONE,
         affine: ws[0] == ws[1] && ws[1] == ws[2],
         reciprocal_w: [c0.reciprocal_w, c1.reciprocal_w, c2.reciprocal_w],
         iterator_format: rules.iterator_format,
@@ -364,35 +377,4 @@ fn bounding_box(points: [(i64, i64); 3], center: i64, unit_bits: u32) -> Region 
     let (x, width) = span(points.map(|p| p.0));
     let (y, height) = span(points.map(|p| p.1));
     Region { x, y, width, height }
-}
-
-fn plane(values: [u32; 3], format: Format) -> Plane {
-    let [a0, a1, a2] = values;
-    Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }
-}
-
-/// The plane of one component from its FP32 values at the vertices, and whether it is constant.
-pub(crate) fn component_plane(values: [u32; 3], format: Format) -> (Plane, bool) {
-    let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
-    let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
-    if values[0] == values[1] && values[1] == values[2] {
-        // Zero is zero in every format: the usual value of what a draw does not use.
-        let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
-        return (Plane { base, d1: 0, d2: 0 }, true);
-    }
-    (plane(values.map(into), format), false)
-}
-
-/// The planes of all components, and which of them are constant.
-fn planes(vertices: &[ClipVertex; 3], format: Format) -> ([Plane; COMPONENTS], ComponentMask) {
-    let mut planes = [Plane::default(); COMPONENTS];
-    let mut constant = ComponentMask::NONE;
-    for (i, slot) in planes.iter_mut().enumerate() {
-        let same;
-        (*slot, same) = component_plane([0, 1, 2].map(|v: usize| vertices[v].components[i]), format);
-        if same {
-            constant = constant.with(i);
-        }
-    }
-    (planes, constant)
 }

@@ -6,14 +6,13 @@ use rayon::prelude::*;
 use super::simd::SimdLevel;
 use super::surfaces::{PlaneRows, Surfaces, Triangle};
 use super::vertex::VertexRows;
+use super::window::{Standing, Window};
 use crate::event::PrimitiveCounts;
 use crate::num::Format;
-use crate::raster::{
-    ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, unclipped,
-};
+use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 
 /// Triangles whose shapes one worker sets up at a time.
-const CHUNK: usize = 256;
+const CHUNK: usize = 1024;
 /// Triangles whose positions a new one's are compared with.
 const RECENT: usize = 4;
 
@@ -61,26 +60,28 @@ impl Surfaces {
         let each = instances.triangles.len();
         let total = each * instances.count;
         let joined = out.planes(instances, simd);
+        let window = Window::new(instances.rows, state, rules, simd);
         let chunks: Vec<_> = (0..total.div_ceil(CHUNK))
             .into_par_iter()
-            .map(|chunk| shapes(instances, chunk * CHUNK..((chunk + 1) * CHUNK).min(total), state, rules))
+            .map(|chunk| shapes((instances, &window), chunk * CHUNK..((chunk + 1) * CHUNK).min(total), state, rules))
             .collect();
         let mut counts = PrimitiveCounts { assembled: total as u64, ..PrimitiveCounts::default() };
         let mut last = None;
-        for (index, (outcome, shape)) in chunks
-            .iter()
-            .flat_map(|(outcomes, shapes)| {
-                outcomes
-                    .iter()
-                    .map(move |&outcome| (outcome, if let Outcome::Shape(i) = outcome { shapes.get(i) } else { None }))
-            })
-            .enumerate()
-        {
+        // Numbers of the shapes of a chunk.
+        let mut numbers: Vec<u32> = Vec::new();
+        let all = chunks.iter().flat_map(|(outcomes, shapes)| outcomes.iter().map(move |&outcome| (outcome, shapes)));
+        for (index, (outcome, shapes)) in all.enumerate() {
+            if index % CHUNK == 0 {
+                numbers.clear();
+            }
             let (instance, triangle) = (index / each, index % each);
             let planes = triangle * instances.count + instance;
-            match (outcome, shape) {
-                (Outcome::Shape(_), Some(setup)) => {
-                    let shape = out.shape(setup);
+            match outcome {
+                Outcome::Shape(i) => {
+                    if numbers.len() <= i {
+                        numbers.push(out.shape(&shapes[i]));
+                    }
+                    let shape = numbers[i];
                     let placed = Triangle { shape, planes: planes as u32 };
                     if triangle > 0 && last == Some(index - 1) {
                         out.push_joined(placed, joined[planes]);
@@ -90,13 +91,13 @@ impl Surfaces {
                     last = Some(index);
                     counts.rasterised += 1;
                 }
-                (Outcome::Cut, _) => {
+                Outcome::Cut => {
                     let emitted = out.cut(instances, instances.corners(instance, triangle), state, rules);
                     counts.culled += u64::from(emitted == 0);
                     counts.clipped += u64::from(emitted > 1);
                     counts.rasterised += u64::from(emitted);
                 }
-                _ => counts.culled += 1,
+                Outcome::Dropped => counts.culled += 1,
             }
         }
         (out, counts)
@@ -122,10 +123,18 @@ impl Surfaces {
         let format = self.iterator_format;
         let work = |row: &mut PlaneRows| {
             let values = &instances.rows.components[row.component];
+            let part = |corner: usize| &values[corner * count..(corner + 1) * count];
+            let same =
+                |corners: &[usize; 3]| part(corners[0]) == part(corners[1]) && part(corners[1]) == part(corners[2]);
+            if format == Format::FP32 && instances.triangles.iter().all(same) {
+                row.base = Vec::with_capacity(total);
+                instances.triangles.iter().for_each(|corners| row.base.extend_from_slice(part(corners[0])));
+                return None;
+            }
             let mut constant = vec![0u8; total];
             (row.base, row.d1, row.d2) = (vec![0; total], vec![0; total], vec![0; total]);
             for (j, corners) in instances.triangles.iter().enumerate() {
-                let of = |k: usize| &values[corners[k] * count..(corners[k] + 1) * count];
+                let of = |k: usize| part(corners[k]);
                 let here = j * count..(j + 1) * count;
                 let to = (&mut row.base[here.clone()], &mut row.d1[here.clone()], &mut row.d2[here.clone()]);
                 if format == Format::FP32 {
@@ -137,16 +146,26 @@ impl Surfaces {
                     any_planes([of(0), of(1), of(2)], format, to, &mut constant[here]);
                 }
             }
-            constant
+            Some(constant)
         };
-        let flags: Vec<Vec<u8>> = if total < 4 * CHUNK {
+        // By row, 1 for each triangle that holds the component constant; nothing where all of them do.
+        let flags: Vec<Option<Vec<u8>>> = if total <= CHUNK {
             self.rows.iter_mut().map(work).collect()
         } else {
             self.rows.par_iter_mut().map(work).collect()
         };
-        self.constant = vec![0; total];
+        let always = self.rows.iter().zip(&flags).filter(|(_, flags)| flags.is_none());
+        self.constant = vec![always.fold(0, |mask, (row, _)| mask | 1 << row.component); total];
         let mut joined = vec![true; total];
         for (row, flags) in self.rows.iter().zip(&flags) {
+            let Some(flags) = flags else {
+                let (before, now) = (&row.base[..total.saturating_sub(count)], &row.base[count.min(total)..]);
+                if before != now {
+                    let pairs = before.iter().zip(now);
+                    joined.iter_mut().skip(count).zip(pairs).for_each(|(joined, (a, b))| *joined &= a == b);
+                }
+                continue;
+            };
             for (mask, &flag) in self.constant.iter_mut().zip(flags) {
                 *mask |= u64::from(flag) << row.component;
             }
@@ -162,7 +181,7 @@ impl Surfaces {
 
 /// Sets up the shapes of some triangles.
 fn shapes(
-    instances: &Instances<'_>,
+    (instances, window): (&Instances<'_>, &Window),
     range: std::ops::Range<usize>,
     state: &RasterState,
     rules: &RasterRules,
@@ -172,18 +191,26 @@ fn shapes(
     let mut recent: Vec<([[u32; 4]; 3], Outcome)> = Vec::with_capacity(RECENT);
     let mut next = 0;
     let outcome = |i: usize| {
-        let positions = instances.positions(instances.corners(i / each, i % each));
+        let corners = instances.corners(i / each, i % each);
+        let positions = instances.positions(corners);
         if let Some((_, outcome)) = recent.iter().find(|(known, _)| *known == positions) {
             return *outcome;
         }
-        let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
-        let outcome = match unclipped([&a, &b, &c], state, rules) {
-            Some(Ok(shape)) => {
-                shapes.push(shape);
-                Outcome::Shape(shapes.len() - 1)
+        let standing = corners.map(|vertex| window.standing(vertex));
+        let outcome = if standing.contains(&Standing::NotFinite) {
+            Outcome::Dropped
+        } else if standing.contains(&Standing::Outside) {
+            cut_outcome(&positions, state, rules)
+        } else if standing.contains(&Standing::Lost) {
+            Outcome::Dropped
+        } else {
+            match shape(corners.map(|vertex| window.corner(vertex)), positions.map(|p| p[3]), state, rules) {
+                Ok(shape) => {
+                    shapes.push(shape);
+                    Outcome::Shape(shapes.len() - 1)
+                }
+                Err(_) => Outcome::Dropped,
             }
-            Some(Err(_)) => Outcome::Dropped,
-            None => cut_outcome([&a, &b, &c], state, rules),
         };
         if recent.len() < RECENT {
             recent.push((positions, outcome));
@@ -197,8 +224,9 @@ fn shapes(
 }
 
 /// Whether anything is left of a triangle that a plane cuts; its components do not matter for that.
-fn cut_outcome(triangle: [&Vertex; 3], state: &RasterState, rules: &RasterRules) -> Outcome {
-    if setup(triangle, state, rules, &mut Vec::new()).emitted == 0 { Outcome::Dropped } else { Outcome::Cut }
+fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRules) -> Outcome {
+    let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
+    if setup([&a, &b, &c], state, rules, &mut Vec::new()).emitted == 0 { Outcome::Dropped } else { Outcome::Cut }
 }
 
 /// The planes of one component, single precision, and 1 where it is constant.

@@ -19,6 +19,8 @@ use crate::texture::{
 
 /// Texels of the largest image that gets a table: 4 MiB of it.
 const LARGEST_TABLE: usize = 1 << 18;
+/// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded once.
+const FEW_TEXELS: usize = 1024;
 /// Coordinates from here on are even integers and address alike: stands for the larger ones.
 const FAR: f64 = 16_777_216.0;
 
@@ -211,37 +213,35 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
                 continue;
             }
         };
-        for (y, row) in texels.chunks_exact_mut(width).enumerate() {
-            let start = image.offset_of(0, 0, y as u32, 0).unwrap_or_default();
-            let bytes = image.bytes().get(start..).unwrap_or_default().chunks_exact(image.format().bytes());
-            for (texels, bytes) in row.chunks_mut(LANES).zip(Blocks(bytes)) {
-                decode_block(channel, &bytes, rules, lane, |i, raw| {
-                    if let Some(texel) = texels.get_mut(i) {
-                        texel[c] = raw;
-                    }
-                });
+        // Rows stand one after the other without a gap.
+        let size = image.format().bytes();
+        let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
+        let bytes = image.bytes().get(start..).unwrap_or_default();
+        if channel.bits <= 8 && texels.len() > FEW_TEXELS {
+            let value =
+                |bits| channel_in_slot(decode_channel(channel, bits, rules.signed_texel_minimum), rules.format, lane);
+            let values: Vec<u32> = (0..1 << channel.bits).map(value).collect();
+            for (texel, bytes) in texels.iter_mut().zip(bytes.chunks_exact(size)) {
+                let bits = channel_of(channel, bytes) as usize & (values.len() - 1);
+                texel[c] = values[bits];
             }
+            continue;
+        }
+        for (texels, bytes) in texels.chunks_mut(LANES).zip(bytes.chunks(LANES * size)) {
+            decode_block(channel, bytes.chunks_exact(size), rules, lane, |i, raw| {
+                if let Some(texel) = texels.get_mut(i) {
+                    texel[c] = raw;
+                }
+            });
         }
     }
     texels
 }
 
-/// A row's texels, 256 at a time.
-struct Blocks<I>(I);
-
-impl<'a, I: Iterator<Item = &'a [u8]>> Iterator for Blocks<I> {
-    type Item = Vec<&'a [u8]>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let block: Vec<_> = self.0.by_ref().take(LANES).collect();
-        (!block.is_empty()).then_some(block)
-    }
-}
-
 /// One channel of up to 256 texels: ratios of up to 24 bits and single precision in rows, the rest one by one.
-fn decode_block(
+fn decode_block<'t>(
     channel: Channel,
-    texels: &[&[u8]],
+    texels: impl Iterator<Item = &'t [u8]>,
     rules: &SampleRules,
     lane: &AnyLane,
     mut put: impl FnMut(usize, u32),
@@ -250,7 +250,7 @@ fn decode_block(
     let mut raw = [0; LANES];
     let mut divisor = 1.0;
     let narrow = channel.bits <= 24;
-    for (i, texel) in texels.iter().take(LANES).enumerate() {
+    for (i, texel) in texels.take(LANES).enumerate() {
         let bits = channel_of(channel, texel);
         match decode_channel(channel, bits, rules.signed_texel_minimum) {
             ChannelValue::Ratio { numerator, denominator } if narrow => {

@@ -49,6 +49,7 @@ mod trace;
 pub(in crate::exec) mod translate;
 mod translate_texture;
 mod vertex;
+mod window;
 
 pub use build::Instances;
 pub use evaluate::{LaneOperation, convert, evaluate};

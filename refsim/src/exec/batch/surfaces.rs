@@ -23,6 +23,7 @@ pub(crate) struct PlaneRows {
     /// Its number, as in [`ComponentMask`].
     pub(crate) component: usize,
     pub(crate) base: Vec<u32>,
+    /// Empty where all triangles hold the component constant, like `d2`.
     pub(crate) d1: Vec<u32>,
     pub(crate) d2: Vec<u32>,
 }
@@ -34,6 +35,8 @@ impl PlaneRows {
     }
 
     pub(crate) fn push(&mut self, plane: Plane) {
+        self.d1.resize(self.base.len(), 0);
+        self.d2.resize(self.base.len(), 0);
         self.base.push(plane.base);
         self.d1.push(plane.d1);
         self.d2.push(plane.d2);

@@ -19,7 +19,7 @@ use super::shader::{Manner, Shader};
 use super::simd::SimdLevel;
 use super::slots::{Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
-use super::surfaces::Surfaces;
+use super::surfaces::{Surfaces, Triangle};
 use super::targets::Targets;
 use crate::device::Rules;
 use crate::event::{FragmentCounts, SAMPLERS};
@@ -31,6 +31,8 @@ use crate::output::{DepthFormat, TargetTile};
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::{Region, TextureKind};
 
+/// Triangles whose constants are computed sooner than a worker is woken up.
+const FEW: usize = 4 * LANES;
 /// Triangles a worker gets at least where several share a tile.
 const FEWEST_SHARED: usize = 16;
 
@@ -157,7 +159,7 @@ impl<'a> BatchTiles<'a> {
             return Vec::new();
         }
         let idle = &self.program.uniforms;
-        let groups = surfaces.triangles.par_chunks(LANES).map(|group| {
+        let compute = |group: &[Triangle]| {
             let mut slots = idle.take(|known| known.0 == constant).map_or_else(
                 || {
                     let mut slots = Slots::new(block.slots);
@@ -177,8 +179,12 @@ impl<'a> BatchTiles<'a> {
             let values = block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>();
             idle.keep((constant, slots));
             values
-        });
-        let groups: Vec<_> = groups.collect();
+        };
+        let groups: Vec<_> = if surfaces.len() <= FEW {
+            surfaces.triangles.chunks(LANES).map(compute).collect()
+        } else {
+            surfaces.triangles.par_chunks(LANES).map(compute).collect()
+        };
         let whole = |root: usize| groups.iter().flat_map(|group| group[root].iter().copied()).collect();
         (0..block.roots.len()).map(whole).collect()
     }
@@ -196,16 +202,25 @@ impl<'a> BatchTiles<'a> {
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
         if hands > 1 && few_left && order.len() >= FEWEST_SHARED * hands {
             let share = order.len().div_ceil(hands).next_multiple_of(2);
-            let shares = order.par_chunks(share).map(|part| {
-                let (mut fragments, mut counts) = (Vec::new(), FragmentCounts::default());
-                self.shade_all(round, part, (region, depth), &mut counts, |shaded, survivors, _| {
-                    shaded.gather(survivors, &mut fragments);
+            let (own, others) = order.split_at(share.min(order.len()));
+            let mut rest: Vec<_> =
+                others.chunks(share).map(|part| (part, Vec::new(), FragmentCounts::default())).collect();
+            // The first share is this thread's own, and merged while the others are on their way.
+            rayon::in_place_scope(|scope| {
+                for (part, fragments, counts) in &mut rest {
+                    scope.spawn(move |_| {
+                        self.shade_all(round, part, (region, depth), counts, |shaded, survivors, _| {
+                            shaded.gather(survivors, fragments);
+                        });
+                    });
+                }
+                self.shade_all(round, own, (region, depth), &mut counts, |shaded, survivors, counts| {
+                    self.output.merge(shaded, survivors, &mut targets, counts);
                 });
-                (fragments, counts)
             });
-            for (fragments, more) in shares.collect::<Vec<_>>() {
-                counts += more;
-                for fragment in &fragments {
+            for (_, fragments, more) in &rest {
+                counts += *more;
+                for fragment in fragments {
                     self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
                 }
             }

@@ -26,6 +26,9 @@ use crate::isa::{Program, RegisterFile};
 use crate::num::Format;
 use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
 
+/// Vertices that one worker takes at a time; no more than that, and nobody is woken up for them.
+const SPAN: usize = 16 * LANES;
+
 /// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of `v#register`
 /// of the vertices from `first` on.
 pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f;
@@ -138,26 +141,49 @@ impl BatchVertices {
 
     /// Runs the program on `total` vertices.
     pub fn run(&self, total: usize, attributes: &AttributeRows<'_>) -> VertexRows {
-        let parts: Vec<_> = (0..total.div_ceil(LANES))
-            .into_par_iter()
-            .map(|i| {
-                let mut slots = self.code.slots.take(|_| true).unwrap_or_else(|| self.slots());
-                let values = self.group(i * LANES, (total - i * LANES).min(LANES), attributes, &mut slots);
-                self.code.slots.keep(slots);
-                values
-            })
-            .collect();
-        let mut out = VertexRows::new();
-        for (values, executed) in parts {
-            let (position, rest) = values.split_at(4);
-            for (to, from) in out.position.iter_mut().zip(position) {
-                to.extend_from_slice(from);
-            }
-            for (&component, from) in self.components.iter().zip(rest) {
-                out.components[component].extend_from_slice(from);
-            }
-            out.executed += executed;
+        let span = |i: usize| self.span(i * SPAN, total.saturating_sub(i * SPAN).min(SPAN), attributes);
+        if total <= SPAN {
+            return span(0);
         }
+        let parts: Vec<VertexRows> = (0..total.div_ceil(SPAN)).into_par_iter().map(span).collect();
+        let mut out = VertexRows::new();
+        self.each_row(&mut out, |place, to| {
+            to.reserve_exact(total);
+            for part in &parts {
+                to.extend_from_slice(self.row(part, place));
+            }
+        });
+        out.executed = parts.iter().map(|part| part.executed).sum();
+        out
+    }
+
+    /// Calls `fill` with the number of each row that is made, and the row.
+    fn each_row(&self, out: &mut VertexRows, mut fill: impl FnMut(usize, &mut Vec<u32>)) {
+        for (i, row) in out.position.iter_mut().enumerate() {
+            fill(i, row);
+        }
+        for (i, &component) in self.components.iter().enumerate() {
+            fill(4 + i, &mut out.components[component]);
+        }
+    }
+
+    /// The row of a number, as [`Self::each_row`] numbers them.
+    fn row<'r>(&self, rows: &'r VertexRows, number: usize) -> &'r [u32] {
+        match number {
+            0..4 => &rows.position[number],
+            _ => &rows.components[self.components[number - 4]],
+        }
+    }
+
+    /// Up to [`SPAN`] vertices, 256 after 256.
+    fn span(&self, first: usize, count: usize, attributes: &AttributeRows<'_>) -> VertexRows {
+        let mut slots = self.code.slots.take(|_| true).unwrap_or_else(|| self.slots());
+        let mut out = VertexRows::new();
+        self.each_row(&mut out, |_, row| row.reserve_exact(count));
+        for start in (0..count).step_by(LANES) {
+            self.group(first + start, (count - start).min(LANES), attributes, &mut slots, &mut out);
+        }
+        self.code.slots.keep(slots);
         out
     }
 
@@ -176,14 +202,15 @@ impl BatchVertices {
         }
     }
 
-    /// Up to 256 vertices: position, components; and the instruction slots.
+    /// Appends up to 256 vertices: position, components; and the instruction slots.
     fn group(
         &self,
         first: usize,
         count: usize,
         attributes: &AttributeRows<'_>,
         slots: &mut Slots,
-    ) -> (Vec<Vec<u32>>, u64) {
+        out: &mut VertexRows,
+    ) {
         let inputs = match &self.code.code {
             VertexCode::Straight(block, _) => &block.inputs,
             VertexCode::Flow(plan) => plan.inputs(),
@@ -198,16 +225,18 @@ impl BatchVertices {
         match &self.code.code {
             VertexCode::Straight(block, cost) => {
                 run_steps(&block.steps, &around, &lanes, slots);
-                let values = block.roots.iter().map(|&root| canonical(&slots.row(root)[..count]));
-                (values.collect(), cost * count as u64)
+                out.executed += cost * count as u64;
+                self.each_row(out, |i, row| row.extend(slots.row(block.roots[i])[..count].iter().map(canonical)));
             }
             VertexCode::Flow(plan) => {
                 let mut run = FlowRun::new(plan, &around, &lanes, &lanes);
                 run.run(slots, &mut [0; SAMPLERS]);
-                let places = outputs(&self.components);
-                let values =
-                    places.map(|place| self.held(plan.register(place.0, place.1, place.2), place, slots, count));
-                (values.collect(), run.executed)
+                out.executed += run.executed;
+                let places: Vec<Place> = outputs(&self.components).collect();
+                self.each_row(out, |i, row| {
+                    let place = places[i];
+                    row.extend(self.held(plan.register(place.0, place.1, place.2), place, slots, count));
+                });
             }
         }
     }
@@ -286,9 +315,9 @@ fn straight(
     VertexCode::Straight(schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0), cost)
 }
 
-/// Single precision numbers as patterns: every NaN is the one.
-fn canonical(row: &[u32]) -> Vec<u32> {
-    row.iter().map(|&bits| if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { bits }).collect()
+/// A single precision number as a pattern: every NaN is the one.
+fn canonical(bits: &u32) -> u32 {
+    if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { *bits }
 }
 
 fn saturated(lane: &AnyLane, raw: u32) -> u32 {

@@ -1,0 +1,39 @@
+//! Attribute planes of a triangle.
+
+use super::clip::ClipVertex;
+use super::interpolate::ComponentMask;
+use super::setup::Plane;
+use super::vertex::COMPONENTS;
+use crate::num::{self, Format};
+
+/// The plane of three values of a format.
+pub(super) fn plane(values: [u32; 3], format: Format) -> Plane {
+    let [a0, a1, a2] = values;
+    Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }
+}
+
+/// The plane of one component from its FP32 values at the vertices, and whether it is constant.
+pub(crate) fn component_plane(values: [u32; 3], format: Format) -> (Plane, bool) {
+    let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
+    let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
+    if values[0] == values[1] && values[1] == values[2] {
+        // Zero is zero in every format: the usual value of what a draw does not use.
+        let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
+        return (Plane { base, d1: 0, d2: 0 }, true);
+    }
+    (plane(values.map(into), format), false)
+}
+
+/// The planes of all components, and which of them are constant.
+pub(super) fn planes(vertices: &[ClipVertex; 3], format: Format) -> ([Plane; COMPONENTS], ComponentMask) {
+    let mut planes = [Plane::default(); COMPONENTS];
+    let mut constant = ComponentMask::NONE;
+    for (i, slot) in planes.iter_mut().enumerate() {
+        let same;
+        (*slot, same) = component_plane([0, 1, 2].map(|v: usize| vertices[v].components[i]), format);
+        if same {
+            constant = constant.with(i);
+        }
+    }
+    (planes, constant)
+}
