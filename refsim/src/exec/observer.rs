@@ -2,6 +2,7 @@
 
 use crate::isa::Mask;
 use crate::num::Flags;
+use crate::texture::Lod;
 
 /// One instruction executed by one lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,13 +19,29 @@ pub struct Step {
     pub flags: Flags,
 }
 
+/// One read of a bound texture by one covered lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureRead {
+    /// The sampler.
+    pub sampler: usize,
+    /// Where, single precision patterns.
+    pub coordinates: [u32; 4],
+    /// Level of detail.
+    pub lod: Lod,
+}
+
 /// Told of every instruction that an executor runs. The default does nothing and costs nothing.
 pub trait Observer {
     /// Whether [`Self::executed`] is called at all.
     const ACTIVE: bool = true;
+    /// Whether [`Self::reads`] is called at all.
+    const READS: bool = false;
 
     /// A lane has executed an instruction.
     fn executed(&mut self, step: &Step);
+
+    /// A covered lane reads a bound texture: instruction by instruction, lane by lane.
+    fn reads(&mut self, _: &TextureRead) {}
 }
 
 /// Watches nothing.

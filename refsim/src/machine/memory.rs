@@ -79,6 +79,20 @@ impl Memory {
         self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
+    /// Makes sure that the host's copies of targets are the newest.
+    #[cfg(feature = "wgpu")]
+    pub(super) fn bring_home(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
+        for &id in targets {
+            let newest = self.current(id)?.clone();
+            *self.texture_mut(id)? = newest;
+        }
+        if let Some(id) = depth {
+            let newest = self.current_depth(id)?.clone();
+            *self.depth_mut(id)? = newest;
+        }
+        Ok(())
+    }
+
     /// Copies a finished tile back.
     pub(super) fn store(
         &mut self,

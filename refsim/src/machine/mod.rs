@@ -15,6 +15,7 @@ mod draw;
 mod error;
 mod executor;
 mod memory;
+mod observe;
 mod record;
 mod state;
 mod trace;
@@ -88,8 +89,11 @@ impl Machine {
     /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
-        let events = self.shade(call, &plan)?;
-        self.note_draw(call, &plan, &events, None);
+        let (events, traffic) = match &self.recorder.observer {
+            Some(_) => self.shade_observed(call, &plan).map(|(events, traffic)| (events, Some(traffic)))?,
+            None => (self.shade(call, &plan)?, None),
+        };
+        self.note_draw(call, &plan, &events, traffic.as_ref());
         Ok(events)
     }
 

@@ -3,6 +3,7 @@
 //! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits of
 //! one that does not, and the log is the same whichever executor draws, on any number of threads.
 
+use super::observe::Addresses;
 use super::state::State;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
@@ -10,7 +11,7 @@ use super::walk::{ROUND, depth_bytes};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
     DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
-    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord,
+    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, TexelObserver,
 };
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
@@ -30,6 +31,9 @@ pub(super) struct Recorder {
     on: bool,
     /// Read-backs log through a shared machine.
     log: Mutex<Log>,
+    /// Who watches the texels.
+    pub(super) observer: Option<Box<dyn TexelObserver>>,
+    pub(super) addresses: Addresses,
 }
 
 #[derive(Debug, Default)]

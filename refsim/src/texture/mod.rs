@@ -8,6 +8,7 @@ mod address;
 mod error;
 mod format;
 pub(crate) mod image;
+mod layout;
 mod lod;
 mod sample;
 mod texel;
@@ -18,7 +19,10 @@ pub use address::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_
 pub use error::TextureError;
 pub use format::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelFormat};
 pub use image::{Image, Level, Region, TextureKind};
+pub use layout::{Layout, TexelMap};
 pub use lod::{Lod, lod_from_derivatives};
-pub use sample::{Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, unbound};
+pub use sample::{
+    Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, touched, unbound,
+};
 pub(crate) use texel::denominator;
 pub use texel::{ChannelValue, Texel, decode, decode_channel, encode, encode_channel};

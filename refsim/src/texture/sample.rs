@@ -143,6 +143,32 @@ pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4])
     Place::new(image, coordinates).nearest(image, state, 0)
 }
 
+/// Names the texels that [`sample`] combines with a weight above 0: level, slice, row and column of each, in a fixed order. The
+/// border has none.
+pub fn touched(
+    image: &Image,
+    state: &SamplerState,
+    rules: &SampleRules,
+    coordinates: [u32; 4],
+    lod: Lod,
+    mut each: impl FnMut(u32, u32, u32, u32),
+) {
+    let pick = pick_levels(image, state, rules, lod);
+    let place = Place::new(image, coordinates);
+    let bits = rules.filter_fraction_bits.min(12);
+    let levels = if pick.weight == 0 { &pick.levels[..1] } else { &pick.levels[..] };
+    for &level in levels {
+        let taps = place.taps(image, state, pick.filter, level, bits);
+        for corner in 0..8 {
+            let index = |axis: usize| taps[axis].0[corner >> axis & 1];
+            let weighs = (0..3).all(|axis| corner >> axis & 1 == 0 || taps[axis].1 != 0);
+            if let (true, Some(slice), Some(y), Some(x)) = (weighs, index(2), index(1), index(0)) {
+                each(level, slice, y, x);
+            }
+        }
+    }
+}
+
 fn border_texel(image: &Image, state: &SamplerState, rules: &SampleRules) -> Texel {
     let raw = encode(image.format(), Format::FP32, state.border, TargetRounding::Nearest);
     decode(image.format(), raw, rules.signed_texel_minimum)

@@ -6,6 +6,7 @@
 //! All of it is whole numbers: clocks of a unit, and picoseconds on the common axis. The same events on the same profile
 //! give the same timeline to the last clock.
 
+pub mod cache;
 mod cost;
 mod error;
 pub mod host;

@@ -5,7 +5,7 @@
 use super::interpreter::{Interpreter, LANES};
 use super::operation::Vector;
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
-use crate::exec::Observer;
+use crate::exec::{Observer, TextureRead};
 use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
 use crate::num::{Format, Overflow, ops};
 use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
@@ -254,6 +254,9 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         } else {
             Lod::Base
         };
+        if O::READS && self.covered >> lane & 1 == 1 {
+            self.observer.reads(&TextureRead { sampler: stage, coordinates: coordinates[lane], lod });
+        }
         sample(Some(binding.image), &binding.state, &prepared.sample_rules, coordinates[lane], lod)
     }
 

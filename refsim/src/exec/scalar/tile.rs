@@ -3,10 +3,13 @@
 use super::pixel::{DepthValue, FragmentResult, PixelProgram};
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::trace::{as_written, canonical};
-use crate::exec::{CheckedProgram, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written, program};
+use crate::exec::{
+    CheckedProgram, NoObserver, Observer, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written, program,
+};
 use crate::num::Format;
 use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
 use crate::raster::{FragmentInput, PixelQuad, TriangleSetup};
+use crate::texture::Region;
 
 /// The scalar tile executor of one draw.
 pub struct ScalarTiles<'a> {
@@ -36,9 +39,31 @@ impl<'a> ScalarTiles<'a> {
         })
     }
 
-    fn shade(&self, triangle: &TriangleSetup, quad: &PixelQuad, tile: &mut TargetTile, counts: &mut FragmentCounts) {
+    /// Draws the part of one triangle that lies in a region of a tile, with an observer.
+    pub fn run_region<O: Observer>(
+        &self,
+        triangle: &TriangleSetup,
+        region: Region,
+        tile: &mut TargetTile,
+        observer: &mut O,
+    ) -> FragmentCounts {
+        let mut counts = FragmentCounts::default();
+        for quad in triangle.quads(region) {
+            self.shade(triangle, &quad, tile, &mut counts, observer);
+        }
+        counts
+    }
+
+    fn shade<O: Observer>(
+        &self,
+        triangle: &TriangleSetup,
+        quad: &PixelQuad,
+        tile: &mut TargetTile,
+        counts: &mut FragmentCounts,
+        observer: &mut O,
+    ) {
         let inputs = self.inputs(triangle, quad);
-        let results = self.program.run(&inputs, quad.mask, &mut counts.fetches);
+        let results = self.program.run_observed(&inputs, quad.mask, &mut counts.fetches, observer);
         for (lane, (result, input)) in results.iter().zip(&inputs).enumerate() {
             if quad.mask >> lane & 1 == 1 {
                 counts.generated += 1;
@@ -73,9 +98,7 @@ impl TileExecutor for ScalarTiles<'_> {
         let mut counts = FragmentCounts::default();
         let region = tile.region;
         for triangle in order.iter().filter_map(|&i| triangles.get(i as usize)) {
-            for quad in triangle.quads(region) {
-                self.shade(triangle, &quad, tile, &mut counts);
-            }
+            counts += self.run_region(triangle, region, tile, &mut NoObserver);
         }
         counts
     }

@@ -1,0 +1,150 @@
+//! Drawing in the order of the hardware, so that somebody can watch the texels go by.
+//!
+//! The bits are those of any draw: the scalar executor makes them. What differs is the order in which fragments come: primitive
+//! by primitive over the whole target, tile by tile within a primitive, quad by quad, on one thread.
+
+use super::record::Recorder;
+use super::validate::Plan;
+use super::vertices::{VertexStage, set_up};
+use super::walk::{ROUND, bytes, load};
+use super::{DrawCall, ExecutorKind, Machine, MachineError, TextureId, tile_draw};
+use crate::event::{DrawEvents, FragmentCounts, SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
+use crate::exec::scalar::ScalarTiles;
+use crate::exec::{Observer, SamplerBinding, Step, TILE, TextureRead, sample_rules};
+use crate::output::TargetTile;
+use crate::raster::{ComponentMask, TriangleSetup};
+use crate::texture::{Layout, Region, SampleRules, TexelMap, touched};
+use std::collections::BTreeMap;
+
+/// What textures in memory start at multiples of.
+const ALIGNMENT: u64 = 4096;
+
+/// Where the card keeps its textures, as far as that is known: in the order in which draws first read them.
+#[derive(Debug, Default)]
+pub(super) struct Addresses {
+    first: BTreeMap<TextureId, u64>,
+    free: u64,
+}
+
+impl Addresses {
+    /// The first byte of a texture of `size` bytes.
+    fn of(&mut self, texture: TextureId, size: u64) -> u64 {
+        *self.first.entry(texture).or_insert_with(|| {
+            let at = self.free;
+            self.free = (at + size).next_multiple_of(ALIGNMENT);
+            at
+        })
+    }
+}
+
+/// A bound texture and its place in memory.
+struct Bound<'a> {
+    binding: SamplerBinding<'a>,
+    map: TexelMap,
+    first: u64,
+}
+
+/// Passes the texels that a program reads on, by their addresses.
+struct Watch<'a> {
+    bound: [Option<Bound<'a>>; SAMPLERS],
+    rules: SampleRules,
+    observer: &'a mut dyn TexelObserver,
+}
+
+impl Observer for Watch<'_> {
+    const ACTIVE: bool = false;
+    const READS: bool = true;
+
+    fn executed(&mut self, _: &Step) {}
+
+    fn reads(&mut self, read: &TextureRead) {
+        let Some(Some(bound)) = self.bound.get(read.sampler) else { return };
+        let Bound { binding, map, first } = bound;
+        let (sampler, bytes) = (read.sampler as u8, map.texel_bytes());
+        touched(binding.image, &binding.state, &self.rules, read.coordinates, read.lod, |level, slice, y, x| {
+            let address = first + map.offset(level, slice, y, x);
+            self.observer.touch(&TexelTouch { sampler, address, bytes });
+        });
+    }
+}
+
+impl Machine {
+    /// From now on every draw is made in the order of the hardware, by the scalar executor, and the observer is told of each
+    /// texel that a fragment touches; what it makes of them goes into the draw's record in the log ([`Machine::record`]). The
+    /// bits stay the same, drawing takes longer. `None` goes back to the machine's own executor.
+    pub fn observe_textures(&mut self, observer: Option<Box<dyn TexelObserver>>) {
+        self.recorder.observer = observer;
+    }
+
+    /// Draws a checked call under observation.
+    pub(super) fn shade_observed(
+        &mut self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+    ) -> Result<(DrawEvents, [SamplerTraffic; SAMPLERS]), MachineError> {
+        #[cfg(feature = "wgpu")]
+        self.memory.bring_home(&call.targets, call.depth_buffer)?;
+        let (memory, profile) = (&self.memory, &self.profile);
+        let layout = if profile.rates.textures_tiled == Some(1) { Layout::Tiles } else { Layout::Rows };
+        let draw = tile_draw(profile, memory, call);
+        let Recorder { observer: Some(observer), addresses, .. } = &mut self.recorder else {
+            return Ok((self.shade(call, plan)?, [SamplerTraffic::default(); SAMPLERS]));
+        };
+        let mut bound = [const { None }; SAMPLERS];
+        for ((slot, binding), texture) in bound.iter_mut().zip(&draw.bindings.samplers).zip(&call.samplers) {
+            if let (Some(binding), Some(texture)) = (binding, texture) {
+                let map = TexelMap::new(layout, binding.image);
+                *slot = Some(Bound { binding: *binding, first: addresses.of(texture.texture, map.bytes()), map });
+            }
+        }
+        observer.begin();
+        let mut watch = Watch { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
+        let tiles = ScalarTiles::new(&draw);
+        let stage = VertexStage::new(call, &profile.rules, (ExecutorKind::Batch, None), ComponentMask::ALL);
+        let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
+        let region = plan.raster.scissor;
+        let empty = region.width == 0 || region.height == 0;
+        let mut target = if empty { None } else { Some(load(memory, call, region)?) };
+        let round = (ROUND / plan.triangles.len().max(1)).max(1);
+        let mut first = 0;
+        while first < plan.instance_count {
+            let count = round.min(plan.instance_count - first);
+            let batch = stage.run(first, count, plan);
+            events.vertices += batch.vertices.len() as u64;
+            events.vertex_instructions += batch.slots;
+            let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+            events.primitives += primitives;
+            if let Some(target) = &mut target {
+                for setup in &setups {
+                    events.fragments += over_tiles(&tiles, setup, target, &mut watch);
+                }
+            }
+            first += count;
+        }
+        events.bytes = bytes(memory, call, &stage, &events);
+        let traffic = watch.observer.end();
+        if let Some(target) = target {
+            self.memory.store(&target, &call.targets, call.depth_buffer)?;
+        }
+        Ok((events, traffic))
+    }
+}
+
+/// One triangle over the target, tile by tile.
+fn over_tiles(
+    tiles: &ScalarTiles<'_>,
+    setup: &TriangleSetup,
+    target: &mut TargetTile,
+    watch: &mut Watch<'_>,
+) -> FragmentCounts {
+    let mut counts = FragmentCounts::default();
+    let within = setup.bounds.intersect(target.region);
+    let step = TILE as usize;
+    for y in (within.y - within.y % TILE..within.y + within.height).step_by(step) {
+        for x in (within.x - within.x % TILE..within.x + within.width).step_by(step) {
+            let tile = Region { x, y, width: TILE, height: TILE }.intersect(within);
+            counts += tiles.run_region(setup, tile, target, watch);
+        }
+    }
+    counts
+}

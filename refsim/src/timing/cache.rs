@@ -1,0 +1,138 @@
+//! The texture cache: set-associative, the line that was used longest ago makes room.
+//!
+//! No geometry of these cards' caches has been published, so all of it is a guess of the profile; [`TextureCaches`] watches a
+//! draw with half, with all and with twice the stated size, so that the effect can be shown without drawing again.
+
+use super::TimingError;
+use crate::device::Profile;
+use crate::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
+use std::collections::BTreeSet;
+
+/// The smallest line: the largest texel fits.
+const LEAST_LINE: u64 = 16;
+/// The largest cache: more would be no cache of these cards.
+const MOST_BYTES: u64 = 1 << 26;
+
+/// One cache. It is empty at first.
+#[derive(Clone, Debug)]
+pub struct TextureCache {
+    line_bytes: u64,
+    ways: usize,
+    sets: u64,
+    /// Line numbers, plus one so that 0 is empty; the sets one after the other, the last used first.
+    lines: Vec<u64>,
+}
+
+impl TextureCache {
+    /// A cache of `bytes` in lines of `line_bytes`, of which an address can choose among `ways`.
+    ///
+    /// # Errors
+    /// [`TimingError::CacheShape`] unless lines are a power of two of at least 16 bytes and the size, at most 64 MiB, is a whole
+    /// number of sets.
+    pub fn new(bytes: u64, line_bytes: u64, ways: u64) -> Result<Self, TimingError> {
+        let error = TimingError::CacheShape { bytes, line_bytes, ways };
+        let set = line_bytes.checked_mul(ways).filter(|&set| set > 0).ok_or(error.clone())?;
+        let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MOST_BYTES;
+        if !fits || bytes == 0 || bytes % set != 0 {
+            return Err(error);
+        }
+        let lines = vec![0; (bytes / line_bytes) as usize];
+        Ok(Self { line_bytes, ways: ways as usize, sets: bytes / set, lines })
+    }
+
+    /// Asks for the line of an address. Whether it was there; if not, it is now.
+    pub fn access(&mut self, address: u64) -> bool {
+        let number = address / self.line_bytes;
+        let set = (number % self.sets) as usize * self.ways;
+        let Some(ways) = self.lines.get_mut(set..set + self.ways) else { return false };
+        let mark = number + 1;
+        let found = ways.iter().position(|&way| way == mark);
+        // What was there moves to the front; else the last falls out.
+        let last = found.unwrap_or(ways.len() - 1);
+        ways[..=last].rotate_right(1);
+        ways[0] = mark;
+        found.is_some()
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.lines.fill(0);
+    }
+
+    /// Bytes of a line.
+    pub fn line_bytes(&self) -> u64 {
+        self.line_bytes
+    }
+}
+
+/// Watches draws through a card's texture cache, at half its size, at its size and at twice its size. All samplers share it. It is
+/// empty when a draw begins: what the draw before left could be stale, and a driver of the time emptied it with the state.
+#[derive(Clone, Debug)]
+pub struct TextureCaches {
+    caches: [TextureCache; 3],
+    traffic: [SamplerTraffic; SAMPLERS],
+    lines: [BTreeSet<u64>; SAMPLERS],
+    /// The last line of each sampler: asking again hits.
+    last: [Option<u64>; SAMPLERS],
+}
+
+impl TextureCaches {
+    /// The cache of a device.
+    ///
+    /// # Errors
+    /// [`TimingError::Missing`] if the device states none, [`TimingError::CacheShape`] if it is impossible.
+    pub fn new(profile: &Profile) -> Result<Self, TimingError> {
+        let figure = |figure: &'static str| {
+            profile.rates.figure(figure).ok_or_else(|| TimingError::Missing {
+                device: profile.name.clone(),
+                figure,
+                have: Profile::card_names().join(" "),
+            })
+        };
+        let bytes = figure("texture_cache_bytes")?;
+        let line = figure("texture_cache_line_bytes")?;
+        let ways = figure("texture_cache_ways")?;
+        let whole = TextureCache::new(bytes, line, ways)?;
+        // Of a cache of one set, half has half the ways.
+        let half =
+            TextureCache::new(bytes / 2, line, ways).or_else(|_| TextureCache::new(bytes / 2, line, ways / 2))?;
+        let double = TextureCache::new(bytes.saturating_mul(2), line, ways)?;
+        Ok(Self {
+            caches: [half, whole, double],
+            traffic: [SamplerTraffic::default(); SAMPLERS],
+            lines: std::array::from_fn(|_| BTreeSet::new()),
+            last: [None; SAMPLERS],
+        })
+    }
+}
+
+impl TexelObserver for TextureCaches {
+    fn begin(&mut self) {
+        self.caches.iter_mut().for_each(TextureCache::clear);
+        self.traffic = [SamplerTraffic::default(); SAMPLERS];
+        self.lines.iter_mut().for_each(BTreeSet::clear);
+        self.last = [None; SAMPLERS];
+    }
+
+    fn touch(&mut self, texel: &TexelTouch) {
+        let sampler = usize::from(texel.sampler) % SAMPLERS;
+        let traffic = &mut self.traffic[sampler];
+        traffic.accesses += 1;
+        traffic.requests += 1;
+        for (cache, misses) in self.caches.iter_mut().zip(&mut traffic.misses) {
+            *misses += u64::from(!cache.access(texel.address));
+        }
+        let line = texel.address / self.caches[1].line_bytes;
+        if self.last[sampler] != Some(line) {
+            self.last[sampler] = Some(line);
+            self.lines[sampler].insert(line);
+        }
+    }
+
+    fn end(&mut self) -> [SamplerTraffic; SAMPLERS] {
+        for (traffic, lines) in self.traffic.iter_mut().zip(&self.lines) {
+            traffic.distinct = lines.len() as u64;
+        }
+        self.traffic
+    }
+}
