@@ -16,6 +16,7 @@ mod out;
 mod pixel;
 mod progress;
 mod render;
+mod reproduce;
 mod run;
 mod size;
 mod switch;
@@ -89,6 +90,7 @@ enum Command {
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
     Render(render::Args),
+    Reproduce(reproduce::Args),
     Run(run::Args),
 }
 
@@ -135,6 +137,7 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => leaky_teapot::run(&args, out),
         Command::Render(args) => render::run(&args, out),
+        Command::Reproduce(args) => reproduce::run(&args, out),
         Command::Run(args) => run::run(&args, out),
     }
 }

@@ -3,4 +3,5 @@
 pub mod configuration;
 pub mod leaky_teapot;
 pub mod leaky_teapot_report;
+pub mod reproduce;
 pub mod shade;

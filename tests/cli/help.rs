@@ -2,7 +2,7 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] = &["alu", "check", "compare", "devices", "intersect", "leaky-teapot", "render", "run"];
+const COMMANDS: &[&str] = &["alu", "check", "compare", "devices", "intersect", "leaky-teapot", "render", "reproduce", "run"];
 
 #[test]
 fn program() {

@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod devices;
 mod help;
+mod reproduce;
 mod tracing;
 
 use std::{

@@ -1,3 +1,4 @@
 //! What the papers print, and what follows from it.
 
 mod ray_engine;
+mod reproduce;

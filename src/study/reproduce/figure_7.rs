@@ -1,0 +1,84 @@
+//! Figure 7: tests a second by the number of triangles; and the least number at which a card pays.
+
+use super::equation_11::{GAMMAS, MEGA, rates};
+use super::{Findings, NamedChart, ReproduceError, pipeline};
+use crate::ray_engine::model::CostRates;
+use crate::report::{Chart, Line, Table};
+
+/// The cards of the figure, with their names in it.
+const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
+/// Triangles of the table.
+const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
+/// Triangles of the plot.
+const PLOTTED: u32 = 50;
+/// Tests a second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
+const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];
+
+pub(super) fn findings() -> Result<Findings, ReproduceError> {
+    let mut tests =
+        Table::new("Millions of ray-triangle tests a second", &["device", "gamma_B", "triangles", "rates", "pipeline"]);
+    let mut limits = Table::new(
+        "Where a card pays: T_min by the host's tests a second",
+        &["device", "gamma_B", "half_rate_T", "T_min_20M", "T_min_40M", "T_min_80M", "T_min_200M"],
+    );
+    let mut charts = Vec::new();
+    for gamma in GAMMAS {
+        let mut lines = Vec::new();
+        for (device, title) in CARDS {
+            let card = rates(device)?;
+            let pipeline = pipeline_rates(device)?;
+            for triangles in TRIANGLES {
+                let of = |rates: &CostRates| rounded(rates.tests_per_s(f64::from(triangles), gamma) / MEGA);
+                tests.push([device.into(), gamma.into(), triangles.into(), of(&card).into(), of(&pipeline).into()]);
+            }
+            let least = HOSTS.map(|host| card.least_triangles(host, gamma).into());
+            limits.push(
+                [device.into(), gamma.into(), rounded(card.half_rate_triangles(gamma)).into()].into_iter().chain(least),
+            );
+            lines.push(line(format!("{title}, equation 11"), &card, gamma));
+            lines.push(line(format!("{title}, pipeline model"), &pipeline, gamma));
+        }
+        charts.push(chart(gamma, lines));
+    }
+    Ok(Findings {
+        text: vec![
+            "The paper's figure is for 4 bytes a ray; the same is shown for 16. T_min is the least number of triangles at which \
+             equation 11 is not slower than a host of so many tests a second; half_rate_T is where drawing and reading back \
+             take equally long."
+                .to_owned(),
+        ],
+        rows: Vec::new(),
+        tables: vec![tests, limits],
+        charts,
+    })
+}
+
+/// Equation 11 with the pipeline model's own fill and read-back rates.
+fn pipeline_rates(device: &str) -> Result<CostRates, ReproduceError> {
+    Ok(CostRates {
+        fill_pixels_per_s: pipeline::dual_textured(device)?.pixels_per_s(),
+        readback_bytes_per_s: pipeline::results_per_s(device, 1.0)?,
+    })
+}
+
+fn rounded(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+fn line(label: String, card: &CostRates, gamma: f64) -> Line {
+    let point = |t: u32| (f64::from(t), card.tests_per_s(f64::from(t), gamma) / MEGA);
+    Line { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
+}
+
+fn chart(gamma: f64, lines: Vec<Line>) -> NamedChart {
+    NamedChart {
+        name: if gamma == GAMMAS[0] { "figure-7-gamma-4" } else { "figure-7-gamma-16" },
+        chart: Chart {
+            title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
+            x: "triangles T".to_owned(),
+            y: "M tests/s".to_owned(),
+            lines,
+        },
+        caption: format!("Figure 7 of the Ray Engine paper for gamma = {gamma}, in both models."),
+    }
+}

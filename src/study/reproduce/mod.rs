@@ -1,0 +1,153 @@
+//! The papers' printed figures beside ours: one file an entry, each a list of rows with tables and charts.
+//!
+//! Every row has the printed value, what the rates model gives (the paper's own cost equation) and what the pipeline model
+//! gives (first principles), and says which printed figures went into it. No figure is fitted silently.
+
+mod equation_11;
+mod figure_7;
+mod pipeline;
+mod radeon_8500;
+pub mod report;
+mod row;
+mod vertex_variant;
+
+use refsim::device::{DeviceError, Profile};
+use refsim::timing::TimingError;
+
+use crate::ray_engine::EngineError;
+use crate::report::{Chart, Table};
+
+pub use row::{Judgement, Modelled, Printed, Row, TOLERANCE};
+
+/// Why a figure could not be worked out.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum ReproduceError {
+    /// No such entry.
+    #[error("expected the name of an entry ({}), found `{found}`", names().join(", "))]
+    #[diagnostic(code(reproduce::unknown), help("`crossbar reproduce --list` says what each is"))]
+    Unknown {
+        /// The name given.
+        found: String,
+    },
+    /// A profile lacks a figure that the paper's cost equation needs.
+    #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
+    #[diagnostic(code(reproduce::no_figure))]
+    NoFigure {
+        /// The device.
+        device: String,
+        /// The figure's path.
+        figure: &'static str,
+    },
+    /// A device cannot be had.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
+    /// The Ray Engine could not run.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Engine(#[from] EngineError),
+    /// The timing model lacks a figure.
+    #[error(transparent)]
+    #[diagnostic(code(reproduce::timing))]
+    Timing(#[from] TimingError),
+    /// A machine refuses a draw of an entry, or a program of an entry does not assemble.
+    #[error("a run of this entry failed on `{device}`: {reason}")]
+    #[diagnostic(code(reproduce::run), help("this is a bug: please report it with the command line"))]
+    Run {
+        /// The device.
+        device: String,
+        /// What was said.
+        reason: String,
+    },
+}
+
+/// A chart, the name of its file, and what stands under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedChart {
+    /// File name without folder and ending.
+    pub name: &'static str,
+    /// The chart.
+    pub chart: Chart,
+    /// What stands under it.
+    pub caption: String,
+}
+
+/// What one entry found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// How it was done, as paragraphs.
+    pub text: Vec<String>,
+    /// Printed figures beside ours.
+    pub rows: Vec<Row>,
+    /// What else there is to show.
+    pub tables: Vec<Table>,
+    /// Plots.
+    pub charts: Vec<NamedChart>,
+}
+
+/// A table or figure of a paper.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The name on the command line.
+    pub id: &'static str,
+    /// What it is, and where it is printed.
+    pub title: &'static str,
+    work: fn() -> Result<Findings, ReproduceError>,
+}
+
+impl Entry {
+    /// Works it out.
+    ///
+    /// # Errors
+    /// [`ReproduceError`].
+    pub fn reproduce(&self) -> Result<Findings, ReproduceError> {
+        (self.work)()
+    }
+}
+
+/// All entries, in the order of the papers.
+pub const ENTRIES: &[Entry] = &[
+    Entry {
+        id: "radeon-8500",
+        title: "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)",
+        work: radeon_8500::findings,
+    },
+    Entry {
+        id: "vertex-variant",
+        title: "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)",
+        work: vertex_variant::findings,
+    },
+    Entry {
+        id: "equation-11",
+        title: "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
+        work: equation_11::findings,
+    },
+    Entry {
+        id: "figure-7",
+        title: "Tests a second by the number of triangles (Ray Engine, figure 7)",
+        work: figure_7::findings,
+    },
+];
+
+/// The entries' names.
+pub fn names() -> Vec<&'static str> {
+    ENTRIES.iter().map(|entry| entry.id).collect()
+}
+
+/// The entries of these names in the order of [`ENTRIES`]; all of them for none.
+///
+/// # Errors
+/// [`ReproduceError::Unknown`].
+pub fn choose(wanted: &[String]) -> Result<Vec<Entry>, ReproduceError> {
+    if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
+        return Err(ReproduceError::Unknown { found: found.clone() });
+    }
+    let chosen = |entry: &&Entry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
+    Ok(ENTRIES.iter().filter(chosen).copied().collect())
+}
+
+/// A figure that an entry cannot do without.
+fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, ReproduceError> {
+    let missing = || ReproduceError::NoFigure { device: profile.name.clone(), figure: name };
+    Ok(value.ok_or_else(missing)? as f64)
+}

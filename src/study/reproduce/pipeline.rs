@@ -1,0 +1,152 @@
+//! Runs on the emulated cards, timed by the pipeline model.
+
+use std::fmt::Display;
+
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::Profile;
+use refsim::event::{DrawRecord, Event};
+use refsim::exec::Constants;
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{Image, SamplerState, TexelFormat};
+use refsim::timing::{DrawCost, Level, Model};
+
+use super::ReproduceError;
+use crate::report::{Cell, Table};
+
+/// Sides of the screen and of its textures, in pixels. The paper does not say its own; the rate hardly depends on it.
+const SIDE: u32 = 256;
+/// Quads of a draw that measures a fill rate: enough that filling and draining the pipeline does not show.
+const QUADS: usize = 64;
+/// Two textures a pixel, as the ray origins and directions are, and what a ps_1_1 card can do with them in one clock.
+const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
+
+/// A draw with its cost.
+pub(super) struct Timed {
+    pub(super) record: DrawRecord,
+    pub(super) cost: DrawCost,
+}
+
+impl Timed {
+    /// Fragments a second.
+    pub(super) fn pixels_per_s(&self) -> f64 {
+        self.record.counts.fragments.generated as f64 / self.cost.total.seconds()
+    }
+}
+
+/// Why a run could not be made, as an entry's error.
+pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> ReproduceError + '_ {
+    move |reason| ReproduceError::Run { device: device.to_owned(), reason: reason.to_string() }
+}
+
+/// The pipeline model of a card.
+pub(super) fn model(device: &str) -> Result<Model, ReproduceError> {
+    Ok(Model::new(Level::Pipeline, &Profile::named(device)?)?)
+}
+
+/// The costliest draw of a log, timed.
+pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<Timed, ReproduceError> {
+    let model = model(device)?;
+    let draws = log.into_iter().filter_map(|event| match event {
+        Event::Draw(record) => Some(Timed { cost: model.draw(&record), record: *record }),
+        _ => None,
+    });
+    draws.max_by_key(|draw| draw.cost.total).ok_or_else(|| failed(device)(&"no draw was recorded"))
+}
+
+/// Screen-filling quads with two textures of the screen's size, tested and written.
+pub(super) fn dual_textured(device: &str) -> Result<Timed, ReproduceError> {
+    timed(device, screen_quads(device, QUADS)?)
+}
+
+/// Results that read-back allows, `gamma` bytes each, a screen at a time.
+pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, ReproduceError> {
+    let rays = f64::from(SIDE * SIDE);
+    Ok(rays / model(device)?.read_back((rays * gamma) as u64).seconds())
+}
+
+/// Equation 11's left side, run: quads for so many triangles over a screen of rays, then the read-back.
+pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, ReproduceError> {
+    let drawn = timed(device, screen_quads(device, triangles as usize)?)?;
+    let rays = f64::from(SIDE * SIDE);
+    let back = model(device)?.read_back((rays * gamma) as u64);
+    Ok(triangles * rays / (drawn.cost.total + back).seconds())
+}
+
+/// What a dual-textured pixel costs each unit of some cards.
+pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
+    let mut table = Table::new(
+        "A dual-textured pixel in the pipeline model",
+        &[
+            "device",
+            "texture_B",
+            "depth_B",
+            "color_B",
+            "arithmetic_clocks",
+            "texture_clocks",
+            "output_clocks",
+            "memory_clocks",
+            "bound_by",
+        ],
+    );
+    for &device in devices {
+        let drawn = dual_textured(device)?;
+        let clocks = model(device)?.clocks(&drawn.record);
+        let pixels = drawn.record.counts.fragments.generated as f64;
+        let each = |total: u64| -> Cell { ((total as f64 / pixels * 1000.0).round() / 1000.0).into() };
+        table.push([
+            device.into(),
+            each(clocks.traffic.textures),
+            each(clocks.traffic.depth),
+            each(clocks.traffic.color),
+            each(clocks.arithmetic.0),
+            each(clocks.textures.0),
+            each(clocks.output.0),
+            each(clocks.memory.0),
+            format!("{:?}", drawn.cost.bottleneck).to_lowercase().into(),
+        ]);
+    }
+    Ok(table)
+}
+
+/// The log of one draw of so many quads over the screen.
+fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError> {
+    let fail = failed(device);
+    let profile = Profile::named(device)?;
+    let program = assemble(DUAL_TEXTURED).map_err(|e| fail(&e))?;
+    let program = check(program, &profile).map_err(|e| fail(&e))?;
+    let mut machine = Machine::new(profile, ExecutorKind::Batch);
+    machine.record(true);
+    let draw = |machine: &mut Machine| -> Result<(), refsim::machine::MachineError> {
+        let target = machine.create_target(TexelFormat::Bgra8, SIDE, SIDE)?;
+        let depth = machine.create_depth(DepthFormat::Unorm24, SIDE, SIDE)?;
+        let textures = [(); 2].map(|()| Image::new_2d(TexelFormat::Bgra8, SIDE, SIDE));
+        let vertices: Vec<Vertex> = (0..quads).flat_map(|_| quad()).collect();
+        let constants = Constants::default();
+        let source = VertexSource::Transformed(&vertices);
+        let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
+        for (stage, image) in textures.into_iter().enumerate() {
+            call = call.with_texture(stage, machine.create_texture(image?)?, SamplerState::NEAREST_CLAMP);
+        }
+        call.center = PixelCenter::OpenGl;
+        call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
+        call.depth_buffer = Some(depth);
+        machine.draw(&call)?;
+        Ok(())
+    };
+    draw(&mut machine).map_err(|e| fail(&e))?;
+    Ok(machine.take_log())
+}
+
+/// A quad over the whole screen; coordinate sets 0 and 1 go with it.
+fn quad() -> [Vertex; 4] {
+    [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
+        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
+        for set in 0..2 {
+            vertex.texcoords[set] = [0.5 + 0.5 * x, 0.5 - 0.5 * y, 0.0, 1.0].map(f32::to_bits);
+        }
+        vertex
+    })
+}

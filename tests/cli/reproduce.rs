@@ -1,0 +1,31 @@
+//! `crossbar reproduce`.
+
+use crate::{crossbar, crossbar_in};
+
+#[test]
+fn the_list_says_what_there_is() {
+    insta::assert_snapshot!(crossbar(&["reproduce", "--list"], "").transcript());
+}
+
+#[test]
+fn an_unknown_entry_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = crossbar_in(folder.path(), &["reproduce", "table-9"], "");
+    assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 0);
+    insta::assert_snapshot!(ran.transcript());
+}
+
+/// The figures themselves: whoever changes the model sees here what it does to them.
+#[test]
+fn the_rows_are_these() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = crossbar_in(folder.path(), &["reproduce", "--json", "--out", "found"], "");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(document["rows"].as_array().map(Vec::len), Some(11));
+    let file = |name: &str| std::fs::read_to_string(folder.path().join("found").join(name)).expect("it was written");
+    assert!(file("index.html").contains("<svg") && file("figure-7-gamma-4.svg").starts_with("<svg"));
+    let written: serde_json::Value = serde_json::from_str(&file("reproduce.json")).expect("JSON");
+    assert_eq!(written["rows"], document["rows"]);
+    insta::assert_snapshot!(file("rows.csv"));
+}
