@@ -7,3 +7,4 @@ mod ground_truth;
 mod models;
 mod octree;
 mod ray_tree;
+mod timing;

@@ -1,3 +1,4 @@
 //! Stored bits: they fail when they change.
 
 mod leaky_teapot;
+mod timing;
