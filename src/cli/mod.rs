@@ -20,6 +20,7 @@ mod reproduce;
 mod run;
 mod size;
 mod switch;
+mod timeline;
 mod view;
 mod words;
 
@@ -92,6 +93,7 @@ enum Command {
     Render(render::Args),
     Reproduce(reproduce::Args),
     Run(run::Args),
+    Timeline(timeline::Args),
 }
 
 /// Runs the program on the arguments of the process.
@@ -139,5 +141,6 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
         Command::Render(args) => render::run(&args, out),
         Command::Reproduce(args) => reproduce::run(&args, out),
         Command::Run(args) => run::run(&args, out),
+        Command::Timeline(args) => timeline::run(&args, out),
     }
 }

@@ -111,20 +111,5 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.
 fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
-    let Size { width, height } = args.size;
-    let Some([low, high]) = mesh.bounds() else {
-        return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
-    };
-    let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
-    let target = args.target.unwrap_or(middle);
-    let eye = args.eye.unwrap_or_else(|| {
-        let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
-        let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
-        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius / distance.
-        let tangent = f64::from(args.tan_half_height);
-        let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
-        let way = [0.3, -0.8, 0.52];
-        [0, 1, 2].map(|i| (f64::from(target[i]) + distance * way[i]) as f32)
-    });
-    Camera::new(eye, target, args.up, args.tan_half_height, width, height).into_diagnostic()
+    view::framing(mesh, args.size, args.tan_half_height, (args.eye, args.target, args.up))
 }

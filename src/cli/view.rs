@@ -3,11 +3,15 @@
 use std::path::Path;
 
 use clap::ValueEnum;
+use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
 use super::Problem;
+use super::size::Size;
+use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
+use crate::scene::Camera;
 
 /// Which faces can be hit.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -53,6 +57,33 @@ pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
     Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
         .into()
+}
+
+/// Where a camera stands, what it looks at, and what is up.
+pub(super) type Stand = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
+
+/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh, without a target, at its middle.
+pub(super) fn framing(
+    mesh: &Mesh,
+    size: Size,
+    tan_half_height: f32,
+    (eye, target, up): Stand,
+) -> miette::Result<Camera> {
+    let Some([low, high]) = mesh.bounds() else {
+        return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
+    };
+    let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
+    let target = target.unwrap_or(middle);
+    let eye = eye.unwrap_or_else(|| {
+        let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
+        let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
+        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius / distance.
+        let tangent = f64::from(tan_half_height);
+        let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
+        let way = [0.3, -0.8, 0.52];
+        [0, 1, 2].map(|i| (f64::from(target[i]) + distance * way[i]) as f32)
+    });
+    Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic()
 }
 
 /// Writes all files of a result, or none.

@@ -2,7 +2,8 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] = &["alu", "check", "compare", "devices", "intersect", "leaky-teapot", "render", "reproduce", "run"];
+const COMMANDS: &[&str] =
+    &["alu", "check", "compare", "devices", "intersect", "leaky-teapot", "render", "reproduce", "run", "timeline"];
 
 #[test]
 fn program() {

@@ -8,6 +8,8 @@ mod compare;
 mod devices;
 mod help;
 mod reproduce;
+mod timeline;
+mod trace_format;
 mod tracing;
 
 use std::{

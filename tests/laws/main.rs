@@ -4,6 +4,7 @@ mod cases;
 mod comparing;
 mod geometry;
 mod ground_truth;
+mod logs;
 mod models;
 mod octree;
 mod ray_tree;

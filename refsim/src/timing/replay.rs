@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::host::{HostError, HostModel, Operation};
 use super::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ResourceId};
 use super::timeline::Timeline;
-use super::{DrawCost, Picoseconds};
+use super::{DrawCost, Level, Model, Picoseconds};
 use crate::event::{self, DrawRecord, Event, FenceId, ReadBackMode};
 
 /// How long a card and its bus need for what a log asks of them.
@@ -34,6 +34,37 @@ pub struct Options<'a> {
     pub double_buffered: bool,
     /// What host work costs; without a model it costs nothing, and [`Replay::uncosted`] counts it.
     pub host: Option<&'a HostModel>,
+}
+
+impl Options<'_> {
+    /// What goes with a model: the rates, like the paper's equation 11, know nothing of what commands cost the host.
+    pub fn of(level: Level) -> Self {
+        let queue = QueueFigures::default();
+        let queue = if level == Level::Rates { queue.without_overhead() } else { queue };
+        Self { queue, ..Self::default() }
+    }
+}
+
+impl Costs for Model {
+    fn draw(&self, record: &DrawRecord) -> DrawCost {
+        self.draw(record)
+    }
+
+    fn upload(&self, bytes: u64) -> Picoseconds {
+        self.upload(bytes)
+    }
+
+    fn read_back(&self, bytes: u64) -> Picoseconds {
+        self.read_back(bytes)
+    }
+
+    fn clear(&self, bytes: u64) -> Picoseconds {
+        self.clear(bytes)
+    }
+
+    fn state(&self, changes: u32) -> Picoseconds {
+        self.state_change(changes)
+    }
 }
 
 /// A log that can't be replayed.

@@ -23,8 +23,8 @@ Examples:
       and shows what every instruction wrote at column 2, row 2
 
 docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \
-EXR. The counts say how much work there was, in instruction slots and bytes; the timing model, which says how long a \
-card takes, is to come.
+EXR. The counts say how much work there was, in instruction slots and bytes; `crossbar timeline` says how long a card \
+takes.
 
 Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case cannot be run.";
 

@@ -1,0 +1,136 @@
+//! What is timed, and the timing of it.
+
+use std::path::Path;
+
+use miette::IntoDiagnostic as _;
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::ExecutorKind;
+use refsim::timing::replay::{Options, Replay, replay};
+use refsim::timing::{Level, Model};
+
+use super::Args;
+use super::sensitivity::{Sensitivity, sensitivity};
+use crate::case::{self, Overrides, Setup};
+use crate::cli::size::Size;
+use crate::cli::{Problem, view};
+use crate::geom::Mesh;
+use crate::geom::exact::Sides;
+use crate::geom::teapot::teapot;
+use crate::io::obj::load_obj;
+use crate::ray_engine::{Crossbar, RayBatch};
+use crate::scene::Camera;
+
+/// The card where rays are cast and none is named.
+const DEFAULT_DEVICE: &str = "r200";
+/// Quads along each side of each patch of the teapot.
+const TESSELLATION: u32 = 8;
+/// Tangent of half the vertical field of view, for meshes.
+const TANGENT: f32 = 0.375;
+
+/// What is timed.
+pub(super) enum Input {
+    Case(Box<Setup>),
+    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
+}
+
+impl Input {
+    pub(super) fn read(args: &Args) -> miette::Result<Self> {
+        let device = args.device.as_deref().map(Profile::named).transpose()?;
+        match (&args.case, args.rays) {
+            (Some(case), None) => {
+                let overrides = Overrides { device, ..Overrides::default() };
+                Ok(Self::Case(Box::new(Setup::read_with(case, &overrides)?)))
+            }
+            (None, Some(size)) => {
+                let profile = device.map_or_else(|| Profile::named(DEFAULT_DEVICE), Ok)?;
+                let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
+                let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
+                Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })
+            }
+            _ => Err(Problem::usage("expected a case or `--rays`", "name one of them").into()),
+        }
+    }
+
+    pub(super) fn profile(&self) -> &Profile {
+        match self {
+            Self::Case(setup) => &setup.profile,
+            Self::Rays { profile, .. } => profile,
+        }
+    }
+
+    /// What people call it.
+    pub(super) fn title(&self) -> String {
+        match self {
+            Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
+            Self::Rays { mesh, rays, name, .. } => {
+                format!("{}x{} rays on {name}, {} triangles", rays.width(), rays.height(), mesh.len())
+            }
+        }
+    }
+
+    /// Rays, where there are any.
+    pub(super) fn rays(&self) -> Option<u64> {
+        match self {
+            Self::Case(_) => None,
+            Self::Rays { rays, .. } => Some(rays.rays().len() as u64),
+        }
+    }
+
+    /// What is asked of the card.
+    pub(super) fn log(&self) -> miette::Result<Vec<Event>> {
+        match self {
+            Self::Case(setup) => Ok(case::log(setup, ExecutorKind::Batch)?),
+            Self::Rays { profile, mesh, rays, .. } => {
+                let crossbar = Crossbar::new(profile.as_ref().clone(), ExecutorKind::Batch);
+                Ok(crossbar.intersect_recorded(mesh, rays, Sides::Front)?.log)
+            }
+        }
+    }
+}
+
+/// A mesh, a camera that sees it, and a name for both.
+fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, String)> {
+    match mesh {
+        Some(path) => {
+            let mesh = load_obj(path)?;
+            let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
+            Ok((mesh, camera, path.display().to_string()))
+        }
+        None => {
+            let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
+            Ok((teapot(TESSELLATION).into_diagnostic()?, camera, "the teapot".to_owned()))
+        }
+    }
+}
+
+/// One model's view of a log.
+pub(super) struct Timed {
+    pub(super) model: Model,
+    pub(super) replay: Replay,
+    /// Empty unless it was asked for.
+    pub(super) sensitivity: Vec<Sensitivity>,
+}
+
+impl Timed {
+    pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
+        let model = Model::new(level, input.profile())
+            .map_err(|error| Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures"))?;
+        let options = Options {
+            read_back: args.readback.map(Into::into),
+            double_buffered: args.double_buffer,
+            ..Options::of(level)
+        };
+        let replay = replay(log, &model, &options)?;
+        let sensitivity = if args.sensitivity { sensitivity(&model, log, &options)? } else { Vec::new() };
+        Ok(Self { model, replay, sensitivity })
+    }
+
+    /// `rates` or `pipeline`.
+    pub(super) fn name(&self) -> &'static str {
+        match self.model.level() {
+            Level::Rates => "rates",
+            Level::Pipeline => "pipeline",
+        }
+    }
+}

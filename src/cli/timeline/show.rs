@@ -1,0 +1,248 @@
+//! The tables of a timeline, and the document for machines.
+
+use refsim::event::{DrawRecord, Event};
+use refsim::timing::timeline::Usage;
+use refsim::timing::{Bottleneck, DrawCost, Picoseconds};
+use serde_json::{Value, json};
+
+use super::run::{Input, Timed};
+use super::{Args, ReadBackArg};
+use crate::cli::Out;
+use crate::report::{Cell, Table};
+
+/// Draws that the table shows; the document has all.
+const MOST_DRAWS: usize = 16;
+
+pub(super) fn print(args: &Args, input: &Input, log: &[Event], timed: &[Timed], out: &mut Out) -> miette::Result<()> {
+    let profile = input.profile();
+    out.line(input.title())?;
+    out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
+    for one in timed {
+        out.line("")?;
+        out.line(format_args!("Model: {}", one.name()))?;
+        for table in [draws(log, one), units(one), shares(one)] {
+            out.line("")?;
+            out.line(table.title())?;
+            out.line(table.text())?;
+        }
+        if args.sensitivity {
+            out.line("")?;
+            let table = guesses(one);
+            out.line(table.title())?;
+            out.line(if table.rows().is_empty() { "none".to_owned() } else { table.text() })?;
+        }
+        if one.replay.uncosted > 0 {
+            let operations = one.replay.uncosted;
+            out.line(format_args!(
+                "{operations} operations of the host cost nothing here: no run has calibrated them"
+            ))?;
+        }
+    }
+    out.line("")?;
+    out.line("Totals")?;
+    out.line(totals(input, log, timed).text())?;
+    if let Some(path) = &args.trace {
+        out.line(format_args!("wrote {}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Exact: a microsecond has a million picoseconds, and a double many digits.
+fn us(time: Picoseconds) -> Cell {
+    Cell::Real(time.0 as f64 / 1e6)
+}
+
+/// In per cent, to the nearest tenth.
+fn percent(part: i128, whole: Picoseconds) -> Cell {
+    let whole = i128::from(whole.0.max(1));
+    Cell::Real(((part * 2000 + whole * part.signum()) / (2 * whole)) as f64 / 10.0)
+}
+
+/// A part of a total.
+fn share(part: Picoseconds, whole: Picoseconds) -> Cell {
+    percent(part.0.into(), whole)
+}
+
+/// The change of a total.
+fn change(from: Picoseconds, to: Picoseconds) -> Cell {
+    percent(i128::from(to.0) - i128::from(from.0), from)
+}
+
+/// The draws of a log, each with its cost.
+fn costs<'a>(log: &'a [Event], timed: &'a Timed) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
+    let records = log.iter().filter_map(|event| match event {
+        Event::Draw(record) => Some(record.as_ref()),
+        _ => None,
+    });
+    records.zip(&timed.replay.draws)
+}
+
+fn draws(log: &[Event], timed: &Timed) -> Table {
+    let headings = ["draw", "triangles", "fragments", "front end", "shader", "memory", "total", "clocks", "bound by"];
+    let count = timed.replay.draws.len();
+    let title = if count > MOST_DRAWS { format!("Draws, {MOST_DRAWS} of {count}") } else { "Draws".to_owned() };
+    let mut table = Table::new(title, &headings);
+    for (number, (record, cost)) in costs(log, timed).take(MOST_DRAWS).enumerate() {
+        table.push([
+            number.into(),
+            record.counts.primitives.rasterised.into(),
+            record.counts.fragments.generated.into(),
+            us(cost.front_end),
+            us(cost.shader),
+            us(cost.memory),
+            us(cost.total),
+            cost.core_clocks.0.into(),
+            bottleneck(cost.bottleneck).into(),
+        ]);
+    }
+    table
+}
+
+const fn bottleneck(bottleneck: Bottleneck) -> &'static str {
+    match bottleneck {
+        Bottleneck::Overhead => "overhead",
+        Bottleneck::Vertices => "vertices",
+        Bottleneck::Setup => "set-up",
+        Bottleneck::Arithmetic => "arithmetic",
+        Bottleneck::Textures => "textures",
+        Bottleneck::Output => "output",
+        Bottleneck::Memory => "memory",
+        Bottleneck::Rate => "rate",
+    }
+}
+
+fn units(timed: &Timed) -> Table {
+    let whole = timed.replay.timeline.makespan();
+    let mut table = Table::new("Units", &["unit", "busy", "waiting", "idle", "busy %", "waits for"]);
+    for Usage { unit, busy, waiting, idle, reasons } in timed.replay.timeline.usage() {
+        let reasons: Vec<String> =
+            reasons.iter().map(|(reason, time)| format!("{reason} {}", us(*time).text())).collect();
+        table.push([
+            unit.to_string().into(),
+            us(busy),
+            us(waiting),
+            us(idle),
+            share(busy, whole),
+            reasons.join(", ").into(),
+        ]);
+    }
+    table
+}
+
+fn shares(timed: &Timed) -> Table {
+    let whole = timed.replay.timeline.makespan();
+    let mut table = Table::new("Critical path: where the time went", &["unit", "with", "pieces", "time", "%"]);
+    for part in timed.replay.timeline.where_the_time_went() {
+        table.push([
+            part.unit.to_string().into(),
+            part.kind.to_string().into(),
+            part.segments.into(),
+            us(part.time),
+            share(part.time, whole),
+        ]);
+    }
+    table
+}
+
+fn guesses(timed: &Timed) -> Table {
+    let whole = timed.replay.timeline.makespan();
+    let headings = ["guess", "value", "halved", "change %", "doubled", "change %"];
+    let mut table = Table::new("Guesses: the total with half and with twice the figure", &headings);
+    for row in &timed.sensitivity {
+        let (halved, doubled) = (row.halved, row.doubled);
+        table.push([
+            row.key.as_str().into(),
+            row.value.as_str().into(),
+            us(halved),
+            change(whole, halved),
+            us(doubled),
+            change(whole, doubled),
+        ]);
+    }
+    table
+}
+
+/// Things a second, rounded down.
+fn a_second(count: u64, time: Picoseconds) -> u64 {
+    let rate = u128::from(count) * 1_000_000_000_000 / u128::from(time.0.max(1));
+    u64::try_from(rate).unwrap_or(u64::MAX)
+}
+
+fn fragments(log: &[Event], timed: &Timed) -> u64 {
+    costs(log, timed).map(|(record, _)| record.counts.fragments.generated).sum()
+}
+
+fn totals(input: &Input, log: &[Event], timed: &[Timed]) -> Table {
+    let mut table = Table::new("Totals", &["model", "total", "fragments/s", "rays/s"]);
+    for one in timed {
+        let whole = one.replay.timeline.makespan();
+        let rays = input.rays().map(|rays| a_second(rays, whole));
+        table.push([one.name().into(), us(whole), a_second(fragments(log, one), whole).into(), rays.into()]);
+    }
+    table
+}
+
+pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed]) -> Value {
+    json!({
+        "case": args.case.as_ref().map(|path| path.display().to_string()),
+        "title": input.title(),
+        "rays": input.rays(),
+        "version": env!("CARGO_PKG_VERSION"),
+        "device": input.profile().name,
+        "readback": args.readback.map(|mode| if mode == ReadBackArg::Sync { "sync" } else { "async" }),
+        "double_buffered": args.double_buffer,
+        "events": log.len(),
+        "models": timed.iter().map(|one| model(input, log, one)).collect::<Vec<_>>(),
+        "trace": args.trace.as_ref().map(|path| path.display().to_string()),
+    })
+}
+
+fn model(input: &Input, log: &[Event], timed: &Timed) -> Value {
+    let timeline = &timed.replay.timeline;
+    let whole = timeline.makespan();
+    let draws = costs(log, timed).map(|(record, cost)| {
+        json!({
+            "triangles": record.counts.primitives.rasterised,
+            "fragments": record.counts.fragments.generated,
+            "front_end_ps": cost.front_end.0,
+            "shader_ps": cost.shader.0,
+            "memory_ps": cost.memory.0,
+            "total_ps": cost.total.0,
+            "core_clocks": cost.core_clocks.0,
+            "bound_by": bottleneck(cost.bottleneck),
+        })
+    });
+    let units = timeline.usage().into_iter().map(|usage| {
+        let reasons: serde_json::Map<String, Value> =
+            usage.reasons.iter().map(|(reason, time)| (reason.to_string(), time.0.into())).collect();
+        json!({
+            "unit": usage.unit.to_string(),
+            "busy_ps": usage.busy.0,
+            "waiting_ps": usage.waiting.0,
+            "idle_ps": usage.idle.0,
+            "waits_for_ps": reasons,
+        })
+    });
+    let path = timeline.where_the_time_went().into_iter().map(|share| {
+        json!({
+            "unit": share.unit.to_string(),
+            "kind": share.kind.to_string(),
+            "pieces": share.segments,
+            "time_ps": share.time.0,
+        })
+    });
+    let sensitivity = timed.sensitivity.iter().map(
+        |row| json!({ "guess": row.key, "value": row.value, "halved_ps": row.halved.0, "doubled_ps": row.doubled.0 }),
+    );
+    json!({
+        "model": timed.name(),
+        "total_ps": whole.0,
+        "fragments_per_s": a_second(fragments(log, timed), whole),
+        "rays_per_s": input.rays().map(|rays| a_second(rays, whole)),
+        "draws": draws.collect::<Vec<_>>(),
+        "units": units.collect::<Vec<_>>(),
+        "critical_path": path.collect::<Vec<_>>(),
+        "sensitivity": sensitivity.collect::<Vec<_>>(),
+        "uncosted_host_operations": timed.replay.uncosted,
+    })
+}

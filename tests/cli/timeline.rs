@@ -1,0 +1,163 @@
+//! `crossbar timeline`: tables, document and trace of a run, and what is said about bad requests.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::case::{CASES, example};
+use crate::trace_format::{Shown, read};
+use crate::{crossbar, crossbar_in};
+
+/// A small crossbar.
+const RAYS: &[&str] = &["timeline", "--rays", "48x40", "--mesh", "fixtures/models/square.obj"];
+
+fn document(arguments: &[&str]) -> Value {
+    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+fn number(value: &Value) -> u64 {
+    value.as_u64().unwrap_or_else(|| panic!("expected a whole number, found {value}"))
+}
+
+fn sum(list: &Value, field: &str) -> u64 {
+    list.as_array().expect("a list").iter().map(|entry| number(&entry[field])).sum()
+}
+
+/// What must hold between the figures of a document.
+fn check(document: &Value, models: &[&str]) {
+    let found: Vec<&str> =
+        document["models"].as_array().expect("models").iter().map(|m| m["model"].as_str().expect("a name")).collect();
+    assert_eq!(found, models);
+    for model in document["models"].as_array().expect("models") {
+        let total = number(&model["total_ps"]);
+        assert!(total > 0);
+        assert_eq!(sum(&model["critical_path"], "time_ps"), total, "the path is the whole run");
+        for unit in model["units"].as_array().expect("units") {
+            let parts = ["busy_ps", "waiting_ps", "idle_ps"].map(|part| number(&unit[part]));
+            assert_eq!(parts.iter().sum::<u64>(), total, "{unit}");
+        }
+        for draw in model["draws"].as_array().expect("draws") {
+            let longest = ["front_end_ps", "shader_ps", "memory_ps"].map(|part| number(&draw[part])).into_iter().max();
+            assert!(Some(number(&draw["total_ps"])) >= longest && number(&draw["total_ps"]) <= total, "{draw}");
+        }
+    }
+}
+
+#[test]
+fn a_case_by_its_rates() {
+    // Of the two models the one without guesses: its tables change when the tables do, not when a guess does.
+    let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--model", "rates", "--sensitivity"], "");
+    insta::assert_snapshot!(ran.transcript());
+}
+
+#[test]
+fn every_case_has_a_time_in_both_models() {
+    for name in CASES {
+        let document = document(&["timeline", &example(name), "--device", "r300"]);
+        check(&document, &["rates", "pipeline"]);
+        assert_eq!(document["device"], "r300", "{name}");
+        assert_eq!(document["models"][1]["draws"].as_array().map(Vec::len), Some(1), "{name}");
+    }
+}
+
+#[test]
+fn buckets_follow_one_another_on_one_card() {
+    let timed = document(RAYS);
+    check(&timed, &["rates", "pipeline"]);
+    assert_eq!((&timed["rays"], &timed["device"]), (&Value::from(48 * 40), &Value::from("r200")));
+    // 32 x 32 rays a bucket, cut at the edges: four buckets.
+    assert_eq!(timed["models"][0]["draws"].as_array().map(Vec::len), Some(4));
+    assert_eq!(document(&[RAYS, &["--threads", "3"]].concat()), timed, "the same for any number of threads");
+}
+
+#[test]
+fn asynchronous_is_never_slower_and_two_copies_are_not() {
+    let totals = |more: &[&str]| {
+        let document = document(&[RAYS, more].concat());
+        check(&document, &["rates", "pipeline"]);
+        [0, 1].map(|model| number(&document["models"][model]["total_ps"]))
+    };
+    let said = totals(&[]);
+    let synchronous = totals(&["--readback", "sync"]);
+    let asynchronous = totals(&["--readback", "async"]);
+    let double = totals(&["--readback", "async", "--double-buffer"]);
+    assert_eq!(said, synchronous, "the crossbar waits for its results");
+    for model in [0, 1] {
+        assert!(asynchronous[model] < synchronous[model], "model {model}");
+        assert!(double[model] < asynchronous[model], "model {model}");
+    }
+}
+
+#[test]
+fn guesses_are_halved_and_doubled() {
+    let document = document(&["timeline", "fixtures/cases/modulate.toml", "--model", "pipeline", "--sensitivity"]);
+    let model = &document["models"][0];
+    let total = number(&model["total_ps"]);
+    let rows = model["sensitivity"].as_array().expect("rows");
+    let row = |key: &str| rows.iter().find(|row| row["guess"] == key).unwrap_or_else(|| panic!("no guess {key}"));
+    // Four pixels: the host's way to the draw is longer than the draw.
+    let draw = row("queue.draw_ps");
+    assert!(number(&draw["halved_ps"]) < total && total < number(&draw["doubled_ps"]), "{draw}");
+    let unused = row("queue.test_fence_ps");
+    assert_eq!([&unused["halved_ps"], &unused["doubled_ps"]].map(number), [total, total]);
+    assert!(rows.iter().any(|row| row["guess"].as_str().is_some_and(|key| key.starts_with("bus."))));
+}
+
+fn traced(arguments: &[&str]) -> (Shown, u64) {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("trace.json");
+    let path = path.to_str().expect("a path of text");
+    let document = document(&[arguments, &["--trace", path]].concat());
+    assert_eq!(document["trace"], path);
+    let models = document["models"].as_array().expect("models");
+    let total = number(&models.last().expect("a model")["total_ps"]);
+    let shown = read(&fs::read_to_string(path).expect("the trace")).expect("a good trace");
+    (shown, total)
+}
+
+#[test]
+fn the_trace_is_one_that_viewers_open() {
+    for arguments in [&["timeline", "fixtures/cases/modulate.toml"], RAYS] {
+        let (shown, total) = traced(arguments);
+        let names: Vec<&str> = shown.threads.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["host", "upload bus", "front end", "shader array", "memory", "read-back bus"]);
+        assert!(shown.process.contains("(pipeline model)"), "{}", shown.process);
+        assert_eq!(number(&shown.about["makespan_ps"]), total);
+        let slices = || shown.threads.iter().flat_map(|(_, slices)| slices);
+        let last = slices().map(|slice| slice.end).fold(0.0, f64::max);
+        assert!((last - total as f64 / 1e6).abs() < 1e-6, "the last slice ends with the run: {last}, {total}");
+        assert!(slices().any(|slice| slice.category == "wait") && slices().any(|slice| slice.name == "draw 0"));
+        assert!(shown.flows > 0, "the critical path goes from unit to unit");
+    }
+}
+
+#[test]
+fn bad_requests() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let case = example("modulate");
+    for (name, arguments) in [
+        ("no_time", vec!["timeline", &case, "--device", "ideal-fp32"]),
+        ("unknown_device", vec!["timeline", &case, "--device", "r9999"]),
+        ("nothing", vec!["timeline"]),
+        ("case_and_rays", vec!["timeline", &case, "--rays", "4x4"]),
+        ("mesh_of_a_case", vec!["timeline", &case, "--mesh", "m.obj"]),
+        ("bad_rays", vec!["timeline", "--rays", "4"]),
+        ("no_kernel", vec!["timeline", "--rays", "4x4", "--device", "nv20"]),
+    ] {
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stdout);
+        insta::assert_snapshot!(format!("bad_{name}"), ran.transcript().replace(&case, "modulate.toml"));
+        assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0, "{name} leaves nothing behind");
+    }
+}
+
+#[test]
+fn a_trace_that_cannot_be_written() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ran = crossbar_in(folder.path(), &["timeline", &example("modulate"), "--trace", "no/folder/trace.json"], "");
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
+    assert!(ran.stderr.contains("cannot write into the folder no/folder"), "{}", ran.stderr);
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
+}

@@ -1,0 +1,186 @@
+//! A strict reader of the trace event format, in its JSON object form, as far as Crossbar writes it: complete events, metadata and
+//! flows. Whatever the format does not know, or a viewer would drop without a word, is an error.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+/// A trace file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub(crate) struct TraceFile {
+    pub(crate) trace_events: Vec<Event>,
+    pub(crate) display_time_unit: TimeUnit,
+    pub(crate) other_data: Map<String, Value>,
+}
+
+/// What viewers show times in.
+#[derive(Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum TimeUnit {
+    Ms,
+    Ns,
+}
+
+/// An event, by its phase. Times are microseconds.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "ph", deny_unknown_fields)]
+pub(crate) enum Event {
+    #[serde(rename = "X")]
+    Complete {
+        name: String,
+        cat: String,
+        ts: f64,
+        dur: f64,
+        pid: u32,
+        tid: u32,
+        #[serde(default)]
+        args: Map<String, Value>,
+    },
+    #[serde(rename = "M")]
+    Metadata { name: MetadataName, pid: u32, tid: u32, args: Map<String, Value> },
+    #[serde(rename = "s")]
+    FlowStart { name: String, cat: String, id: u64, ts: f64, pid: u32, tid: u32 },
+    #[serde(rename = "f")]
+    FlowEnd { name: String, cat: String, id: u64, ts: f64, pid: u32, tid: u32, bp: BindingPoint },
+}
+
+/// Metadata that the format knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum MetadataName {
+    ProcessName,
+    ProcessLabels,
+    ProcessSortIndex,
+    ThreadName,
+    ThreadSortIndex,
+}
+
+/// Where a flow ends: within the slice around it, not at the next one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub(crate) enum BindingPoint {
+    #[serde(rename = "e")]
+    Enclosing,
+}
+
+/// A slice of a thread.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Slice {
+    pub(crate) name: String,
+    pub(crate) category: String,
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+}
+
+/// What a viewer shows: threads by name, in their order, with their slices.
+#[derive(Debug)]
+pub(crate) struct Shown {
+    pub(crate) process: String,
+    pub(crate) threads: Vec<(String, Vec<Slice>)>,
+    pub(crate) flows: usize,
+    pub(crate) about: Map<String, Value>,
+}
+
+/// Reads a trace and holds it to what viewers need: one named process, named threads with places, slices of each in order and side by
+/// side, flows in pairs whose ends lie in slices.
+pub(crate) fn read(text: &str) -> Result<Shown, String> {
+    let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
+    let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    let mut slices: BTreeMap<u32, Vec<Slice>> = BTreeMap::new();
+    let (mut starts, mut ends, mut latest) = (BTreeMap::new(), BTreeMap::new(), 0.0);
+    let mut pids = BTreeSet::new();
+    for event in file.trace_events {
+        match event {
+            Event::Metadata { name, pid, tid, args } => {
+                pids.insert(pid);
+                let text = || args.get("name").and_then(Value::as_str).map(str::to_owned).ok_or("a name without text");
+                match name {
+                    MetadataName::ProcessName => _ = processes.insert(pid, text()?),
+                    MetadataName::ThreadName => _ = names.insert(tid, text()?),
+                    MetadataName::ThreadSortIndex => {
+                        let place = args.get("sort_index").and_then(Value::as_i64).ok_or("a place without a number")?;
+                        places.insert(tid, place);
+                    }
+                    MetadataName::ProcessLabels | MetadataName::ProcessSortIndex => {}
+                }
+            }
+            Event::Complete { name, cat, ts, dur, pid, tid, args } => {
+                pids.insert(pid);
+                if ts < latest || dur <= 0.0 || name.is_empty() || !args.contains_key("command") {
+                    return Err(format!("slice `{name}` at {ts} for {dur} after {latest}"));
+                }
+                latest = ts;
+                slices.entry(tid).or_default().push(Slice { name, category: cat, start: ts, end: ts + dur });
+            }
+            Event::FlowStart { name, cat, id, ts, pid, tid } => {
+                pids.insert(pid);
+                if starts.insert(id, (name, cat, ts, tid)).is_some() {
+                    return Err(format!("flow {id} starts twice"));
+                }
+            }
+            Event::FlowEnd { name, cat, id, ts, pid, tid, bp: BindingPoint::Enclosing } => {
+                pids.insert(pid);
+                ends.insert(id, (name, cat, ts, tid));
+            }
+        }
+    }
+    if pids.len() != 1 || processes.len() != 1 || file.display_time_unit != TimeUnit::Ns {
+        return Err(format!("expected one process with a name, found {pids:?} and {processes:?}"));
+    }
+    if !names.keys().eq(places.keys()) || !slices.keys().all(|tid| names.contains_key(tid)) {
+        return Err(format!("expected a name and a place for every thread, found {names:?} and {places:?}"));
+    }
+    for (id, (name, cat, ts, tid)) in &starts {
+        let end = ends.get(id).ok_or_else(|| format!("flow {id} has no end"))?;
+        let lies =
+            |tid: &u32, at: f64| slices.get(tid).is_some_and(|all| all.iter().any(|s| s.start <= at && at <= s.end));
+        if (name, cat) != (&end.0, &end.1) || end.2 < *ts || !lies(tid, *ts) || !lies(&end.3, end.2) {
+            return Err(format!("flow {id} from {ts} to {end:?}"));
+        }
+    }
+    if starts.len() != ends.len() {
+        return Err("a flow ends that did not start".to_owned());
+    }
+    for slices in slices.values() {
+        // Exact in picoseconds; in microseconds the sums are off in the last bit.
+        if let Some(pair) = slices.windows(2).find(|pair| pair[1].start < pair[0].end - 1e-7) {
+            return Err(format!("two at a time: {pair:?}"));
+        }
+    }
+    let mut order: Vec<(i64, u32)> = places.into_iter().map(|(tid, place)| (place, tid)).collect();
+    order.sort_unstable();
+    let thread =
+        |(_, tid): (i64, u32)| (names.remove(&tid).unwrap_or_default(), slices.remove(&tid).unwrap_or_default());
+    let threads = order.into_iter().map(thread).collect();
+    let process = processes.into_values().next().unwrap_or_default();
+    Ok(Shown { process, threads, flows: starts.len(), about: file.other_data })
+}
+
+#[test]
+fn what_is_no_trace_is_refused() {
+    let trace = |event: &str| {
+        format!(
+            r#"{{"displayTimeUnit":"ns","otherData":{{}},"traceEvents":[
+            {{"ph":"M","name":"process_name","pid":1,"tid":0,"args":{{"name":"p"}}}},
+            {{"ph":"M","name":"thread_name","pid":1,"tid":1,"args":{{"name":"t"}}}},
+            {{"ph":"M","name":"thread_sort_index","pid":1,"tid":1,"args":{{"sort_index":1}}}},
+            {{"ph":"X","name":"a","cat":"c","ts":1.0,"dur":2.0,"pid":1,"tid":1,"args":{{"command":0}}}}{event}]}}"#
+        )
+    };
+    read(&trace("")).expect("a good trace");
+    for bad in [
+        r#",{"ph":"Z","name":"unknown phase"}"#,
+        r#",{"ph":"X","name":"no duration","cat":"c","ts":4.0,"pid":1,"tid":1}"#,
+        r#",{"ph":"X","name":"too early","cat":"c","ts":0.5,"dur":0.1,"pid":1,"tid":1,"args":{"command":1}}"#,
+        r#",{"ph":"X","name":"overlaps","cat":"c","ts":2.0,"dur":2.0,"pid":1,"tid":1,"args":{"command":1}}"#,
+        r#",{"ph":"X","name":"other process","cat":"c","ts":4.0,"dur":2.0,"pid":2,"tid":1,"args":{"command":1}}"#,
+        r#",{"ph":"X","name":"unnamed thread","cat":"c","ts":4.0,"dur":2.0,"pid":1,"tid":2,"args":{"command":1}}"#,
+        r#",{"ph":"X","name":"text for time","cat":"c","ts":"4","dur":2.0,"pid":1,"tid":1,"args":{"command":1}}"#,
+        r#",{"ph":"s","name":"no end","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1}"#,
+        r#",{"ph":"f","name":"no start","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1,"bp":"e"}"#,
+        r#",{"ph":"M","name":"thread_colour","pid":1,"tid":1,"args":{}}"#,
+    ] {
+        assert!(read(&trace(bad)).is_err(), "{bad}");
+    }
+}
