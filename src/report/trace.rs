@@ -85,7 +85,7 @@ impl Trace {
         write!(out, "\"traceEvents\":[")?;
         let mut first = true;
         self.events(&mut |event| {
-            write!(out, "{}\n", if std::mem::take(&mut first) { "" } else { "," })?;
+            writeln!(out, "{}", if std::mem::take(&mut first) { "" } else { "," })?;
             serde_json::to_writer(&mut *out, &event).map_err(io::Error::from)
         })?;
         writeln!(out, "\n]}}")
