@@ -1,7 +1,7 @@
 //! A case in the memory of a card: ready to be drawn, or followed pixel by pixel.
 
 use refsim::{
-    event::{DrawEvents, Event},
+    event::{DrawEvents, Event, TexelObserver},
     exec::ResolvedConstants,
     machine::{
         AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, StepRate, TextureId,
@@ -39,13 +39,18 @@ impl<'s> Loaded<'s> {
         Self::on(executor.into().machine(setup.profile.clone())?, setup)
     }
 
-    /// The same on a machine that writes down what is asked of it.
+    /// The same on a machine that writes down what is asked of it, and lets the observer watch the texels.
     ///
     /// # Errors
     /// As [`Loaded::new`].
-    pub fn recording(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
+    pub fn recording(
+        setup: &'s Setup,
+        executor: impl Into<Executor>,
+        observer: Option<Box<dyn TexelObserver>>,
+    ) -> Result<Self, CaseError> {
         let mut machine = executor.into().machine(setup.profile.clone())?;
         machine.record(true);
+        machine.observe_textures(observer);
         Self::on(machine, setup)
     }
 

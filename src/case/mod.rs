@@ -22,7 +22,7 @@ mod vertices;
 pub use device::Overrides;
 pub use error::CaseError;
 pub use loaded::Loaded;
-pub use log::log;
+pub use log::{log, log_observed};
 pub use probe::{Found, ProbeResult};
 pub use run::{Outcome, Picture, ShaderSlots, run};
 pub use setup::{Setup, Vertices};

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, Event};
+use refsim::event::{DrawEvents, Event, TexelObserver};
 use refsim::exec::Constants;
 use refsim::machine::{
     AttributeStream, DepthId, DrawCall, Executor, Machine, MachineError, StepRate, TextureId, VertexSource,
@@ -86,6 +86,16 @@ pub struct Answer {
     pub log: Vec<Event>,
 }
 
+/// Makes somebody who watches the texels of one bucket.
+pub type MakeWatcher<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
+
+/// Whether the card writes down what is asked of it, and who watches.
+#[derive(Clone, Copy, Default)]
+struct Recording<'a> {
+    on: bool,
+    watcher: Option<&'a MakeWatcher<'a>>,
+}
+
 /// A card that intersects rays with triangles.
 #[derive(Clone, Debug)]
 pub struct Crossbar {
@@ -121,7 +131,7 @@ impl Crossbar {
     /// # Errors
     /// [`EngineError`] if the card has no program for it, or refuses the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, false)
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
     /// The same, and the log of the card: one bucket after the other, as on a card with one set of textures and targets. The answer is
@@ -130,7 +140,21 @@ impl Crossbar {
     /// # Errors
     /// As [`Crossbar::intersect`].
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, true)
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: None })
+    }
+
+    /// The same log with what a watcher makes of every texel that is read; each bucket has one of its own. The scalar executor draws, slowly.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn intersect_observed(
+        &self,
+        mesh: &Mesh,
+        rays: &RayBatch,
+        sides: Sides,
+        watcher: &MakeWatcher<'_>,
+    ) -> Result<Answer, EngineError> {
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
     /// The program for a use: chosen once.
@@ -150,7 +174,7 @@ impl Crossbar {
         rays: &RayBatch,
         sides: Sides,
         side: u32,
-        record: bool,
+        recording: Recording<'_>,
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         if mesh.len() > MOST_TRIANGLES {
@@ -164,7 +188,8 @@ impl Crossbar {
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
             let mut machine = self.executor.machine(self.profile.clone())?;
-            machine.record(record);
+            machine.record(recording.on);
+            machine.observe_textures(recording.watcher.map(|make| make()));
             let mut card = Card::set_up(machine, &kernel, &bucket, &units)?;
             let events = card.draw(&kernel, mesh, &units, &triangles)?;
             Ok((region, card.read_back(&bucket, &units)?, events, card.machine.take_log()))
@@ -195,7 +220,7 @@ impl Crossbar {
         let mut hits = Vec::with_capacity(rays.len());
         for chunk in rays.chunks(LIST_BATCH) {
             let batch = RayBatch::from_list(chunk);
-            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET, false)?;
+            let answer = self.intersect_in_buckets(mesh, &batch, sides, LIST_BUCKET, Recording::default())?;
             hits.extend((0..chunk.len()).map(|i| answer.hits[batch.pixel_of(i)]));
         }
         Ok(hits)

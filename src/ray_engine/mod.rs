@@ -17,7 +17,7 @@ pub mod reference;
 mod units;
 mod vertex_crossbar;
 
-pub use crossbar::{Answer, Crossbar, EngineError, Hit};
+pub use crossbar::{Answer, Crossbar, EngineError, Hit, MakeWatcher};
 pub use host_tracer::{HostCounts, HostTracer};
 pub use kernel::{Form, Kernel};
 pub use rays::{RayBatch, RayBatchError};

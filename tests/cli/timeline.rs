@@ -105,6 +105,25 @@ fn guesses_are_halved_and_doubled() {
     assert!(rows.iter().any(|row| row["guess"].as_str().is_some_and(|key| key.starts_with("bus."))));
 }
 
+#[test]
+fn the_texture_cache_on_request() {
+    let arguments = [RAYS, &["--model", "pipeline"]].concat();
+    let estimated = document(&arguments);
+    assert!(estimated["texture_cache"].is_null());
+    let simulated = document(&[&arguments[..], &["--cache"]].concat());
+    check(&simulated, &["pipeline"]);
+    let rows = simulated["texture_cache"].as_array().expect("rows");
+    assert!(!rows.is_empty());
+    for row in rows {
+        let figures = ["texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
+        let [texels, lines, half, same, double, distinct] = figures.map(|figure| number(&row[figure]));
+        assert!(texels > 0 && lines >= texels && lines >= half, "{row}");
+        assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");
+    }
+    // The same work, whoever counts the misses.
+    assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
+}
+
 fn traced(arguments: &[&str]) -> (Shown, u64) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = folder.path().join("trace.json");

@@ -12,7 +12,7 @@ use refsim::event::ReadBackMode;
 use refsim::timing::Level;
 
 use super::size::Size;
-use super::{Out, Problem, Verdict};
+use super::{Out, Problem, Progress, Verdict};
 use crate::io::atomic::write_file;
 use run::{Input, Timed};
 
@@ -63,6 +63,10 @@ pub(super) struct Args {
     /// Keep two copies of every texture and target: one is overwritten while the card uses the other
     #[arg(long)]
     double_buffer: bool,
+
+    /// Run the texture cache over every address that the run reads, instead of estimating its misses; slower
+    #[arg(long)]
+    cache: bool,
 
     /// Halve and double each guessed figure, and show what it does to the total
     #[arg(long)]
@@ -119,7 +123,10 @@ fn parse_rays(text: &str) -> Result<Size, super::BadSize> {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let input = Input::read(args)?;
-    let log = input.log()?;
+    // One step, but it moves: with a cache to run, this takes long.
+    let bar = Progress::new("drawing", 1);
+    let log = input.log(args.cache)?;
+    drop(bar);
     let mut timed = Vec::new();
     for level in args.model.levels() {
         timed.push(Timed::new(*level, &input, &log, args)?);

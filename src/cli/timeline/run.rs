@@ -4,10 +4,11 @@ use std::path::Path;
 
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
-use refsim::event::Event;
+use refsim::event::{Event, TexelObserver};
 use refsim::machine::ExecutorKind;
+use refsim::timing::cache::TextureCaches;
 use refsim::timing::replay::{Options, Replay, replay};
-use refsim::timing::{Level, Model};
+use refsim::timing::{Level, Model, TimingError};
 
 use super::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
@@ -77,16 +78,30 @@ impl Input {
         }
     }
 
-    /// What is asked of the card.
-    pub(super) fn log(&self) -> miette::Result<Vec<Event>> {
+    /// What is asked of the card; with what becomes of every texel in the texture cache, if `cache`.
+    pub(super) fn log(&self, cache: bool) -> miette::Result<Vec<Event>> {
+        let caches = if cache { Some(TextureCaches::new(self.profile()).map_err(no_figure)?) } else { None };
+        let watcher = caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) });
         match self {
-            Self::Case(setup) => Ok(case::log(setup, ExecutorKind::Batch)?),
+            Self::Case(setup) => Ok(match watcher {
+                Some(make) => case::log_observed(setup, make())?,
+                None => case::log(setup, ExecutorKind::Batch)?,
+            }),
             Self::Rays { profile, mesh, rays, .. } => {
                 let crossbar = Crossbar::new(profile.as_ref().clone(), ExecutorKind::Batch);
-                Ok(crossbar.intersect_recorded(mesh, rays, Sides::Front)?.log)
+                let answer = match &watcher {
+                    Some(make) => crossbar.intersect_observed(mesh, rays, Sides::Front, make)?,
+                    None => crossbar.intersect_recorded(mesh, rays, Sides::Front)?,
+                };
+                Ok(answer.log)
             }
         }
     }
+}
+
+/// What a device lacks that has no time.
+fn no_figure(error: TimingError) -> Problem {
+    Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }
 
 /// A mesh, a camera that sees it, and a name for both.
@@ -114,8 +129,7 @@ pub(super) struct Timed {
 
 impl Timed {
     pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
-        let model = Model::new(level, input.profile())
-            .map_err(|error| Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures"))?;
+        let model = Model::new(level, input.profile()).map_err(no_figure)?;
         let options = Options {
             read_back: args.readback.map(Into::into),
             double_buffered: args.double_buffer,

@@ -1,6 +1,8 @@
 //! The tables of a timeline, and the document for machines.
 
-use refsim::event::{DrawRecord, Event};
+use std::collections::BTreeMap;
+
+use refsim::event::{DrawRecord, Event, SamplerTraffic};
 use refsim::timing::timeline::Usage;
 use refsim::timing::{Bottleneck, DrawCost, Picoseconds};
 use serde_json::{Value, json};
@@ -17,6 +19,12 @@ pub(super) fn print(args: &Args, input: &Input, log: &[Event], timed: &[Timed], 
     let profile = input.profile();
     out.line(input.title())?;
     out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
+    if args.cache {
+        let table = cache(log);
+        out.line("")?;
+        out.line(table.title())?;
+        out.line(table.text())?;
+    }
     for one in timed {
         out.line("")?;
         out.line(format_args!("Model: {}", one.name()))?;
@@ -70,11 +78,14 @@ fn change(from: Picoseconds, to: Picoseconds) -> Cell {
 
 /// The draws of a log, each with its cost.
 fn costs<'a>(log: &'a [Event], timed: &'a Timed) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
-    let records = log.iter().filter_map(|event| match event {
-        Event::Draw(record) => Some(record.as_ref()),
+    log.iter().filter_map(record).zip(&timed.replay.draws)
+}
+
+fn record(event: &Event) -> Option<&DrawRecord> {
+    match event {
+        Event::Draw(record) => Some(record),
         _ => None,
-    });
-    records.zip(&timed.replay.draws)
+    }
 }
 
 fn draws(log: &[Event], timed: &Timed) -> Table {
@@ -94,6 +105,28 @@ fn draws(log: &[Event], timed: &Timed) -> Table {
             cost.core_clocks.0.into(),
             bottleneck(cost.bottleneck).into(),
         ]);
+    }
+    table
+}
+
+/// What became of the texels, by sampler, over all draws.
+fn cache(log: &[Event]) -> Table {
+    let headings = ["sampler", "texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
+    let mut table = Table::new("Texture cache, also of half and of double the size", &headings);
+    let mut samplers = BTreeMap::<u8, SamplerTraffic>::new();
+    let records = log.iter().filter_map(record).flat_map(|record| &record.samplers);
+    for (sampler, traffic) in records.filter_map(|sampler| Some((sampler.sampler, sampler.traffic?))) {
+        let sum = samplers.entry(sampler).or_default();
+        sum.accesses += traffic.accesses;
+        sum.requests += traffic.requests;
+        sum.distinct += traffic.distinct;
+        for (sum, misses) in sum.misses.iter_mut().zip(traffic.misses) {
+            *sum += misses;
+        }
+    }
+    for (sampler, SamplerTraffic { accesses, requests, misses: [half, same, double], distinct }) in samplers {
+        let numbers = [sampler.into(), accesses, requests, half, same, double, distinct];
+        table.push(numbers.map(Cell::Count));
     }
     table
 }
@@ -191,6 +224,7 @@ pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "device": input.profile().name,
         "readback": args.readback.map(|mode| if mode == ReadBackArg::Sync { "sync" } else { "async" }),
         "double_buffered": args.double_buffer,
+        "texture_cache": args.cache.then(|| cache(log).json()),
         "events": log.len(),
         "models": timed.iter().map(|one| model(input, log, one)).collect::<Vec<_>>(),
         "trace": args.trace.as_ref().map(|path| path.display().to_string()),
