@@ -1,6 +1,7 @@
 //! THE list of executors that must agree. A new one is added here and nowhere else.
 
 use refsim::device::Profile;
+use refsim::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use refsim::exec::batch::SimdLevel;
 #[cfg(feature = "wgpu")]
 use refsim::exec::gpu::testing;
@@ -17,6 +18,8 @@ pub(crate) struct Executor {
     kind: ExecutorKind,
     threads: usize,
     simd: Option<SimdLevel>,
+    /// Whether its texels are watched: it draws in the order of the hardware then.
+    watched: bool,
     /// How a GPU computes in single precision.
     #[cfg(feature = "wgpu")]
     mode: Option<NumberMode>,
@@ -35,6 +38,9 @@ impl Executor {
         }
         let mut machine = Machine::with_threads(profile.clone(), self.kind, self.threads)?;
         machine.set_simd_level(self.simd);
+        if self.watched {
+            machine.observe_textures(Some(Box::new(Watcher(0))));
+        }
         Ok(machine)
     }
 
@@ -56,12 +62,30 @@ impl Executor {
     }
 }
 
+/// Counts the texels that it is told of.
+#[derive(Debug)]
+struct Watcher(u64);
+
+impl TexelObserver for Watcher {
+    fn begin(&mut self) {}
+
+    fn touch(&mut self, texel: &TexelTouch) {
+        assert!(texel.address.is_multiple_of(texel.bytes.into()), "{texel:?}");
+        self.0 += 1;
+    }
+
+    fn end(&mut self) -> [SamplerTraffic; SAMPLERS] {
+        [SamplerTraffic { accesses: self.0, ..SamplerTraffic::default() }; SAMPLERS]
+    }
+}
+
 /// The reference: what it draws is right.
 pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     name: "scalar".to_owned(),
     kind: ExecutorKind::Scalar,
     threads: 1,
     simd: None,
+    watched: false,
     #[cfg(feature = "wgpu")]
     mode: None,
     every: 1,
@@ -76,6 +100,7 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
             all.push(Executor { name, kind: ExecutorKind::Batch, threads, simd: Some(level), ..REFERENCE.clone() });
         }
     }
+    all.push(Executor { name: "watched".to_owned(), watched: true, every: 4, ..REFERENCE.clone() });
     #[cfg(feature = "wgpu")]
     all.extend(on_gpu());
     all

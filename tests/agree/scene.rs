@@ -3,7 +3,7 @@
 use crate::executors::Executor;
 use refsim::check;
 use refsim::device::Profile;
-use refsim::event::DrawEvents;
+use refsim::event::{DrawEvents, Event};
 use refsim::exec::{BumpStage, CheckedProgram, Constants};
 use refsim::machine::{
     AttributeStream, DepthId, DrawCall, FragmentTrace, Machine, MachineError, StepRate, TextureId, VertexSource,
@@ -70,6 +70,8 @@ pub(crate) struct Outcome {
     pub(crate) targets: Vec<(TexelFormat, u32, Vec<u8>)>,
     pub(crate) depth: Vec<u32>,
     pub(crate) events: Vec<DrawEvents>,
+    /// What the machine wrote down, without what only a watched draw knows.
+    pub(crate) log: Vec<Event>,
 }
 
 /// The program of some lines, if the checker accepts it for the device.
@@ -114,13 +116,19 @@ impl Scene {
             let call = self.call(&stage, programs);
             events.push(stage.machine.draw(&call)?);
         }
-        let mut outcome = Outcome { targets: Vec::new(), depth: Vec::new(), events };
+        let mut outcome = Outcome { targets: Vec::new(), depth: Vec::new(), events, log: Vec::new() };
         for id in all {
             let image = stage.machine.read_back(id)?;
             outcome.targets.push((image.format(), image.width(), image.bytes().to_vec()));
         }
         if let Some(id) = stage.depth {
             outcome.depth = stage.machine.read_depth(id)?.data().to_vec();
+        }
+        outcome.log = stage.machine.take_log();
+        for event in &mut outcome.log {
+            if let Event::Draw(draw) = event {
+                draw.samplers.iter_mut().for_each(|sampler| sampler.traffic = None);
+            }
         }
         Ok(outcome)
     }
@@ -149,6 +157,7 @@ impl Scene {
 
     fn stage(&self, executor: &Executor) -> Result<Stage, MachineError> {
         let mut machine = executor.machine(&self.profile)?;
+        machine.record(true);
         let targets = self.targets(&mut machine)?;
         let mut textures = Vec::new();
         for (slot, image, state) in &self.textures {
@@ -232,6 +241,9 @@ impl Outcome {
             let (x, y) = (at as u32 % width, at as u32 / width);
             return Some(format!("depth at ({x}, {y}): scalar {:#x}, {name} {:#x}", self.depth[at], other.depth[at]));
         }
-        (self != other).then(|| format!("events: scalar {:?}, {name} {:?}", self.events, other.events))
+        if self.events != other.events {
+            return Some(format!("events: scalar {:?}, {name} {:?}", self.events, other.events));
+        }
+        (self != other).then(|| format!("log: scalar {:?}, {name} {:?}", self.log, other.log))
     }
 }
