@@ -66,6 +66,26 @@ fn intervals(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     all
 }
 
+/// What each command reads and writes, by the number that its spans carry.
+fn uses(commands: &[Command]) -> Vec<(Vec<u64>, Vec<u64>)> {
+    let mut fence = false;
+    let mut uses = Vec::new();
+    for command in commands {
+        match command {
+            Command::Upload(resource, _) | Command::Clear(resource, _) => uses.push((vec![], vec![*resource])),
+            Command::ReadBack(resource, _) => uses.push((vec![*resource], vec![])),
+            Command::Draw { reads, writes, .. } => uses.push((reads.clone(), writes.clone())),
+            // Without a fence nothing is asked.
+            Command::Test | Command::Finish if !fence => {}
+            other => {
+                fence |= matches!(other, Command::SetFence);
+                uses.push((vec![], vec![]));
+            }
+        }
+    }
+    uses
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
 
@@ -176,5 +196,39 @@ proptest! {
     #[test]
     fn the_same_commands_give_the_same_timeline(commands in program(), figures in figures(), mode in mode()) {
         prop_assert_eq!(play(&commands, figures, mode), play(&commands, figures, mode));
+    }
+
+    #[test]
+    fn whoever_writes_a_resource_has_it_alone(commands in program(), figures in figures(), mode in mode()) {
+        let (_, timeline) = play(&commands, figures, mode);
+        let uses = uses(&commands);
+        let touches = |kind| {
+            use SpanKind::{Clear, Fragments, ReadBack, Traffic, Upload};
+            matches!(kind, Upload | Clear | Fragments | Traffic | ReadBack)
+        };
+        let touching: Vec<_> = timeline.spans().iter().filter(|span| touches(span.kind)).collect();
+        for (place, first) in touching.iter().enumerate() {
+            let (reads, writes) = &uses[first.command as usize];
+            for second in touching[place..].iter().filter(|span| span.command > first.command) {
+                let (later_reads, later_writes) = &uses[second.command as usize];
+                let shared = |a: &[u64], b: &[u64]| a.iter().any(|resource| b.contains(resource));
+                if shared(writes, later_reads) || shared(writes, later_writes) || shared(reads, later_writes) {
+                    prop_assert!(first.end <= second.start, "{first:?} and {second:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_host_has_what_it_waits_for(commands in program(), figures in figures()) {
+        let (_, timeline) = play(&commands, figures, ReadBackMode::Synchronous);
+        // Synchronous: after its read-back, and all before it, comes whatever the host does next.
+        let arrivals = timeline.spans().iter().filter(|span| span.kind == SpanKind::ReadBack);
+        for arrival in arrivals {
+            let next = timeline.spans().iter().find(|s| s.unit == Unit::Host && s.command > arrival.command);
+            let before = timeline.spans().iter().filter(|span| span.command <= arrival.command);
+            let done = before.map(|span| span.end).max().unwrap_or_default();
+            prop_assert!(next.is_none_or(|next| next.start >= done), "{arrival:?} and {next:?}");
+        }
     }
 }
