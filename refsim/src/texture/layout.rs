@@ -122,7 +122,7 @@ mod tests {
                 for (n, level) in (0..).zip(image.levels()) {
                     for (y, x) in (0..level.height).flat_map(|y| (0..level.width).map(move |x| (y, x))) {
                         let at = map.offset(n, 0, y, x);
-                        assert!(at % u64::from(map.texel_bytes()) == 0 && at < map.bytes());
+                        assert!(at.is_multiple_of(map.texel_bytes().into()) && at < map.bytes());
                         assert!(seen.insert(at), "{layout:?} {format}: two texels at {at}");
                     }
                 }

@@ -33,7 +33,7 @@ impl TextureCache {
         let error = TimingError::CacheShape { bytes, line_bytes, ways };
         let set = line_bytes.checked_mul(ways).filter(|&set| set > 0).ok_or(error.clone())?;
         let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MOST_BYTES;
-        if !fits || bytes == 0 || bytes % set != 0 {
+        if !fits || bytes == 0 || !bytes.is_multiple_of(set) {
             return Err(error);
         }
         let lines = vec![0; (bytes / line_bytes) as usize];

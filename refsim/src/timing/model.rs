@@ -1,6 +1,6 @@
 //! The two models of a card: its rates, and its pipeline.
 
-use super::pipeline::{FragmentClocks, PipelineClocks, fragment_clocks, pipeline_clocks};
+use super::pipeline::{CacheSize, FragmentClocks, PipelineClocks, fragment_clocks, pipeline_clocks};
 use super::{Bottleneck, Clocks, DrawCost, Hertz, Picoseconds, TimingError};
 use crate::device::{Bus, Confidence, FigureRow, Profile, Rates};
 use crate::event::{DrawRecord, ProgramWork};
@@ -52,8 +52,7 @@ pub struct Model {
     rates: Rates,
     bus: Bus,
     figures: Vec<FigureRow>,
-    /// Which of the cache sizes of an observed draw counts: half, as stated, double.
-    cache: usize,
+    cache: CacheSize,
 }
 
 impl Model {
@@ -69,7 +68,7 @@ impl Model {
             rates: profile.rates.clone(),
             bus: profile.bus.clone(),
             figures: profile.figures().into_iter().filter(timed).collect(),
-            cache: 1,
+            cache: CacheSize::Stated,
         };
         match level {
             Level::Rates if model.rates.measured_fill_pixels_per_s.is_none() => model.need("fill_pixels_per_s")?,
@@ -182,12 +181,18 @@ impl Model {
         *slot = u64::try_from(wide).unwrap_or(u64::MAX).max(before.min(1));
         if key == "rates.texture_cache_bytes" {
             scaled.cache = match () {
-                () if numerator >= denominator.saturating_mul(2) => 2,
-                () if numerator.saturating_mul(2) <= denominator => 0,
-                () => 1,
+                () if numerator >= denominator.saturating_mul(2) => CacheSize::Double,
+                () if numerator.saturating_mul(2) <= denominator => CacheSize::Half,
+                () => CacheSize::Stated,
             };
         }
         Ok(scaled)
+    }
+
+    /// The model of a card without a texture cache: every access fetches a line.
+    #[must_use]
+    pub fn without_texture_cache(&self) -> Self {
+        Self { cache: CacheSize::None, ..self.clone() }
     }
 
     /// A figure at its present value.
@@ -226,7 +231,7 @@ impl Model {
             let profile = Profile::named(name);
             profile.is_ok_and(|p| p.rates.figure(figure).or(p.bus.figure(figure)).is_some())
         };
-        let have: Vec<&str> = Profile::card_names().into_iter().filter(|name| states(&name)).collect();
+        let have: Vec<&str> = Profile::card_names().into_iter().filter(states).collect();
         Err(TimingError::Missing { device: self.device.clone(), figure, have: have.join(" ") })
     }
 

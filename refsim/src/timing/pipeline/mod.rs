@@ -7,7 +7,7 @@ mod fragment;
 mod traffic;
 
 pub use fragment::{FragmentClocks, fragment_clocks};
-pub use traffic::{Traffic, traffic};
+pub use traffic::{CacheSize, Traffic, traffic};
 
 use super::{Bottleneck, Clocks};
 use crate::device::Rates;
@@ -85,8 +85,8 @@ impl PipelineClocks {
     }
 }
 
-/// The clocks of a draw. `cache` chooses among the cache sizes of observed traffic: 0 half, 1 as stated, 2 double.
-pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: usize) -> PipelineClocks {
+/// The clocks of a draw.
+pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> PipelineClocks {
     let counts = &draw.counts;
     let fragment = fragment_clocks(&draw.pixel, &draw.samplers, rates);
     let lanes = wide(draw.quads) * wide(QUAD);

@@ -1,7 +1,34 @@
 //! What a draw moves to and from memory.
 
 use crate::device::Rates;
-use crate::event::{DrawRecord, SamplerRecord};
+use crate::event::{DrawRecord, SamplerRecord, SamplerTraffic};
+
+/// Which texture cache a model takes: the record of an observed draw knows them all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum CacheSize {
+    /// Of half the size that the profile states.
+    Half,
+    /// As the profile states.
+    #[default]
+    Stated,
+    /// Of twice the size.
+    Double,
+    /// None: every access fetches a line.
+    None,
+}
+
+impl CacheSize {
+    /// Lines that one sampler fetched.
+    fn misses(self, seen: &SamplerTraffic) -> u64 {
+        let [half, stated, double] = seen.misses;
+        match self {
+            Self::Half => half,
+            Self::Stated => stated,
+            Self::Double => double,
+            Self::None => seen.requests,
+        }
+    }
+}
 
 /// Bytes between the card and its memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,16 +53,16 @@ impl Traffic {
 }
 
 /// The traffic of a draw. Depth, colour and vertices move once an access: these cards' compression and early rejection are
-/// not modelled. Textures move by cache lines that the simulated cache missed (`cache`: at half, at stated, at twice its
-/// size); of a draw that was not observed an estimate is taken ([`estimate`]).
-pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: usize) -> Traffic {
+/// not modelled. Textures move by cache lines that the simulated cache missed; of a draw that was not observed an estimate is
+/// taken: compulsory misses.
+pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
-    let misses = |s: &SamplerRecord| s.traffic.and_then(|t| t.misses.get(cache).copied());
+    let misses = |s: &SamplerRecord| s.traffic.map(|seen| cache.misses(&seen));
     let observed = draw.is_observed();
     let missed = if observed { draw.samplers.iter().filter_map(misses).fold(0, u64::saturating_add) } else { 0 };
     Traffic {
-        textures: if observed { missed.saturating_mul(line) } else { estimate(draw, rates) },
+        textures: if observed { missed.saturating_mul(line) } else { estimate(draw, rates, cache) },
         misses: missed,
         depth: bytes.depth_read.saturating_add(bytes.depth_written),
         color: bytes.color_read.saturating_add(bytes.color_written),
@@ -43,9 +70,13 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: usize) -> Traffic {
     }
 }
 
-/// Compulsory misses. If all textures that the draw reads fit into the cache, each of their texels comes once; if not, each
+/// Without a cache each read fetches a line. With one there are compulsory misses: if all textures that the draw reads fit into the cache, each of their texels comes once; if not, each
 /// comes once for every primitive. Never more than one texel for each read: a filter finds its neighbours in the cache.
-fn estimate(draw: &DrawRecord, rates: &Rates) -> u64 {
+fn estimate(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> u64 {
+    if cache == CacheSize::None {
+        let line = rates.texture_cache_line_bytes.unwrap_or(1);
+        return draw.samplers.iter().fold(0, |sum, s| sum.saturating_add(draw.fetches(s.sampler).saturating_mul(line)));
+    }
     let read = |s: &&SamplerRecord| draw.fetches(s.sampler) > 0;
     let size = draw.samplers.iter().filter(read).fold(0_u64, |sum, s| sum.saturating_add(s.texture_bytes));
     let fits = size <= rates.texture_cache_bytes.unwrap_or_default();
