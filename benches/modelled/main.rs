@@ -1,0 +1,109 @@
+//! How fast the emulated cards are: criterion on modelled time.
+//!
+//! `cargo bench --bench modelled`. What is measured is the timeline of a run in picoseconds, so every sample is the same, on every
+//! machine, and a change is a change of the model. (Criterion's own confidence intervals are then points.)
+//!
+//! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment of a crossbar draw: a
+//! ray-triangle test.
+
+mod measurement;
+mod runs;
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use measurement::ModelledTime;
+use refsim::device::Profile;
+use refsim::event::{Event, ReadBackMode};
+use refsim::timing::replay::{Options, replay};
+use refsim::timing::{Level, Model, Picoseconds};
+use runs::Batches;
+
+const CARDS: [&str; 2] = ["nv20", "nv25"];
+
+/// The model of a card.
+fn model(device: &str) -> Model {
+    let profile = Profile::named(device).expect("a card of the project");
+    Model::new(Level::Pipeline, &profile).expect("the card has a time")
+}
+
+/// How long a log takes.
+fn makespan(log: &[Event], model: &Model, read_back: Option<ReadBackMode>) -> Picoseconds {
+    let options = Options { read_back, double_buffered: true, ..Options::default() };
+    replay(log, model, &options).expect("the log can be replayed").timeline.makespan()
+}
+
+type Group<'a> = criterion::BenchmarkGroup<'a, ModelledTime>;
+
+fn measure(group: &mut Group<'_>, id: BenchmarkId, elements: u64, log: &[Event], model: &Model) {
+    group.throughput(Throughput::Elements(elements));
+    group.bench_function(id, |bencher| {
+        bencher.iter_custom(|times| makespan(log, model, None).0 as f64 * times as f64);
+    });
+}
+
+/// Fill against read-back: R rays, T triangles.
+fn grid(criterion: &mut Criterion<ModelledTime>) {
+    for device in CARDS {
+        let (model, mut group) = (model(device), criterion.benchmark_group(format!("R x T, {device}")));
+        for rays in [64, 256, 1024, 4096] {
+            for triangles in [4, 10, 32, 128] {
+                let run = Batches { rays, triangles, ..Batches::new(device) };
+                let id = BenchmarkId::new(format!("R {rays}"), format!("T {triangles}"));
+                measure(&mut group, id, run.tests(), &run.log(), &model);
+            }
+        }
+        group.finish();
+    }
+}
+
+/// Bytes a ray: ids of one, two and four bytes, and with barycentrics.
+fn widths(criterion: &mut Criterion<ModelledTime>) {
+    let (model, mut group) = (model("nv20"), criterion.benchmark_group("bytes read back a ray, nv20"));
+    for bytes in [1, 2, 4, 16] {
+        let run = Batches { read_back_bytes: bytes, ..Batches::new("nv20") };
+        measure(&mut group, BenchmarkId::from_parameter(bytes), run.tests(), &run.log(), &model);
+    }
+    group.finish();
+}
+
+/// The same sixteen batches, read back in turn, and one batch later behind a fence.
+fn asynchrony(criterion: &mut Criterion<ModelledTime>) {
+    for device in CARDS {
+        let (model, mut group) = (model(device), criterion.benchmark_group(format!("read-back, {device}")));
+        for (name, mode) in [("synchronous", ReadBackMode::Synchronous), ("asynchronous", ReadBackMode::Asynchronous)] {
+            let run = Batches { batches: 16, mode, ..Batches::new(device) };
+            measure(&mut group, BenchmarkId::from_parameter(name), run.tests(), &run.log(), &model);
+        }
+        group.finish();
+    }
+}
+
+/// Textures through the simulated cache, and every line that is asked for from memory.
+fn cache(criterion: &mut Criterion<ModelledTime>) {
+    for device in CARDS {
+        let (model, mut group) = (model(device), criterion.benchmark_group(format!("texture cache, {device}")));
+        for rays in [256, 4096] {
+            let run = Batches { rays, observed: true, ..Batches::new(device) };
+            let log = run.log();
+            measure(&mut group, BenchmarkId::new("on", format!("R {rays}")), run.tests(), &log, &model);
+            let log = runs::without_cache(log);
+            measure(&mut group, BenchmarkId::new("off", format!("R {rays}")), run.tests(), &log, &model);
+        }
+        group.finish();
+    }
+}
+
+fn main() {
+    let mut criterion = Criterion::default()
+        .with_measurement(ModelledTime)
+        // Every sample is the same one.
+        .sample_size(10)
+        .nresamples(1)
+        .warm_up_time(std::time::Duration::from_millis(1))
+        .measurement_time(std::time::Duration::from_millis(10))
+        .configure_from_args();
+    grid(&mut criterion);
+    widths(&mut criterion);
+    asynchrony(&mut criterion);
+    cache(&mut criterion);
+    criterion.final_summary();
+}
