@@ -17,7 +17,7 @@ use refsim::texture::{Region, SamplerState, TexelFormat};
 
 use super::bundle::{Bundle, regions};
 use super::units::{Units, ray_textures};
-use super::{Form, Kernel, RayBatch};
+use super::{Form, Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
 
@@ -58,6 +58,10 @@ pub enum EngineError {
         /// Triangles of the mesh.
         found: usize,
     },
+    /// Rays that fill no rectangle.
+    #[error(transparent)]
+    #[diagnostic(code(ray_engine::batch))]
+    Batch(#[from] RayBatchError),
     /// The card refuses a resource or a draw.
     #[error("the card refuses the work")]
     #[diagnostic(code(ray_engine::machine))]
@@ -155,6 +159,39 @@ impl Crossbar {
         watcher: &MakeWatcher<'_>,
     ) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
+    }
+
+    /// Whether the card has programs for rays of any origin.
+    ///
+    /// # Errors
+    /// [`EngineError`] if it has none, or refuses it.
+    pub(super) fn prepare(&self, sides: Sides) -> Result<(), EngineError> {
+        self.kernel((false, sides)).map(drop)
+    }
+
+    /// Rays of any origin against some triangles, given in rising order: one pass.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub(super) fn intersect_triangles(
+        &self,
+        mesh: &Mesh,
+        triangles: &[u32],
+        rays: &RayBatch,
+        sides: Sides,
+        record: bool,
+    ) -> Result<Answer, EngineError> {
+        let kernel = self.kernel((false, sides))?;
+        if mesh.len() > MOST_TRIANGLES {
+            return Err(EngineError::TooManyTriangles { found: mesh.len() });
+        }
+        let units = Units::choose(kernel.form, mesh, rays);
+        let mut machine = self.executor.machine(self.profile.clone())?;
+        machine.record(record);
+        let mut card = Card::set_up(machine, &kernel, rays, &units)?;
+        let events = card.draw(&kernel, mesh, &units, triangles)?;
+        let hits = card.read_back(rays, &units)?;
+        Ok(Answer { hits, events, kernel: kernel.name, log: card.machine.take_log() })
     }
 
     /// The program for a use: chosen once.

@@ -5,6 +5,7 @@
 
 mod bundle;
 mod crossbar;
+pub mod engine;
 mod host_test;
 mod host_tracer;
 mod kernel;

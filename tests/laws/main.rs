@@ -2,6 +2,7 @@
 
 mod cases;
 mod comparing;
+mod engine;
 mod geometry;
 mod ground_truth;
 mod logs;

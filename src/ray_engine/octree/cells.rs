@@ -9,6 +9,11 @@ use super::{Node, Octree};
 pub struct CellId(pub(super) u32);
 
 impl CellId {
+    /// The cell of a number.
+    pub(crate) const fn at(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The cell's number: at most the count of all cells.
     pub const fn index(self) -> usize {
         self.0 as usize

@@ -58,6 +58,8 @@ type Planes = [[f64; 3]; 2];
 struct Walk<'a, F> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,
+    /// Cells left by then are past.
+    from: f64,
     /// Child numbers are exchanged where the ray falls.
     mirror: u32,
     counts: TraversalCounts,
@@ -71,6 +73,18 @@ impl Octree {
         &'a self,
         ray: &Ray,
         gpu: Option<&'a GpuCells>,
+        visit: impl FnMut(&Visit<'a>) -> Flow,
+    ) -> TraversalCounts {
+        self.traverse_from(ray, gpu, f64::NEG_INFINITY, visit)
+    }
+
+    /// The same for a ray that has left a cell at `from`, in multiples of its direction: cells that it leaves no later are not
+    /// visited (again).
+    pub fn traverse_from<'a>(
+        &'a self,
+        ray: &Ray,
+        gpu: Option<&'a GpuCells>,
+        from: f64,
         visit: impl FnMut(&Visit<'a>) -> Flow,
     ) -> TraversalCounts {
         let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
@@ -88,7 +102,7 @@ impl Octree {
             low[axis] = (near - origin) / speed;
             high[axis] = (far - origin) / speed;
         }
-        let mut walk = Walk { octree: self, gpu, mirror, counts: TraversalCounts::default(), visit };
+        let mut walk = Walk { octree: self, gpu, from, mirror, counts: TraversalCounts::default(), visit };
         if latest(low) <= earliest(high) {
             // Whether it was stopped or ran out of cells is all the same here.
             let _: ControlFlow<()> = walk.enter(0, [low, high]);
@@ -108,7 +122,7 @@ fn earliest(t: [f64; 3]) -> f64 {
 impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
     fn enter(&mut self, node: u32, [low, high]: Planes) -> ControlFlow<()> {
         let leave = earliest(high);
-        if leave < 0.0 {
+        if leave < 0.0 || leave <= self.from {
             return ControlFlow::Continue(());
         }
         self.counts.cells += 1;

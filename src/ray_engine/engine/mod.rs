@@ -1,0 +1,231 @@
+//! The Ray Engine: rays go in, in any order and number; first hits come out (sections 5 and 6.2).
+//!
+//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each ray
+//! through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache. A cache
+//! of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell. What is left in
+//! caches at the end is forced to the host.
+//!
+//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the card or on the
+//! host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins. So order, sizes of caches, `R_min`
+//! and threads change counts and time, never a hit. (On cards of other formats the hit depends on who tests it: there the
+//! caches matter, as they did.)
+
+mod flight;
+mod schedule;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::ops::RangeInclusive;
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::Executor;
+
+use super::host_tracer::HostTracer;
+use super::octree::{CellId, GpuCells, OctreeParameters, TraversalCounts};
+use super::ray_tree::{RayTree, RayTreeCounts, RayTreeParameters};
+use super::{Crossbar, EngineError, Hit};
+use crate::geom::exact::Sides;
+use crate::geom::{Mesh, Ray};
+use flight::{Flights, Waiting};
+
+/// How the engine schedules.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EngineParameters {
+    /// The triangle octree.
+    pub octree: OctreeParameters,
+    /// Triangles of a GPU cell: `T_min` to the most that one pass draws (Table 4: 5 to 15).
+    pub triangles: RangeInclusive<usize>,
+    /// Rays at which a cell's cache goes to the card (`R_min`), and which one pass takes at most (Table 5: 64).
+    pub rays: usize,
+    /// The ray tree.
+    pub tree: RayTreeParameters,
+    /// Rays that the tree holds before buckets leave it.
+    pub waiting: usize,
+    /// Which faces can be hit.
+    pub sides: Sides,
+    /// Whether the card takes part at all; else the host does everything, in the same order.
+    pub card: bool,
+    /// Whether the log of the run is kept.
+    pub record: bool,
+}
+
+impl Default for EngineParameters {
+    fn default() -> Self {
+        Self {
+            octree: OctreeParameters::default(),
+            triangles: 5..=15,
+            rays: 64,
+            tree: RayTreeParameters::default(),
+            waiting: 1 << 16,
+            sides: Sides::Front,
+            card: true,
+            record: false,
+        }
+    }
+}
+
+/// What an engine did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EngineCounts {
+    /// Rays answered.
+    pub rays: u64,
+    /// Rays that met the card at least once on their way.
+    pub rays_on_card: u64,
+    /// Passes on the card.
+    pub passes: u64,
+    /// Rays of all passes.
+    pub pass_rays: u64,
+    /// Ray-triangle tests of all passes: rays times triangles.
+    pub pass_tests: u64,
+    /// Rays in caches that were forced to the host in the end.
+    pub forced_rays: u64,
+    /// Ray-triangle tests on the host.
+    pub host_tests: u64,
+    /// The octree's.
+    pub traversal: TraversalCounts,
+    /// The ray tree's.
+    pub tree: RayTreeCounts,
+}
+
+impl EngineCounts {
+    /// The share of rays that met the card (Table 2).
+    pub fn share_on_card(&self) -> f64 {
+        self.rays_on_card as f64 / self.rays.max(1) as f64
+    }
+}
+
+/// A ray given to the engine, by the order of giving.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Ticket(pub u64);
+
+/// Rays in, hits out.
+#[derive(Debug)]
+pub struct RayEngine<'a> {
+    mesh: &'a Mesh,
+    tracer: HostTracer,
+    cells: GpuCells,
+    crossbar: Crossbar,
+    parameters: EngineParameters,
+    tree: RayTree,
+    flights: Flights,
+    /// The caches of the GPU cells that have rays.
+    caches: BTreeMap<usize, Vec<Waiting>>,
+    /// Rays that can go on, and from where.
+    ready: VecDeque<(u32, f64)>,
+    /// Cells whose caches hold a whole pass, once a pass.
+    full: VecDeque<CellId>,
+    answered: Vec<(Ticket, Option<Hit>)>,
+    counts: EngineCounts,
+    log: Vec<Event>,
+}
+
+impl<'a> RayEngine<'a> {
+    /// An engine over a mesh: builds the octree, marks the GPU cells.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card runs no intersection program.
+    pub fn new(
+        mesh: &'a Mesh,
+        profile: Profile,
+        executor: impl Into<Executor>,
+        parameters: EngineParameters,
+    ) -> Result<Self, EngineError> {
+        let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
+        let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
+        let crossbar = Crossbar::new(profile, executor).all_pairs(true);
+        crossbar.prepare(parameters.sides)?;
+        Ok(Self {
+            mesh,
+            tracer,
+            cells,
+            crossbar,
+            tree: RayTree::new(parameters.tree),
+            parameters: EngineParameters { rays: parameters.rays.max(1), ..parameters },
+            flights: Flights::default(),
+            caches: BTreeMap::new(),
+            ready: VecDeque::new(),
+            full: VecDeque::new(),
+            answered: Vec::new(),
+            counts: EngineCounts::default(),
+            log: Vec::new(),
+        })
+    }
+
+    /// Takes rays in, and may answer some of those that wait. Tickets count from the one returned.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card refuses the work.
+    pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
+        let first = Ticket(self.flights.given());
+        for ray in rays {
+            self.take_in(*ray)?;
+        }
+        Ok(first)
+    }
+
+    /// Answers everything that waits.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card refuses the work.
+    pub fn finish(&mut self) -> Result<(), EngineError> {
+        while !self.tree.is_empty() {
+            self.release_bucket()?;
+        }
+        self.force_caches()
+    }
+
+    /// What has been answered since the last time, in no particular order.
+    pub fn take_answers(&mut self) -> Vec<(Ticket, Option<Hit>)> {
+        std::mem::take(&mut self.answered)
+    }
+
+    /// A bundle in, its first hits out, in its own order: what a host renderer calls.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card refuses the work.
+    pub fn trace(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, EngineError> {
+        let first = self.submit(rays)?;
+        self.finish()?;
+        let mut hits = vec![None; rays.len()];
+        let mut others = Vec::new();
+        for (ticket, hit) in self.take_answers() {
+            match ticket.0.checked_sub(first.0).and_then(|i| hits.get_mut(i as usize)) {
+                Some(slot) => *slot = hit,
+                None => others.push((ticket, hit)),
+            }
+        }
+        self.answered = others;
+        Ok(hits)
+    }
+
+    /// What happened so far.
+    pub fn counts(&self) -> EngineCounts {
+        EngineCounts { tree: self.tree.counts(), ..self.counts }
+    }
+
+    /// The host's part.
+    pub fn tracer(&self) -> &HostTracer {
+        &self.tracer
+    }
+
+    /// The GPU cells.
+    pub fn cells(&self) -> &GpuCells {
+        &self.cells
+    }
+
+    /// Shares of full of the tree's buckets.
+    pub fn fullness(&self) -> Vec<f64> {
+        self.tree.fullness()
+    }
+
+    /// Bytes that waiting rays take, in the tree, in flight and in caches.
+    pub fn bytes(&self) -> usize {
+        let caches: usize = self.caches.values().map(|rays| rays.capacity() * size_of::<Waiting>()).sum();
+        self.tree.bytes() + self.flights.bytes() + caches
+    }
+
+    /// What was asked of the card and done on the host since the last time, if the engine records.
+    pub fn take_log(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.log)
+    }
+}

@@ -1,0 +1,175 @@
+//! Who does what next.
+
+use refsim::event::{Event, HostWork};
+use refsim::timing::host::Operation;
+
+use super::flight::Waiting;
+use super::{RayEngine, Ticket};
+use crate::geom::Ray;
+use crate::ray_engine::octree::{CellId, Flow, Visit};
+use crate::ray_engine::{EngineError, RayBatch};
+
+/// Rows of a pass's textures (section 5.3: 64 x 4).
+const ROWS: usize = 4;
+
+impl RayEngine<'_> {
+    /// A ray enters the tree; buckets leave it when it is full.
+    pub(super) fn take_in(&mut self, ray: Ray) -> Result<(), EngineError> {
+        let before = self.tree.counts().nodes_passed;
+        let flight = self.flights.start(ray);
+        self.tree.insert(flight, &ray);
+        self.note(Operation::RayTreeNode, self.tree.counts().nodes_passed - before);
+        self.note(Operation::BucketInsert, 1);
+        while self.tree.len() >= self.parameters.waiting.max(1) {
+            self.release_bucket()?;
+        }
+        Ok(())
+    }
+
+    /// A bucket leaves the tree, and its rays start through the octree.
+    pub(super) fn release_bucket(&mut self) -> Result<(), EngineError> {
+        self.ready.extend(self.tree.take().rays.into_iter().map(|flight| (flight, f64::NEG_INFINITY)));
+        self.drive()
+    }
+
+    /// Until nothing can go on: rays first, then caches that are full, in the order in which they came.
+    fn drive(&mut self) -> Result<(), EngineError> {
+        loop {
+            while let Some((flight, from)) = self.ready.pop_front() {
+                self.advance(flight, from);
+            }
+            let Some(cell) = self.full.pop_front() else { return Ok(()) };
+            let cache = self.caches.entry(cell.index()).or_default();
+            // Rays that came after the cache was full stay for the next pass.
+            let rest = cache.split_off(cache.len().min(self.parameters.rays));
+            let rays = std::mem::replace(cache, rest);
+            if self.parameters.card { self.on_card(cell, &rays)? } else { self.on_host(cell, &rays) }
+        }
+    }
+
+    /// Takes a ray on from where it left a cell: to its answer, or into the next GPU cell's cache.
+    fn advance(&mut self, flight: u32, from: f64) {
+        let here = *self.flights.at(flight);
+        let (mut best, mut stop, mut tests) = (here.best, None, 0);
+        let (tracer, cells) = (&self.tracer, &self.cells);
+        let traversal = tracer.octree().traverse_from(&here.ray, Some(cells), from, |cell: &Visit<'_>| {
+            if best.settles(cell.t[0], here.host.power) {
+                return Flow::Stop;
+            }
+            if cell.gpu {
+                stop = Some((cell.cell, cell.t[1]));
+                return Flow::Stop;
+            }
+            tracer.test(cell.triangles, &here.host, &mut best);
+            tests += cell.triangles.len() as u64;
+            if best.settles(cell.t[1], here.host.power) { Flow::Stop } else { Flow::Continue }
+        });
+        self.counts.traversal += traversal;
+        self.counts.host_tests += tests;
+        self.note(Operation::OctreeCell, traversal.cells);
+        self.note(Operation::RayTriangleTest, tests);
+        self.flights.at(flight).best = best;
+        match stop {
+            None => self.answer(flight),
+            Some((cell, leave)) => self.wait(cell, Waiting { flight, leave }),
+        }
+    }
+
+    /// A ray joins a cell's cache; each time that makes a whole pass more of it, the cell's turn comes once more.
+    fn wait(&mut self, cell: CellId, ray: Waiting) {
+        let cache = self.caches.entry(cell.index()).or_default();
+        cache.push(ray);
+        let turns = self.full.iter().filter(|full| **full == cell).count();
+        if cache.len() >= (turns + 1) * self.parameters.rays {
+            self.full.push_back(cell);
+        }
+    }
+
+    /// All caches, smallest cell number first, to the host; rays that go on may fill others, until none is left.
+    pub(super) fn force_caches(&mut self) -> Result<(), EngineError> {
+        while let Some((cell, rays)) = self.caches.pop_first() {
+            self.counts.forced_rays += rays.len() as u64;
+            self.on_host(CellId::at(cell), &rays);
+            self.drive()?;
+        }
+        Ok(())
+    }
+
+    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units.
+    fn on_card(&mut self, cell: CellId, waiting: &[Waiting]) -> Result<(), EngineError> {
+        let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
+        if waiting.is_empty() {
+            return Ok(());
+        }
+        let mut rays: Vec<Ray> = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
+        let width = rays.len().div_ceil(ROWS);
+        // The last ray fills what is left of the rectangle.
+        rays.resize(width * ROWS, rays[rays.len() - 1]);
+        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let batch = RayBatch::new(side(width), side(ROWS), rays)?;
+        self.note(Operation::VertexSent, triangles.len() as u64 * 4);
+        let sides = self.parameters.sides;
+        let answer = self.crossbar.intersect_triangles(self.mesh, &triangles, &batch, sides, self.parameters.record)?;
+        self.log.extend(answer.log);
+        self.counts.passes += 1;
+        self.counts.pass_rays += waiting.len() as u64;
+        self.counts.pass_tests += (waiting.len() * triangles.len()) as u64;
+        self.note(Operation::ResultRead, waiting.len() as u64);
+        for (ray, hit) in waiting.iter().zip(answer.hits) {
+            let flight = self.flights.at(ray.flight);
+            flight.on_card = true;
+            if let Some(hit) = hit {
+                // Back into the ray's range, by a power of two.
+                flight.best.offer((f64::from(hit.t) / flight.host.power) as f32, hit.triangle);
+            }
+        }
+        self.go_on(waiting);
+        Ok(())
+    }
+
+    /// The same on the host.
+    fn on_host(&mut self, cell: CellId, waiting: &[Waiting]) {
+        let triangles = self.cells.triangles(cell).unwrap_or_default();
+        let tests = (triangles.len() * waiting.len()) as u64;
+        for ray in waiting {
+            let flight = self.flights.at(ray.flight);
+            self.tracer.test(triangles, &flight.host, &mut flight.best);
+        }
+        self.counts.host_tests += tests;
+        self.note(Operation::RayTriangleTest, tests);
+        self.go_on(waiting);
+    }
+
+    /// Rays behind a cell: answered, if nothing nearer can come.
+    fn go_on(&mut self, rays: &[Waiting]) {
+        for &Waiting { flight, leave } in rays {
+            let here = self.flights.at(flight);
+            if here.best.settles(leave, here.host.power) {
+                self.answer(flight);
+            } else {
+                self.ready.push_back((flight, leave));
+            }
+        }
+    }
+
+    fn answer(&mut self, flight: u32) {
+        let ended = self.flights.end(flight);
+        self.counts.rays += 1;
+        self.counts.rays_on_card += u64::from(ended.on_card);
+        self.answered.push((Ticket(ended.ticket), ended.best.hit(ended.host.power)));
+    }
+
+    /// Work of the host, for the log; neighbours of one kind are one entry.
+    fn note(&mut self, operation: Operation, count: u64) {
+        if !self.parameters.record || count == 0 {
+            return;
+        }
+        if let Some(Event::Host(work)) = self.log.last_mut()
+            && work.kind == operation.name()
+        {
+            work.operations += count;
+            return;
+        }
+        self.log.push(Event::Host(HostWork { kind: operation.name().into(), operations: count }));
+    }
+}
