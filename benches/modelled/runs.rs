@@ -17,7 +17,7 @@ const ROWS: u32 = 4;
 /// A run: some batches, one after the other.
 #[derive(Clone, Copy)]
 pub(crate) struct Batches {
-    device: &'static str,
+    pub(crate) device: &'static str,
     /// Rays of a batch; a multiple of 4.
     pub(crate) rays: u32,
     /// Triangles that each ray meets.
