@@ -5,19 +5,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event, TexelObserver};
-use refsim::exec::Constants;
-use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, Executor, Machine, MachineError, StepRate, TextureId, VertexSource,
-    VertexStreams,
-};
-use refsim::num::Format;
-use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::{Region, SamplerState, TexelFormat};
+use refsim::machine::{Executor, MachineError};
+use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
-use super::units::{Units, ray_textures};
-use super::{Form, Kernel, RayBatch, RayBatchError};
+use super::card::{Card, Streams};
+use super::kept::KeptCard;
+use super::units::Units;
+use super::{Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
 
@@ -182,16 +177,34 @@ impl Crossbar {
         record: bool,
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((false, sides))?;
-        if mesh.len() > MOST_TRIANGLES {
-            return Err(EngineError::TooManyTriangles { found: mesh.len() });
-        }
+        check_count(mesh)?;
         let units = Units::choose(kernel.form, mesh, rays);
         let mut machine = self.executor.machine(self.profile.clone())?;
         machine.record(record);
-        let mut card = Card::set_up(machine, &kernel, rays, &units)?;
-        let events = card.draw(&kernel, mesh, &units, triangles)?;
-        let hits = card.read_back(rays, &units)?;
-        Ok(Answer { hits, events, kernel: kernel.name, log: card.machine.take_log() })
+        let name = kernel.name;
+        let mut card = Card::set_up(machine, kernel, rays, units)?;
+        card.clear()?;
+        let events = card.draw(&Streams::new(mesh, triangles))?;
+        let hits = card.read_back(rays)?;
+        Ok(Answer { hits, events, kernel: name, log: card.take_log() })
+    }
+
+    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:
+    /// every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn keep(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<KeptCard, EngineError> {
+        let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
+        check_count(mesh)?;
+        let name = kernel.name;
+        if rays.rays().is_empty() || mesh.is_empty() {
+            return Ok(KeptCard::idle(rays.clone(), name));
+        }
+        let units = Units::choose(kernel.form, mesh, rays);
+        let card = Card::set_up(self.executor.machine(self.profile.clone())?, kernel, rays, units)?;
+        let ids: Vec<u32> = (0..mesh.len() as u32).collect();
+        Ok(KeptCard::new(card, Streams::new(mesh, &ids), rays.clone(), name))
     }
 
     /// The program for a use: chosen once.
@@ -214,9 +227,7 @@ impl Crossbar {
         recording: Recording<'_>,
     ) -> Result<Answer, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
-        if mesh.len() > MOST_TRIANGLES {
-            return Err(EngineError::TooManyTriangles { found: mesh.len() });
-        }
+        check_count(mesh)?;
         if rays.rays().is_empty() || mesh.is_empty() {
             let hits = vec![None; rays.rays().len()];
             return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() });
@@ -227,9 +238,11 @@ impl Crossbar {
             let mut machine = self.executor.machine(self.profile.clone())?;
             machine.record(recording.on);
             machine.observe_textures(recording.watcher.map(|make| make()));
-            let mut card = Card::set_up(machine, &kernel, &bucket, &units)?;
-            let events = card.draw(&kernel, mesh, &units, &triangles)?;
-            Ok((region, card.read_back(&bucket, &units)?, events, card.machine.take_log()))
+            let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
+            // New targets hold just that; a card that keeps them from bucket to bucket has to be told.
+            card.clear()?;
+            let events = card.draw(&Streams::new(mesh, &triangles))?;
+            Ok((region, card.read_back(&bucket)?, events, card.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);
         let drawn: Vec<_> = match buckets.len() {
@@ -279,109 +292,11 @@ impl Crossbar {
     }
 }
 
-/// A machine with rays in its textures, a cleared colour target for ids and a depth buffer for t.
-struct Card {
-    machine: Machine,
-    textures: Vec<(usize, TextureId)>,
-    ids: TextureId,
-    depth: DepthId,
-}
-
-impl Card {
-    fn set_up(mut machine: Machine, kernel: &Kernel, rays: &RayBatch, units: &Units) -> Result<Self, EngineError> {
-        let mut textures = Vec::new();
-        for (sampler, image) in ray_textures(kernel, rays, units).map_err(MachineError::from)? {
-            textures.push((sampler, machine.create_texture(image)?));
-        }
-        let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
-        let format = depth_format(machine.profile(), kernel.form);
-        let depth = machine.create_depth(format, rays.width(), rays.height())?;
-        // New, they hold just that; a card that keeps them from bucket to bucket has to be told.
-        machine.clear_target(ids, [0; 4])?;
-        machine.clear_depth(depth, 1.0_f32.to_bits())?;
-        Ok(Self { machine, textures, ids, depth })
+fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
+    if mesh.len() > MOST_TRIANGLES {
+        return Err(EngineError::TooManyTriangles { found: mesh.len() });
     }
-
-    /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
-    fn draw(
-        &mut self,
-        kernel: &Kernel,
-        mesh: &Mesh,
-        units: &Units,
-        triangles: &[u32],
-    ) -> Result<DrawEvents, EngineError> {
-        let streams = Streams::new(mesh, triangles);
-        let vertex_constants = Constants { float: units.vertex_constants(), ..Constants::default() };
-        let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
-        let source =
-            VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
-        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
-        for (sampler, texture) in &self.textures {
-            call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
-        }
-        call.center = PixelCenter::OpenGl;
-        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
-        call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
-        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-        call.depth_buffer = Some(self.depth);
-        Ok(self.machine.draw(&call)?)
-    }
-
-    fn read_back(&self, rays: &RayBatch, units: &Units) -> Result<Vec<Option<Hit>>, EngineError> {
-        let image = self.machine.read_back(self.ids)?;
-        let depth = self.machine.read_depth(self.depth)?;
-        let pixel = |(i, ray): (usize, &Ray)| {
-            let (x, y) = (i as u32 % rays.width(), i as u32 / rays.width());
-            let raw = image.raw(0, 0, y, x) as u32;
-            (raw >> 24 != 0).then(|| {
-                let stored = depth.data()[i];
-                let depth = f32::from_bits(depth.format().to_format(stored, Format::FP32));
-                Hit { triangle: id_of_color(raw), t: units.t(depth, ray) }
-            })
-        };
-        Ok(rays.rays().iter().enumerate().map(pixel).collect())
-    }
-}
-
-/// A float depth buffer where the program computes in float and the card has one; else 24 bits, as the cards had.
-fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
-    let float = form == Form::Float && profile.limits.depth_formats.iter().any(|f| f == DepthFormat::Float32.name());
-    if float { DepthFormat::Float32 } else { DepthFormat::Unorm24 }
-}
-
-/// The vertex attributes of the crossbar, fp32 patterns.
-struct Streams {
-    corners: [[u32; 4]; 4],
-    triangles: [Vec<[u32; 4]>; 4],
-}
-
-impl Streams {
-    fn new(mesh: &Mesh, ids: &[u32]) -> Self {
-        // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
-        let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
-        let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
-        for (id, corners) in ids.iter().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
-            for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
-                stream.push([x, y, z, 1.0].map(f32::to_bits));
-            }
-            triangles[3].push(color_of_id(id));
-        }
-        Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
-    }
-
-    fn bind(&self) -> VertexStreams<'_> {
-        let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
-        let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
-            register: i + 1,
-            step: StepRate::Instance,
-            data,
-        });
-        VertexStreams {
-            vertex_count: 4,
-            instance_count: self.triangles[3].len(),
-            streams: std::iter::once(corners).chain(each).collect(),
-        }
-    }
+    Ok(())
 }
 
 /// An id as a colour: red is its lowest byte, alpha 1.

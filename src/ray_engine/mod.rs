@@ -4,10 +4,12 @@
 //! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
 
 mod bundle;
+mod card;
 mod crossbar;
 pub mod engine;
 mod host_test;
 mod host_tracer;
+mod kept;
 mod kernel;
 pub mod kernels;
 pub mod model;
@@ -20,6 +22,7 @@ mod vertex_crossbar;
 
 pub use crossbar::{Answer, Crossbar, EngineError, Hit, MakeWatcher};
 pub use host_tracer::{HostCounts, HostTracer};
+pub use kept::KeptCard;
 pub use kernel::{Form, Kernel};
 pub use rays::{RayBatch, RayBatchError};
 pub use vertex_crossbar::VertexCrossbar;

@@ -1,0 +1,138 @@
+//! A card at work for the crossbar: rays in textures, triangles in streams, ids and depths in targets.
+
+use std::sync::Arc;
+
+use refsim::device::Profile;
+use refsim::event::{DrawEvents, Event};
+use refsim::exec::Constants;
+use refsim::machine::{
+    AttributeStream, DepthId, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
+};
+use refsim::num::Format;
+use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive};
+use refsim::texture::{SamplerState, TexelFormat};
+
+use super::crossbar::{color_of_id, id_of_color};
+use super::units::{Units, ray_textures};
+use super::{EngineError, Form, Hit, Kernel, RayBatch};
+use crate::geom::{Mesh, Ray};
+
+/// A machine with rays in its textures, a colour target for ids and a depth buffer for t.
+#[derive(Debug)]
+pub(super) struct Card {
+    machine: Machine,
+    kernel: Arc<Kernel>,
+    units: Units,
+    textures: Vec<(usize, TextureId)>,
+    ids: TextureId,
+    depth: DepthId,
+}
+
+impl Card {
+    /// Uploads the rays, and makes targets of their size.
+    pub(super) fn set_up(
+        mut machine: Machine,
+        kernel: Arc<Kernel>,
+        rays: &RayBatch,
+        units: Units,
+    ) -> Result<Self, EngineError> {
+        let mut textures = Vec::new();
+        for (sampler, image) in ray_textures(&kernel, rays, &units).map_err(MachineError::from)? {
+            textures.push((sampler, machine.create_texture(image)?));
+        }
+        let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
+        let format = depth_format(machine.profile(), kernel.form);
+        let depth = machine.create_depth(format, rays.width(), rays.height())?;
+        Ok(Self { machine, kernel, units, textures, ids, depth })
+    }
+
+    /// No ids, and the depth of no hit.
+    pub(super) fn clear(&mut self) -> Result<(), EngineError> {
+        self.machine.clear_target(self.ids, [0; 4])?;
+        self.machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
+        Ok(())
+    }
+
+    /// What was asked of the machine, if it records.
+    pub(super) fn take_log(&mut self) -> Vec<Event> {
+        self.machine.take_log()
+    }
+
+    /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
+    pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
+        let (kernel, units) = (&self.kernel, &self.units);
+        let vertex_constants = Constants { float: units.vertex_constants(), ..Constants::default() };
+        let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
+        let source =
+            VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
+        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
+        for (sampler, texture) in &self.textures {
+            call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
+        }
+        call.center = PixelCenter::OpenGl;
+        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
+        call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
+        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
+        call.depth_buffer = Some(self.depth);
+        Ok(self.machine.draw(&call)?)
+    }
+
+    /// What each of the rays hits.
+    pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
+        let image = self.machine.read_back(self.ids)?;
+        let depth = self.machine.read_depth(self.depth)?;
+        let pixel = |(i, ray): (usize, &Ray)| {
+            let (x, y) = (i as u32 % rays.width(), i as u32 / rays.width());
+            let raw = image.raw(0, 0, y, x) as u32;
+            (raw >> 24 != 0).then(|| {
+                let stored = depth.data()[i];
+                let depth = f32::from_bits(depth.format().to_format(stored, Format::FP32));
+                Hit { triangle: id_of_color(raw), t: self.units.t(depth, ray) }
+            })
+        };
+        Ok(rays.rays().iter().enumerate().map(pixel).collect())
+    }
+}
+
+/// A float depth buffer where the program computes in float and the card has one; else 24 bits, as the cards had.
+fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
+    let float = form == Form::Float && profile.limits.depth_formats.iter().any(|f| f == DepthFormat::Float32.name());
+    if float { DepthFormat::Float32 } else { DepthFormat::Unorm24 }
+}
+
+/// The vertex attributes of the crossbar, fp32 patterns.
+#[derive(Debug)]
+pub(super) struct Streams {
+    corners: [[u32; 4]; 4],
+    triangles: [Vec<[u32; 4]>; 4],
+}
+
+impl Streams {
+    pub(super) fn new(mesh: &Mesh, ids: &[u32]) -> Self {
+        // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
+        let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
+        let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
+        for (id, corners) in ids.iter().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
+            for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
+                stream.push([x, y, z, 1.0].map(f32::to_bits));
+            }
+            triangles[3].push(color_of_id(id));
+        }
+        Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
+    }
+
+    fn bind(&self) -> VertexStreams<'_> {
+        let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
+        let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
+            register: i + 1,
+            step: StepRate::Instance,
+            data,
+        });
+        VertexStreams {
+            vertex_count: 4,
+            instance_count: self.triangles[3].len(),
+            streams: std::iter::once(corners).chain(each).collect(),
+        }
+    }
+}
