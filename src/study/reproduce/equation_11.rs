@@ -22,7 +22,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
     })
 }
 
-const fn printed(value: f64, decimals: i32, unit: &'static str) -> Printed {
+const fn printed(value: f64, decimals: usize, unit: &'static str) -> Printed {
     Printed { value, decimals, unit, place: "section 6.1" }
 }
 

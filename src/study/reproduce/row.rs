@@ -9,7 +9,7 @@ pub struct Printed {
     /// The value, in units of `unit`.
     pub value: f64,
     /// Digits behind the point, as printed.
-    pub decimals: i32,
+    pub decimals: usize,
     /// The unit.
     pub unit: &'static str,
     /// Where it stands.
@@ -19,13 +19,9 @@ pub struct Printed {
 impl Printed {
     /// Whether `value` reads as printed, rounded to as many digits.
     pub fn reads(&self, value: f64) -> bool {
-        let digits = |v: f64| (v * 10f64.powi(self.decimals)).round();
+        let scale = (0..self.decimals).fold(1.0, |scale: f64, _| scale * 10.0);
+        let digits = |v: f64| (v * scale).round();
         digits(value) == digits(self.value)
-    }
-
-    /// The figure with its digits.
-    pub fn text(&self) -> String {
-        format!("{:.*}", usize::try_from(self.decimals).unwrap_or(0), self.value)
     }
 }
 
