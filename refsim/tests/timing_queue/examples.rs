@@ -180,6 +180,15 @@ fn an_asynchronous_read_back_has_a_fence() {
 }
 
 #[test]
+fn a_read_back_comes_after_all_draws_before_it() {
+    let mut queue = Queue::new(free());
+    queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "into what is read back");
+    queue.draw(&[], &[RAYS], cost(0, 7, 0, 0), "into something else");
+    queue.read_back(IDS, ps(5), ReadBackMode::Asynchronous, "ids");
+    assert_eq!(spans(&queue.timeline(), Unit::ReadBackBus), [(17, 22)]);
+}
+
+#[test]
 fn an_upload_waits_for_draws_that_read_what_it_overwrites() {
     let mut queue = Queue::new(free());
     queue.draw(&[RAYS], &[IDS], cost(0, 10, 0, 0), "draw");
