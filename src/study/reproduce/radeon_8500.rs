@@ -15,7 +15,7 @@ use crate::scene::Camera;
 
 const DEVICE: &str = "r200";
 /// Rays of a side.
-const SIDE: u32 = 64;
+const SIDE: u32 = 256;
 /// "Thousands of triangles" (section 6.1).
 const TRIANGLES: usize = 2048;
 const NOTE: &str = "The authors' program is not printed. 114 M/s is 9.65 clocks of a pixel pipeline a test; ours has 11 pairs of \
@@ -26,7 +26,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
     let (rows, slots) = kernels()?;
     Ok(Findings {
         text: vec![
-            "Two thousand triangles against 64 x 64 rays: read-back and vertices do not show, so the figure is the pixel \
+            "Two thousand triangles against 256 x 256 rays: read-back and vertices do not show, so the figure is the pixel \
              program's. R200 is taken to issue one pair of a colour and an alpha instruction a clock in each of its four \
              pipelines, and two texture instructions beside it. No source gives the first rate; it was chosen because with it our program \
              comes near the printed figure, and two a clock would give nearly twice as much. So this row is a calibration, by a whole number."
