@@ -347,3 +347,36 @@ fn resources_can_be_changed_cleared_and_released() {
     machine.release_depth(depth).unwrap();
     assert!(machine.release_depth(depth).is_err());
 }
+
+/// Draws copies of a texture; executors may keep what they decode, but never longer than the texture holds it.
+#[test]
+fn a_changed_texture_is_read_as_it_is_now() {
+    let profile = Profile::named("r300").unwrap();
+    let program = checked("ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0", &profile);
+    for kind in [ExecutorKind::Scalar, ExecutorKind::Batch] {
+        let n = 16;
+        let mut machine = Machine::new(profile.clone(), kind);
+        let texture = machine.create_target_from(gradient(n)).unwrap();
+        let other = machine.create_texture(gradient(n)).unwrap();
+        let target = machine.create_target(TexelFormat::Rgba8, n, n).unwrap();
+        let (vertices, host) = (screen(n), Constants::default());
+        let copy = |machine: &mut Machine, from, to| {
+            let call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, to)
+                .with_texture(0, from, SamplerState::NEAREST_CLAMP);
+            machine.draw(&call).unwrap();
+            machine.read_back(to).unwrap().clone()
+        };
+        let first = copy(&mut machine, texture, target);
+        assert_eq!(first, gradient(n), "{kind:?}: as created");
+        assert_eq!(copy(&mut machine, texture, target), first, "{kind:?}: again");
+        let mut changed = gradient(n);
+        changed.set_raw(0, 0, 3, 5, 0x1234_5678);
+        machine.update_texture(texture, &changed).unwrap();
+        assert_eq!(copy(&mut machine, texture, target), changed, "{kind:?}: updated");
+        machine.clear_target(texture, bits([1.0, 0.0, 1.0, 0.0])).unwrap();
+        assert_eq!(pixel(&copy(&mut machine, texture, target), 5, 3), [255, 0, 255, 0], "{kind:?}: cleared");
+        assert_eq!(copy(&mut machine, other, texture), gradient(n), "{kind:?}: drawn into");
+        assert_eq!(copy(&mut machine, texture, target), gradient(n), "{kind:?}: as drawn");
+        assert_eq!(machine.release_texture(texture).unwrap(), machine.release_texture(other).unwrap(), "{kind:?}");
+    }
+}

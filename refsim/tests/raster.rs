@@ -6,4 +6,5 @@ mod raster {
     mod coverage;
     mod interpolation;
     mod support;
+    mod window;
 }

@@ -98,7 +98,7 @@ struct Recording<'a> {
 /// A card that intersects rays with triangles.
 #[derive(Clone, Debug)]
 pub struct Crossbar {
-    profile: Profile,
+    profile: Arc<Profile>,
     executor: Executor,
     all_pairs: bool,
     /// Programs that have been assembled and checked, by what they were chosen for.
@@ -113,8 +113,8 @@ type Chosen = (KernelUse, Arc<Kernel>);
 
 impl Crossbar {
     /// A card of this profile.
-    pub fn new(profile: Profile, executor: impl Into<Executor>) -> Self {
-        Self { profile, executor: executor.into(), all_pairs: false, kernels: Arc::default() }
+    pub fn new(profile: impl Into<Arc<Profile>>, executor: impl Into<Executor>) -> Self {
+        Self { profile: profile.into(), executor: executor.into(), all_pairs: false, kernels: Arc::default() }
     }
 
     /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
@@ -179,7 +179,7 @@ impl Crossbar {
         let kernel = self.kernel((false, sides))?;
         check_count(mesh)?;
         let units = Units::choose(kernel.form, mesh, rays);
-        let mut machine = self.executor.machine(self.profile.clone())?;
+        let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
         machine.record(record);
         let name = kernel.name;
         let mut card = Card::set_up(machine, kernel, rays, units)?;
@@ -202,7 +202,7 @@ impl Crossbar {
             return Ok(KeptCard::idle(rays.clone(), name));
         }
         let units = Units::choose(kernel.form, mesh, rays);
-        let card = Card::set_up(self.executor.machine(self.profile.clone())?, kernel, rays, units)?;
+        let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
         Ok(KeptCard::new(card, Streams::new(mesh, &ids), rays.clone(), name))
     }
@@ -235,7 +235,7 @@ impl Crossbar {
         let units = Units::choose(kernel.form, mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
-            let mut machine = self.executor.machine(self.profile.clone())?;
+            let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
             machine.record(recording.on);
             machine.observe_textures(recording.watcher.map(|make| make()));
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;

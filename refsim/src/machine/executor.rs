@@ -4,7 +4,6 @@ use super::{Machine, MachineError};
 use crate::device::Profile;
 #[cfg(feature = "wgpu")]
 use crate::exec::{gpu::Gpu, wgsl::NumberMode};
-#[cfg(feature = "wgpu")]
 use std::sync::Arc;
 
 /// Which executor shades fragments. The bits are the same.
@@ -49,7 +48,7 @@ impl Executor {
     ///
     /// # Errors
     /// If a GPU is to shade and refuses.
-    pub fn machine(&self, profile: Profile) -> Result<Machine, MachineError> {
+    pub fn machine(&self, profile: impl Into<Arc<Profile>>) -> Result<Machine, MachineError> {
         match self {
             Self::Kind(kind) => Ok(Machine::new(profile, *kind)),
             #[cfg(feature = "wgpu")]

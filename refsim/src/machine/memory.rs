@@ -1,7 +1,7 @@
 //! Memory of the card: textures, targets, depth buffers, and the way in and out.
 
 use super::record::depth_size;
-use super::{Machine, MachineError};
+use super::{BoundTexture, Machine, MachineError};
 use crate::device::Profile;
 use crate::event::Event;
 use crate::num::Format;
@@ -41,6 +41,15 @@ impl Memory {
             return card.image(id.0, image);
         }
         Ok(image)
+    }
+
+    /// Names what the textures of a call hold, so that an executor knows them again.
+    pub(super) fn name_textures(&mut self, samplers: &[Option<BoundTexture>]) {
+        for bound in samplers.iter().flatten() {
+            if let Some(Some(image)) = self.textures.get_mut(bound.texture.0) {
+                image.name_contents();
+            }
+        }
     }
 
     /// A texture to be overwritten.

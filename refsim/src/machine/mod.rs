@@ -29,6 +29,8 @@ pub use executor::{Executor, ExecutorKind};
 pub use memory::{DepthId, TextureId};
 pub use trace::{FragmentTrace, PixelState};
 
+use std::sync::Arc;
+
 use crate::device::Profile;
 use crate::event::DrawEvents;
 use crate::exec::batch::{BatchTiles, SimdLevel};
@@ -41,7 +43,7 @@ use validate::Plan;
 /// An emulated card.
 #[derive(Debug)]
 pub struct Machine {
-    profile: Profile,
+    profile: Arc<Profile>,
     executor: ExecutorKind,
     simd: Option<SimdLevel>,
     pool: Option<rayon::ThreadPool>,
@@ -51,15 +53,26 @@ pub struct Machine {
 
 impl Machine {
     /// A machine with empty memory, on the global worker threads.
-    pub fn new(profile: Profile, executor: ExecutorKind) -> Self {
-        Self { profile, executor, simd: None, pool: None, memory: Memory::default(), recorder: Recorder::default() }
+    pub fn new(profile: impl Into<Arc<Profile>>, executor: ExecutorKind) -> Self {
+        Self {
+            profile: profile.into(),
+            executor,
+            simd: None,
+            pool: None,
+            memory: Memory::default(),
+            recorder: Recorder::default(),
+        }
     }
 
     /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.
     ///
     /// # Errors
     /// [`MachineError::Threads`] if the system refuses them.
-    pub fn with_threads(profile: Profile, executor: ExecutorKind, threads: usize) -> Result<Self, MachineError> {
+    pub fn with_threads(
+        profile: impl Into<Arc<Profile>>,
+        executor: ExecutorKind,
+        threads: usize,
+    ) -> Result<Self, MachineError> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.max(1))
             .build()
@@ -103,6 +116,7 @@ impl Machine {
         if self.executor == ExecutorKind::Wgpu {
             return self.draw_on_gpu(call, plan);
         }
+        self.memory.name_textures(&call.samplers);
         let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));

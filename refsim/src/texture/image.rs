@@ -1,5 +1,7 @@
 //! Images: texels in memory, with mip levels, slices and faces.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::{SignedTexelMinimum, TargetRounding, Texel, TexelFormat, TextureError, decode, encode};
 use crate::num::Format;
 
@@ -87,7 +89,24 @@ pub struct Image {
     kind: TextureKind,
     levels: Vec<Level>,
     bytes: Vec<u8>,
+    stamp: Stamp,
 }
+
+/// A name for what an image holds, 0 for none. Images of one name are equal; equal ones may have different names.
+#[derive(Clone, Debug, Default)]
+struct Stamp(u64);
+
+/// A name says nothing about what is named.
+impl PartialEq for Stamp {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Stamp {}
+
+/// The last name that was given.
+static LAST_STAMP: AtomicU64 = AtomicU64::new(0);
 
 impl Image {
     /// An image of zero bytes. Extents that the kind does not use must be 1 (a cube's depth too).
@@ -131,7 +150,7 @@ impl Image {
             });
             offset = next;
         }
-        Ok(Self { format, kind, levels, bytes: vec![0; offset as usize] })
+        Ok(Self { format, kind, levels, bytes: vec![0; offset as usize], stamp: Stamp::default() })
     }
 
     /// A 2-D image of one level.
@@ -227,7 +246,20 @@ impl Image {
 
     /// All bytes, to be changed at will: every pattern is a valid texel.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
+        self.stamp = Stamp::default();
         &mut self.bytes
+    }
+
+    /// Gives what the image holds a name of its own, which is lost with the next change.
+    pub(crate) fn name_contents(&mut self) {
+        if self.stamp.0 == 0 {
+            self.stamp = Stamp(LAST_STAMP.fetch_add(1, Ordering::Relaxed) + 1);
+        }
+    }
+
+    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same format.
+    pub(crate) fn contents_name(&self) -> Option<u64> {
+        Some(self.stamp.0).filter(|&name| name != 0)
     }
 
     /// The first byte of a texel, or `None` outside the image.
@@ -248,7 +280,7 @@ impl Image {
     pub fn set_raw(&mut self, level: u32, slice: u32, y: u32, x: u32, raw: u128) {
         let size = self.format.bytes();
         if let Some(at) = self.offset_of(level, slice, y, x) {
-            self.bytes[at..at + size].copy_from_slice(&raw.to_le_bytes()[..size]);
+            self.bytes_mut()[at..at + size].copy_from_slice(&raw.to_le_bytes()[..size]);
         }
     }
 
@@ -277,7 +309,7 @@ impl Image {
     pub fn clear(&mut self, from: Format, values: [u32; 4], rounding: TargetRounding) {
         let size = self.format.bytes();
         let raw = encode(self.format, from, values, rounding).to_le_bytes();
-        for texel in self.bytes.chunks_exact_mut(size) {
+        for texel in self.bytes_mut().chunks_exact_mut(size) {
             texel.copy_from_slice(&raw[..size]);
         }
     }
@@ -296,7 +328,7 @@ impl Image {
         for i in 0..region.height {
             let source = &bytes[i as usize * row..][..row];
             if let Some(at) = self.offset_of(level, slice, region.y + i, region.x) {
-                self.bytes[at..at + row].copy_from_slice(source);
+                self.bytes_mut()[at..at + row].copy_from_slice(source);
             }
         }
         Ok(())

@@ -42,6 +42,22 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
+    /// For each instance whether all its positions are those of the instance before.
+    fn repeats(&self) -> Vec<bool> {
+        let mut repeats = vec![true; self.count];
+        if let Some(first) = repeats.first_mut() {
+            *first = false;
+        }
+        if self.count > 1 {
+            for vertex in self.rows.position.iter().flat_map(|row| row.chunks_exact(self.count)) {
+                for (repeats, (now, before)) in repeats[1..].iter_mut().zip(vertex[1..].iter().zip(vertex)) {
+                    *repeats &= now == before;
+                }
+            }
+        }
+        repeats
+    }
+
     fn positions(&self, corners: [usize; 3]) -> [[u32; 4]; 3] {
         corners.map(|at| [0, 1, 2, 3].map(|c: usize| self.rows.position[c][at]))
     }
@@ -61,10 +77,15 @@ impl Surfaces {
         let total = each * instances.count;
         let joined = out.planes(instances, simd);
         let window = Window::new(instances.rows, state, rules, simd);
-        let chunks: Vec<_> = (0..total.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| shapes((instances, &window), chunk * CHUNK..((chunk + 1) * CHUNK).min(total), state, rules))
-            .collect();
+        let repeats = instances.repeats();
+        let chunk = |chunk: usize| {
+            let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(total);
+            shapes((instances, &window, &repeats), range, state, rules)
+        };
+        let chunks: Vec<_> = match total.div_ceil(CHUNK) {
+            few @ 0..2 => (0..few).map(chunk).collect(),
+            many => (0..many).into_par_iter().map(chunk).collect(),
+        };
         let mut counts = PrimitiveCounts { assembled: total as u64, ..PrimitiveCounts::default() };
         let mut last = None;
         // Numbers of the shapes of a chunk.
@@ -181,16 +202,17 @@ impl Surfaces {
 
 /// Sets up the shapes of some triangles.
 fn shapes(
-    (instances, window): (&Instances<'_>, &Window),
+    (instances, window, repeats): (&Instances<'_>, &Window, &[bool]),
     range: std::ops::Range<usize>,
     state: &RasterState,
     rules: &RasterRules,
 ) -> (Vec<Outcome>, Vec<TriangleSetup>) {
     let each = instances.triangles.len();
+    let mut outcomes: Vec<Outcome> = Vec::with_capacity(range.len());
     let mut shapes = Vec::new();
     let mut recent: Vec<([[u32; 4]; 3], Outcome)> = Vec::with_capacity(RECENT);
     let mut next = 0;
-    let outcome = |i: usize| {
+    let mut outcome = |i: usize| {
         let corners = instances.corners(i / each, i % each);
         let positions = instances.positions(corners);
         if let Some((_, outcome)) = recent.iter().find(|(known, _)| *known == positions) {
@@ -220,7 +242,12 @@ fn shapes(
         }
         outcome
     };
-    (range.map(outcome).collect(), shapes)
+    for i in range {
+        let known = outcomes.len().checked_sub(each).filter(|_| repeats[i / each]);
+        let outcome = known.map_or_else(|| outcome(i), |before| outcomes[before]);
+        outcomes.push(outcome);
+    }
+    (outcomes, shapes)
 }
 
 /// Whether anything is left of a triangle that a plane cuts; its components do not matter for that.

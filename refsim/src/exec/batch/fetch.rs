@@ -1,7 +1,10 @@
 //! Texture reads of a batch: whole rows of nearest texels out of a table where that is all there is to do, the texture
 //! room's own functions a lane at a time otherwise.
 
+use std::sync::Arc;
+
 use super::arith::Formats;
+use super::cache::Cache;
 use super::graph::Arith;
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
@@ -13,8 +16,8 @@ use crate::exec::SamplerBinding;
 use crate::num::Format;
 use crate::num::ops;
 use crate::texture::{
-    AddressMode, Channel, ChannelValue, ComponentSource, Image, Lod, SampleRules, TextureKind, decode_channel,
-    fetch_nearest, lod_from_derivatives, sample,
+    AddressMode, Channel, ChannelValue, ComponentSource, Image, Lod, SampleRules, SamplerState, TextureKind,
+    decode_channel, fetch_nearest, lod_from_derivatives, sample,
 };
 
 /// Texels of the largest image that gets a table: 4 MiB of it.
@@ -29,8 +32,15 @@ const FAR: f64 = 16_777_216.0;
 pub(crate) struct BatchTexture<'a> {
     binding: SamplerBinding<'a>,
     rules: SampleRules,
-    table: Option<Table>,
+    table: Option<Arc<Table>>,
 }
+
+/// What a table is made from: the name of the texture's contents, the sampler's state, the device's rules.
+type TableKey = (u64, SamplerState, SampleRules);
+
+/// Tables stay for as long as they are among the last few in use: of textures whose contents have a name, which changes
+/// with them.
+static TABLES: Cache<TableKey, Table> = Cache::new();
 
 /// All texels of a plane in the register format, as slots hold them, the border texel last.
 #[derive(Debug)]
@@ -46,7 +56,15 @@ struct Table {
 impl<'a> BatchTexture<'a> {
     /// Prepares the texture of a sampler.
     pub(crate) fn new(binding: SamplerBinding<'a>, rules: SampleRules, lane: &AnyLane) -> Self {
-        let table = Table::new(&binding, &rules, lane);
+        let fit = Table::fits(&binding);
+        let make = || Table::new(&binding, &rules, lane);
+        let table = fit.then(|| match binding.image.contents_name() {
+            Some(name) => {
+                let key = (name, binding.state, rules);
+                TABLES.get(|known| *known == key, || (key, make()))
+            }
+            None => Arc::new(make()),
+        });
         Self { binding, rules, table }
     }
 
@@ -117,14 +135,17 @@ impl<'a> BatchTexture<'a> {
 }
 
 impl Table {
-    fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
+    /// Whether a binding can be read out of a table.
+    fn fits(binding: &SamplerBinding<'_>) -> bool {
+        let image = binding.image;
+        let plane = matches!(image.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
+        binding.is_plain() && plane && image.width() as usize * image.height() as usize <= LARGEST_TABLE
+    }
+
+    fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Self {
         let image = binding.image;
         let kind = image.kind();
         let (width, height) = (image.width(), image.height());
-        let plane = matches!(kind, TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
-        if !binding.is_plain() || !plane || width as usize * height as usize > LARGEST_TABLE {
-            return None;
-        }
         let mut texels = all_texels(image, rules, lane);
         let state = &binding.state;
         let modes = match kind {
@@ -135,7 +156,7 @@ impl Table {
         if modes.contains(&AddressMode::Border) {
             // NaN addresses as 0: a read far outside gets the border colour.
             let outside = [0x4b80_0000, 0x4b80_0000, 0, 0];
-            let bordered = crate::texture::SamplerState {
+            let bordered = SamplerState {
                 address_u: AddressMode::Border,
                 address_v: if kind == TextureKind::D1 { state.address_v } else { AddressMode::Border },
                 ..*state
@@ -147,7 +168,7 @@ impl Table {
             TextureKind::D1 => [f64::from(width), 0.0],
             _ => [f64::from(width), f64::from(height)],
         };
-        Some(Self { texels, width, height, scale, modes })
+        Self { texels, width, height, scale, modes }
     }
 
     /// The index of each lane's texel.

@@ -37,7 +37,7 @@ impl Machine {
     ///
     /// # Errors
     /// [`MachineError::Gpu`] if the GPU has no memory for it.
-    pub fn with_gpu(profile: Profile, gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, MachineError> {
+    pub fn with_gpu(profile: impl Into<Arc<Profile>>, gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, MachineError> {
         let mut machine = Self::new(profile, ExecutorKind::Wgpu);
         machine.memory.card = Some(Card::new(gpu, mode)?);
         Ok(machine)
