@@ -1,5 +1,6 @@
 //! Batches of rays through the crossbar of a ps_1_1 card: quads with two textures, as the paper measured its fill rate.
 
+use crossbar::study::reproduce::{DUAL_TEXTURED, screen_quad};
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -54,7 +55,7 @@ impl Batches {
     /// What is asked of the card.
     pub(crate) fn log(&self) -> Vec<Event> {
         let profile = Profile::named(self.device).expect("a card of the project");
-        let program = assemble("ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n").expect("it assembles");
+        let program = assemble(DUAL_TEXTURED).expect("it assembles");
         let program = check(program, &profile).expect("the card takes it");
         let caches = self.observed.then(|| TextureCaches::new(&profile).expect("the card has a cache"));
         let mut machine = Machine::new(profile, ExecutorKind::Batch);
@@ -80,7 +81,7 @@ impl Batches {
         let (width, height) = (self.rays / ROWS, ROWS);
         let target = machine.create_target(TexelFormat::Bgra8, width, height).expect("a target");
         let depth = machine.create_depth(DepthFormat::Unorm24, width, height).expect("a depth buffer");
-        let vertices: Vec<Vertex> = (0..self.triangles).flat_map(|_| quad()).collect();
+        let vertices: Vec<Vertex> = (0..self.triangles).flat_map(|_| screen_quad()).collect();
         let constants = Constants::default();
         let mut call =
             DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, program, &constants, target);
@@ -123,14 +124,4 @@ pub(crate) fn without_cache(mut log: Vec<Event>) -> Vec<Event> {
         }
     }
     log
-}
-
-fn quad() -> [Vertex; 4] {
-    [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
-        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
-        for set in 0..2 {
-            vertex.texcoords[set] = [0.5 + 0.5 * x, 0.5 - 0.5 * y, 0.0, 1.0].map(f32::to_bits);
-        }
-        vertex
-    })
 }

@@ -123,16 +123,18 @@ impl Streams {
     }
 
     fn bind(&self) -> VertexStreams<'_> {
-        let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
-        let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
-            register: i + 1,
-            step: StepRate::Instance,
-            data,
-        });
-        VertexStreams {
-            vertex_count: 4,
-            instance_count: self.triangles[3].len(),
-            streams: std::iter::once(corners).chain(each).collect(),
-        }
+        bind(&self.corners, &self.triangles)
+    }
+}
+
+/// Corners that step by vertex in register 0; what belongs to a triangle steps by instance in the registers after it.
+pub(super) fn bind<'a>(corners: &'a [[u32; 4]], triangles: &'a [Vec<[u32; 4]>]) -> VertexStreams<'a> {
+    let each =
+        (1..).zip(triangles).map(|(register, data)| AttributeStream { register, step: StepRate::Instance, data });
+    let corner = AttributeStream { register: 0, step: StepRate::Vertex, data: corners };
+    VertexStreams {
+        vertex_count: corners.len(),
+        instance_count: triangles.first().map_or(0, Vec::len),
+        streams: std::iter::once(corner).chain(each).collect(),
     }
 }

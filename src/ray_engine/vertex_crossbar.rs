@@ -3,15 +3,13 @@
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::Constants;
-use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, Executor, Machine, MachineError, StepRate, TextureId, VertexSource,
-    VertexStreams,
-};
+use refsim::machine::{DepthId, DrawCall, Executor, Machine, MachineError, TextureId, VertexSource, VertexStreams};
 use refsim::num::Format;
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::TexelFormat;
 
+use super::card::bind;
 use super::crossbar::{Answer, EngineError, Hit, color_of_id, id_of_color};
 use super::kernel::checked;
 use super::{RayBatch, kernels};
@@ -139,16 +137,6 @@ impl Streams {
     }
 
     fn bind(&self) -> VertexStreams<'_> {
-        let corners = AttributeStream { register: 0, step: StepRate::Vertex, data: &self.corners };
-        let each = self.triangles.iter().enumerate().map(|(i, data)| AttributeStream {
-            register: i + 1,
-            step: StepRate::Instance,
-            data,
-        });
-        VertexStreams {
-            vertex_count: 3,
-            instance_count: self.triangles[4].len(),
-            streams: std::iter::once(corners).chain(each).collect(),
-        }
+        bind(&self.corners, &self.triangles)
     }
 }

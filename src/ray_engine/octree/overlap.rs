@@ -1,5 +1,7 @@
 //! Whether a triangle touches a closed box: no plane separates them (the separating axis theorem, 13 axes).
 
+use crate::ray_engine::reference::{cross, dot, sub};
+
 type Vector = [f64; 3];
 
 /// Whether the triangle, its corners given from the middle of the box, touches the box of these half sides. Rounding can make
@@ -34,18 +36,6 @@ fn separates(direction: Vector, corners: &[Vector; 3], half: Vector) -> bool {
     let reach: f64 = (0..3).map(|i| half[i] * direction[i].abs()).sum();
     let [p, q, r] = corners.map(|corner| dot(corner, direction));
     p.min(q).min(r) > reach || p.max(q).max(r) < -reach
-}
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use refsim::timing::TimingError;
 use crate::ray_engine::EngineError;
 use crate::report::{Chart, Table};
 
+pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use row::{Judgement, Modelled, Printed, Row, TOLERANCE};
 
 /// Why a figure could not be worked out.

@@ -21,7 +21,7 @@ const SIDE: u32 = 256;
 /// Quads of a draw that measures a fill rate: enough that filling and draining the pipeline does not show.
 const QUADS: usize = 64;
 /// Two textures a pixel, as the ray origins and directions are, and what a ps_1_1 card can do with them in one clock.
-const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
+pub const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
 /// A draw with its cost.
 pub(super) struct Timed {
@@ -123,7 +123,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError
         let target = machine.create_target(TexelFormat::Bgra8, SIDE, SIDE)?;
         let depth = machine.create_depth(DepthFormat::Unorm24, SIDE, SIDE)?;
         let textures = [(); 2].map(|()| Image::new_2d(TexelFormat::Bgra8, SIDE, SIDE));
-        let vertices: Vec<Vertex> = (0..quads).flat_map(|_| quad()).collect();
+        let vertices: Vec<Vertex> = (0..quads).flat_map(|_| screen_quad()).collect();
         let constants = Constants::default();
         let source = VertexSource::Transformed(&vertices);
         let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
@@ -140,8 +140,8 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError
     Ok(machine.take_log())
 }
 
-/// A quad over the whole screen; coordinate sets 0 and 1 go with it.
-fn quad() -> [Vertex; 4] {
+/// A quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, row 0 on top.
+pub fn screen_quad() -> [Vertex; 4] {
     [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
         let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
         for set in 0..2 {

@@ -14,7 +14,7 @@ use crate::scene::Camera;
 /// The cards of the day with vertex programs.
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
 const NOTE: &str = "The paper names neither the card nor the program, nor whether a test is one vertex (a point) or three (a triangle). \
-    At three a test our program comes near on a GeForce3; on cards with two vertex units it would be faster than printed. To know \
+    At three a test our program is 24 % slower than printed on a GeForce3, and more than twice as fast on cards with two vertex units. To know \
     more one would need the card and the length of the program: 4.1 M/s are 49 clocks of a GeForce3 a test.";
 
 pub(super) fn findings() -> Result<Findings, ReproduceError> {
