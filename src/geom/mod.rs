@@ -5,9 +5,11 @@
 //! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
 //! - [`classify`]: a renderer's answer held against that truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
+//! - [`cast`]: whoever finds first hits, seen from those who ask;
 //! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
 
 pub mod aimed;
+pub mod cast;
 pub mod classify;
 pub mod exact;
 pub mod mesh;
@@ -16,6 +18,7 @@ pub mod ray;
 pub mod teapot;
 mod teapot_table;
 
+pub use cast::{CastError, Caster, Hit};
 pub use exact::{ExactT, NearestHit, Sides};
 pub use mesh::{Contact, Mesh, MeshError};
 pub use ray::{Ray, RayError};

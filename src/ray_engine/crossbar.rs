@@ -14,7 +14,7 @@ use super::kept::KeptCard;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
-use crate::geom::{Mesh, Ray};
+use crate::geom::{Hit, Mesh, Ray};
 
 /// Triangle ids are 24-bit colours.
 const MOST_TRIANGLES: usize = 1 << 24;
@@ -61,15 +61,6 @@ pub enum EngineError {
     #[error("the card refuses the work")]
     #[diagnostic(code(ray_engine::machine))]
     Machine(#[from] MachineError),
-}
-
-/// What a card says that a ray hits first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// The triangle, by its place in the mesh.
-    pub triangle: u32,
-    /// The ray parameter, in multiples of the ray's direction.
-    pub t: f32,
 }
 
 /// A batch, answered.

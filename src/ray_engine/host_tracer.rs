@@ -6,7 +6,7 @@ use super::Hit;
 use super::host_test::{HostRay, HostTriangle};
 use super::octree::{Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit};
 use crate::geom::exact::Sides;
-use crate::geom::{Mesh, Ray};
+use crate::geom::{CastError, Caster, Mesh, Ray};
 
 /// A ray goes on a little beyond its best hit, in shares of t: an fp32 t is no better than that, and the next cell may hold a
 /// triangle whose rounded t is smaller.
@@ -123,5 +123,11 @@ impl HostTracer {
                 best.offer(t, id);
             }
         }
+    }
+}
+
+impl Caster for HostTracer {
+    fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
+        Ok(self.nearest_all(rays).0)
     }
 }

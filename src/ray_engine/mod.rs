@@ -20,7 +20,8 @@ pub mod reference;
 mod units;
 mod vertex_crossbar;
 
-pub use crossbar::{Answer, Crossbar, EngineError, Hit, MakeWatcher};
+pub use crate::geom::Hit;
+pub use crossbar::{Answer, Crossbar, EngineError, MakeWatcher};
 pub use host_tracer::{HostCounts, HostTracer};
 pub use kept::KeptCard;
 pub use kernel::{Form, Kernel};

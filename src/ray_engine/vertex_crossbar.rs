@@ -10,9 +10,10 @@ use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::TexelFormat;
 
 use super::card::bind;
-use super::crossbar::{Answer, EngineError, Hit, color_of_id, id_of_color};
+use super::crossbar::{Answer, EngineError, color_of_id, id_of_color};
 use super::kernel::checked;
 use super::{RayBatch, kernels};
+use crate::geom::Hit;
 use crate::geom::Mesh;
 
 /// Corners of a triangle around a pixel's centre, in pixels.

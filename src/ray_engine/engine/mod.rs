@@ -25,7 +25,7 @@ use super::octree::{CellId, GpuCells, OctreeParameters, TraversalCounts};
 use super::ray_tree::{RayTree, RayTreeCounts, RayTreeParameters};
 use super::{Crossbar, EngineError, Hit};
 use crate::geom::exact::Sides;
-use crate::geom::{Mesh, Ray};
+use crate::geom::{CastError, Caster, Mesh, Ray};
 use flight::{Flights, Waiting};
 
 /// How the engine schedules.
@@ -227,5 +227,11 @@ impl<'a> RayEngine<'a> {
     /// What was asked of the card and done on the host since the last time, if the engine records.
     pub fn take_log(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.log)
+    }
+}
+
+impl Caster for RayEngine<'_> {
+    fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
+        self.trace(rays).map_err(|error| CastError(Box::new(error)))
     }
 }

@@ -1,0 +1,163 @@
+//! A whole scene: triangles with materials and normals, lights, and named views.
+
+use thiserror::Error;
+
+use super::{Camera, CameraError, Color, Material};
+use crate::geom::Mesh;
+
+/// A light without extent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointLight {
+    /// Where it is.
+    pub position: [f32; 3],
+    /// Radiant intensity, the same in all directions: irradiance at distance r across the light is `intensity / r^2`.
+    pub intensity: Color,
+}
+
+/// From where a scene is looked at. [`View::camera`] makes a camera of it for a size of picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// What it is called on the command line.
+    pub name: String,
+    /// Where rays start.
+    pub eye: [f32; 3],
+    /// The middle of the picture.
+    pub target: [f32; 3],
+    /// What points up in the picture.
+    pub up: [f32; 3],
+    /// Tangent of half the vertical field of view.
+    pub tan_half_height: f32,
+}
+
+impl View {
+    /// The camera of this view for a picture of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// [`CameraError`] for figures that make no picture.
+    pub fn camera(&self, width: u32, height: u32) -> Result<Camera, CameraError> {
+        Camera::new(self.eye, self.target, self.up, self.tan_half_height, width, height)
+    }
+}
+
+/// Why parts make no scene.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SceneError {
+    /// Not one material and one set of normals a triangle.
+    #[error("expected {triangles} {what}, one a triangle, found {found}")]
+    Count {
+        /// `materials` or `normals`.
+        what: &'static str,
+        /// Triangles of the mesh.
+        triangles: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// A triangle names a material that there is not.
+    #[error("triangle {triangle} has material {material}, expected one below {materials} (counted from 0)")]
+    Material {
+        /// The triangle, counted from 0.
+        triangle: usize,
+        /// What it names.
+        material: u32,
+        /// How many there are.
+        materials: usize,
+    },
+}
+
+/// Triangles with what renderers need to know of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    mesh: Mesh,
+    materials: Vec<Material>,
+    material_of: Vec<u32>,
+    /// At the corners of each triangle; zero vectors where the triangle is flat.
+    normals: Vec<[[f32; 3]; 3]>,
+    /// Lights without extent.
+    pub point_lights: Vec<PointLight>,
+    /// Views; the first is the default.
+    pub views: Vec<View>,
+}
+
+impl Scene {
+    /// A scene of triangles, a material each. `normals` are those at each triangle's corners, of length 1 (or zero where the triangle's
+    /// own is meant); an empty list makes all triangles flat.
+    ///
+    /// # Errors
+    /// [`SceneError`] if the lists do not fit.
+    pub fn new(
+        mesh: Mesh,
+        materials: Vec<Material>,
+        material_of: Vec<u32>,
+        normals: Vec<[[f32; 3]; 3]>,
+    ) -> Result<Self, SceneError> {
+        let triangles = mesh.len();
+        if material_of.len() != triangles {
+            return Err(SceneError::Count { what: "materials", triangles, found: material_of.len() });
+        }
+        if !normals.is_empty() && normals.len() != triangles {
+            return Err(SceneError::Count { what: "normals", triangles, found: normals.len() });
+        }
+        if let Some(triangle) = material_of.iter().position(|&m| m as usize >= materials.len()) {
+            let material = material_of[triangle];
+            return Err(SceneError::Material { triangle, material, materials: materials.len() });
+        }
+        Ok(Self { mesh, materials, material_of, normals, point_lights: Vec::new(), views: Vec::new() })
+    }
+
+    /// The triangles.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// All materials.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The material of a triangle.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    pub fn material(&self, triangle: u32) -> &Material {
+        &self.materials[self.material_of[triangle as usize] as usize]
+    }
+
+    /// The place in [`Scene::materials`] of each triangle's material.
+    pub fn material_of(&self) -> &[u32] {
+        &self.material_of
+    }
+
+    /// The normals at a triangle's corners; `None` if it is flat.
+    pub fn corner_normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
+        let normals = *self.normals.get(triangle as usize)?;
+        (normals != [[0.0; 3]; 3]).then_some(normals)
+    }
+
+    /// The triangles that shine, in rising order.
+    pub fn emitters(&self) -> Vec<u32> {
+        (0..self.mesh.len() as u32).filter(|&triangle| self.material(triangle).emits()).collect()
+    }
+
+    /// The view of a name.
+    pub fn view(&self, name: &str) -> Option<&View> {
+        self.views.iter().find(|view| view.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_that_do_not_fit_are_refused() {
+        let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a triangle");
+        let white = vec![Material::diffuse("white", [0.5; 3])];
+        let scene = |material_of, normals| Scene::new(mesh.clone(), white.clone(), material_of, normals);
+        assert!(scene(vec![0], Vec::new()).is_ok());
+        let count = SceneError::Count { what: "materials", triangles: 1, found: 2 };
+        assert_eq!(scene(vec![0, 0], Vec::new()), Err(count));
+        let wrong = SceneError::Material { triangle: 0, material: 1, materials: 1 };
+        assert_eq!(scene(vec![1], Vec::new()), Err(wrong));
+        assert!(scene(vec![0], vec![[[0.0; 3]; 3]; 2]).is_err());
+    }
+}
