@@ -11,6 +11,7 @@ use refsim::texture::Region;
 use super::bundle::{Bundle, regions};
 use super::card::{Card, Streams};
 use super::kept::KeptCard;
+use super::pass::PassCard;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
@@ -147,37 +148,14 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
-    /// Whether the card has programs for rays of any origin.
-    ///
-    /// # Errors
-    /// [`EngineError`] if it has none, or refuses it.
-    pub(super) fn prepare(&self, sides: Sides) -> Result<(), EngineError> {
-        self.kernel((false, sides)).map(drop)
-    }
-
-    /// Rays of any origin against some triangles, given in rising order: one pass.
+    /// A card for passes of rays of any origin against some triangles of a mesh at a time.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn intersect_triangles(
-        &self,
-        mesh: &Mesh,
-        triangles: &[u32],
-        rays: &RayBatch,
-        sides: Sides,
-        record: bool,
-    ) -> Result<Answer, EngineError> {
+    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides) -> Result<PassCard, EngineError> {
         let kernel = self.kernel((false, sides))?;
         check_count(mesh)?;
-        let units = Units::choose(kernel.form, mesh, rays);
-        let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
-        machine.record(record);
-        let name = kernel.name;
-        let mut card = Card::set_up(machine, kernel, rays, units)?;
-        card.clear()?;
-        let events = card.draw(&Streams::new(mesh, triangles))?;
-        let hits = card.read_back(rays)?;
-        Ok(Answer { hits, events, kernel: name, log: card.take_log() })
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel))
     }
 
     /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:

@@ -14,6 +14,7 @@ mod kernel;
 pub mod kernels;
 pub mod model;
 pub mod octree;
+mod pass;
 pub mod ray_tree;
 mod rays;
 pub mod reference;

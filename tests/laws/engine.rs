@@ -4,7 +4,7 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
+use crossbar::ray_engine::engine::{EngineParameters, RayEngine, Readback};
 use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::ray_engine::ray_tree::RayTreeParameters;
 use crossbar::ray_engine::{Hit, HostTracer};
@@ -57,6 +57,8 @@ fn schedules_change_counts_and_never_a_hit() {
             EngineParameters { rays: 100_000, ..base.clone() },
             EngineParameters { waiting: 300, tree: RayTreeParameters { bucket: 7, merge: 5 }, ..base.clone() },
             EngineParameters { triangles: 1..=40, rays: 64, ..base.clone() },
+            EngineParameters { rays: 16, waiting: 500, readback: Readback::Asynchronous { passes: 3 }, ..base.clone() },
+            EngineParameters { readback: Readback::InfinitelyFast, ..base.clone() },
         ];
         for (i, parameters) in variants.into_iter().enumerate() {
             let (hits, engine) = trace(&mesh, &rays, parameters.clone());

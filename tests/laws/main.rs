@@ -3,6 +3,7 @@
 mod cases;
 mod comparing;
 mod engine;
+mod engine_modes;
 mod geometry;
 mod ground_truth;
 mod logs;

@@ -12,6 +12,20 @@ pub(super) struct Waiting {
     pub(super) leave: f64,
 }
 
+/// The rays that wait for a GPU cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cache {
+    pub(super) rays: Vec<Waiting>,
+    /// How often the cell stands in the queue of full cells: once for each whole pass of rays.
+    pub(super) turns: usize,
+}
+
+impl Cache {
+    pub(super) fn bytes(&self) -> usize {
+        self.rays.capacity() * size_of::<Waiting>()
+    }
+}
+
 /// A ray that has no answer yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flight {

@@ -10,89 +10,29 @@
 //! and threads change counts and time, never a hit. (On cards of other formats the hit depends on who tests it: there the
 //! caches matter, as they did.)
 
+mod counts;
 mod flight;
+mod parameters;
+mod passes;
 mod schedule;
 
 use std::collections::{BTreeMap, VecDeque};
-use std::ops::RangeInclusive;
 
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
+use refsim::timing::host::Operation;
 
 use super::host_tracer::HostTracer;
-use super::octree::{CellId, GpuCells, OctreeParameters, TraversalCounts};
-use super::ray_tree::{RayTree, RayTreeCounts, RayTreeParameters};
+use super::octree::{CellId, GpuCells};
+use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError, Hit};
-use crate::geom::exact::Sides;
 use crate::geom::{CastError, Caster, Mesh, Ray};
-use flight::{Flights, Waiting};
+use flight::{Cache, Flights};
+use passes::Passes;
 
-/// How the engine schedules.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EngineParameters {
-    /// The triangle octree.
-    pub octree: OctreeParameters,
-    /// Triangles of a GPU cell: `T_min` to the most that one pass draws (Table 4: 5 to 15).
-    pub triangles: RangeInclusive<usize>,
-    /// Rays at which a cell's cache goes to the card (`R_min`), and which one pass takes at most (Table 5: 64).
-    pub rays: usize,
-    /// The ray tree.
-    pub tree: RayTreeParameters,
-    /// Rays that the tree holds before buckets leave it.
-    pub waiting: usize,
-    /// Which faces can be hit.
-    pub sides: Sides,
-    /// Whether the card takes part at all; else the host does everything, in the same order.
-    pub card: bool,
-    /// Whether the log of the run is kept.
-    pub record: bool,
-}
-
-impl Default for EngineParameters {
-    fn default() -> Self {
-        Self {
-            octree: OctreeParameters::default(),
-            triangles: 5..=15,
-            rays: 64,
-            tree: RayTreeParameters::default(),
-            waiting: 1 << 16,
-            sides: Sides::Front,
-            card: true,
-            record: false,
-        }
-    }
-}
-
-/// What an engine did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct EngineCounts {
-    /// Rays answered.
-    pub rays: u64,
-    /// Rays that met the card at least once on their way.
-    pub rays_on_card: u64,
-    /// Passes on the card.
-    pub passes: u64,
-    /// Rays of all passes.
-    pub pass_rays: u64,
-    /// Ray-triangle tests of all passes: rays times triangles.
-    pub pass_tests: u64,
-    /// Rays in caches that were forced to the host in the end.
-    pub forced_rays: u64,
-    /// Ray-triangle tests on the host.
-    pub host_tests: u64,
-    /// The octree's.
-    pub traversal: TraversalCounts,
-    /// The ray tree's.
-    pub tree: RayTreeCounts,
-}
-
-impl EngineCounts {
-    /// The share of rays that met the card (Table 2).
-    pub fn share_on_card(&self) -> f64 {
-        self.rays_on_card as f64 / self.rays.max(1) as f64
-    }
-}
+pub use counts::EngineCounts;
+pub use parameters::{EngineParameters, Readback};
 
 /// A ray given to the engine, by the order of giving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -104,12 +44,12 @@ pub struct RayEngine<'a> {
     mesh: &'a Mesh,
     tracer: HostTracer,
     cells: GpuCells,
-    crossbar: Crossbar,
+    passes: Passes,
     parameters: EngineParameters,
     tree: RayTree,
     flights: Flights,
     /// The caches of the GPU cells that have rays.
-    caches: BTreeMap<usize, Vec<Waiting>>,
+    caches: BTreeMap<usize, Cache>,
     /// Rays that can go on, and from where.
     ready: VecDeque<(u32, f64)>,
     /// Cells whose caches hold a whole pass, once a pass.
@@ -132,13 +72,13 @@ impl<'a> RayEngine<'a> {
     ) -> Result<Self, EngineError> {
         let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
-        let crossbar = Crossbar::new(profile, executor).all_pairs(true);
-        crossbar.prepare(parameters.sides)?;
+        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides)?;
+        let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {
             mesh,
             tracer,
             cells,
-            crossbar,
+            passes,
             tree: RayTree::new(parameters.tree),
             parameters: EngineParameters { rays: parameters.rays.max(1), ..parameters },
             flights: Flights::default(),
@@ -171,6 +111,7 @@ impl<'a> RayEngine<'a> {
         while !self.tree.is_empty() {
             self.release_bucket()?;
         }
+        self.settle()?;
         self.force_caches()
     }
 
@@ -220,8 +161,13 @@ impl<'a> RayEngine<'a> {
 
     /// Bytes that waiting rays take, in the tree, in flight and in caches.
     pub fn bytes(&self) -> usize {
-        let caches: usize = self.caches.values().map(|rays| rays.capacity() * size_of::<Waiting>()).sum();
+        let caches: usize = self.caches.values().map(Cache::bytes).sum();
         self.tree.bytes() + self.flights.bytes() + caches
+    }
+
+    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine records.
+    pub fn note_host(&mut self, operation: Operation, count: u64) {
+        self.note(operation, count);
     }
 
     /// What was asked of the card and done on the host since the last time, if the engine records.

@@ -3,14 +3,11 @@
 use refsim::event::{Event, HostWork};
 use refsim::timing::host::Operation;
 
-use super::flight::Waiting;
+use super::flight::{Cache, Waiting};
 use super::{RayEngine, Ticket};
 use crate::geom::Ray;
+use crate::ray_engine::EngineError;
 use crate::ray_engine::octree::{CellId, Flow, Visit};
-use crate::ray_engine::{EngineError, RayBatch};
-
-/// Rows of a pass's textures (section 5.3: 64 x 4).
-const ROWS: usize = 4;
 
 impl RayEngine<'_> {
     /// A ray enters the tree; buckets leave it when it is full.
@@ -32,7 +29,7 @@ impl RayEngine<'_> {
         self.drive()
     }
 
-    /// Until nothing can go on: rays first, then caches that are full, in the order in which they came.
+    /// Until nothing can go on but what is in flight: rays first, then caches that are full, in the order in which they came.
     fn drive(&mut self) -> Result<(), EngineError> {
         loop {
             while let Some((flight, from)) = self.ready.pop_front() {
@@ -40,11 +37,20 @@ impl RayEngine<'_> {
             }
             let Some(cell) = self.full.pop_front() else { return Ok(()) };
             let cache = self.caches.entry(cell.index()).or_default();
+            cache.turns = cache.turns.saturating_sub(1);
             // Rays that came after the cache was full stay for the next pass.
-            let rest = cache.split_off(cache.len().min(self.parameters.rays));
-            let rays = std::mem::replace(cache, rest);
-            if self.parameters.card { self.on_card(cell, &rays)? } else { self.on_host(cell, &rays) }
+            let rest = cache.rays.split_off(cache.rays.len().min(self.parameters.rays));
+            let rays = std::mem::replace(&mut cache.rays, rest);
+            if self.parameters.card { self.on_card(cell, rays)? } else { self.on_host(cell, &rays) }
         }
+    }
+
+    /// Until nothing is in flight either.
+    pub(super) fn settle(&mut self) -> Result<(), EngineError> {
+        while self.take_pass() {
+            self.drive()?;
+        }
+        Ok(())
     }
 
     /// Takes a ray on from where it left a cell: to its answer, or into the next GPU cell's cache.
@@ -77,45 +83,52 @@ impl RayEngine<'_> {
 
     /// A ray joins a cell's cache; each time that makes a whole pass more of it, the cell's turn comes once more.
     fn wait(&mut self, cell: CellId, ray: Waiting) {
+        self.note(Operation::BucketInsert, 1);
         let cache = self.caches.entry(cell.index()).or_default();
-        cache.push(ray);
-        let turns = self.full.iter().filter(|full| **full == cell).count();
-        if cache.len() >= (turns + 1) * self.parameters.rays {
+        cache.rays.push(ray);
+        if cache.rays.len() >= (cache.turns + 1) * self.parameters.rays {
+            cache.turns += 1;
             self.full.push_back(cell);
         }
     }
 
     /// All caches, smallest cell number first, to the host; rays that go on may fill others, until none is left.
     pub(super) fn force_caches(&mut self) -> Result<(), EngineError> {
-        while let Some((cell, rays)) = self.caches.pop_first() {
+        while let Some((cell, Cache { rays, .. })) = self.caches.pop_first() {
             self.counts.forced_rays += rays.len() as u64;
             self.on_host(CellId::at(cell), &rays);
             self.drive()?;
+            self.settle()?;
         }
         Ok(())
     }
 
-    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units.
-    fn on_card(&mut self, cell: CellId, waiting: &[Waiting]) -> Result<(), EngineError> {
+    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units. They are in
+    /// flight then; whatever is one too many in flight is taken.
+    fn on_card(&mut self, cell: CellId, waiting: Vec<Waiting>) -> Result<(), EngineError> {
         let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
         if waiting.is_empty() {
             return Ok(());
         }
-        let mut rays: Vec<Ray> = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
-        let width = rays.len().div_ceil(ROWS);
-        // The last ray fills what is left of the rectangle.
-        rays.resize(width * ROWS, rays[rays.len() - 1]);
-        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        let batch = RayBatch::new(side(width), side(ROWS), rays)?;
-        self.note(Operation::VertexSent, triangles.len() as u64 * 4);
-        let sides = self.parameters.sides;
-        let answer = self.crossbar.intersect_triangles(self.mesh, &triangles, &batch, sides, self.parameters.record)?;
-        self.log.extend(answer.log);
+        let (rays_given, triangles_given) = (waiting.len() as u64, triangles.len() as u64);
+        let rays = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
+        self.note(Operation::TriangleSent, triangles_given);
+        self.note(Operation::VertexSent, 4 * triangles_given);
+        self.passes.issue(self.mesh, &triangles, rays, waiting)?;
+        self.log.extend(self.passes.take_log());
         self.counts.passes += 1;
-        self.counts.pass_rays += waiting.len() as u64;
-        self.counts.pass_tests += (waiting.len() * triangles.len()) as u64;
-        self.note(Operation::ResultRead, waiting.len() as u64);
-        for (ray, hit) in waiting.iter().zip(answer.hits) {
+        self.counts.pass_rays += rays_given;
+        self.counts.pass_tests += rays_given * triangles_given;
+        while self.passes.too_many() && self.take_pass() {}
+        Ok(())
+    }
+
+    /// Takes the results of the oldest pass in flight; false if there is none.
+    fn take_pass(&mut self) -> bool {
+        let Some(pass) = self.passes.take() else { return false };
+        self.log.extend(self.passes.take_log());
+        self.note(Operation::ResultRead, pass.waiting.len() as u64);
+        for (ray, hit) in pass.waiting.iter().zip(pass.hits) {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
             if let Some(hit) = hit {
@@ -123,8 +136,8 @@ impl RayEngine<'_> {
                 flight.best.offer((f64::from(hit.t) / flight.host.power) as f32, hit.triangle);
             }
         }
-        self.go_on(waiting);
-        Ok(())
+        self.go_on(&pass.waiting);
+        true
     }
 
     /// The same on the host.
@@ -160,7 +173,7 @@ impl RayEngine<'_> {
     }
 
     /// Work of the host, for the log; neighbours of one kind are one entry.
-    fn note(&mut self, operation: Operation, count: u64) {
+    pub(super) fn note(&mut self, operation: Operation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;
         }

@@ -1,0 +1,34 @@
+//! What an engine did, in numbers.
+
+use crate::ray_engine::octree::TraversalCounts;
+use crate::ray_engine::ray_tree::RayTreeCounts;
+
+/// What an engine did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EngineCounts {
+    /// Rays answered.
+    pub rays: u64,
+    /// Rays that met the card at least once on their way.
+    pub rays_on_card: u64,
+    /// Passes on the card.
+    pub passes: u64,
+    /// Rays of all passes.
+    pub pass_rays: u64,
+    /// Ray-triangle tests of all passes: rays times triangles.
+    pub pass_tests: u64,
+    /// Rays in caches that were forced to the host in the end.
+    pub forced_rays: u64,
+    /// Ray-triangle tests on the host.
+    pub host_tests: u64,
+    /// The octree's.
+    pub traversal: TraversalCounts,
+    /// The ray tree's.
+    pub tree: RayTreeCounts,
+}
+
+impl EngineCounts {
+    /// The share of rays that met the card (Table 2).
+    pub fn share_on_card(&self) -> f64 {
+        self.rays_on_card as f64 / self.rays.max(1) as f64
+    }
+}

@@ -1,0 +1,63 @@
+//! What can be chosen about an engine; nothing of it changes a hit of fp32.
+
+use std::ops::RangeInclusive;
+
+use crate::geom::exact::Sides;
+use crate::ray_engine::octree::OctreeParameters;
+use crate::ray_engine::ray_tree::RayTreeParameters;
+
+/// When the results of a pass on the card are taken (Table 3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Readback {
+    /// Draw, wait, read back, go on: what `glReadPixels` does.
+    #[default]
+    Synchronous,
+    /// The results of a pass come by themselves behind its draw, with a fence (NV_fence) that is passed when they are there. Its rays
+    /// stay in flight while the host goes on; they are taken when `passes` younger passes have been given to the card, or when nothing
+    /// else can go on. 0 is 1.
+    Asynchronous {
+        /// Passes in flight while the host goes on, at most.
+        passes: usize,
+    },
+    /// Passes cost nothing: the log holds the host's work alone, in the order of [`Readback::Synchronous`].
+    InfinitelyFast,
+}
+
+/// How the engine schedules.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EngineParameters {
+    /// The triangle octree.
+    pub octree: OctreeParameters,
+    /// Triangles of a GPU cell: `T_min` to the most that one pass draws (Table 4: 5 to 15).
+    pub triangles: RangeInclusive<usize>,
+    /// Rays at which a cell's cache goes to the card (`R_min`), and which one pass takes at most (Table 5: 64).
+    pub rays: usize,
+    /// The ray tree.
+    pub tree: RayTreeParameters,
+    /// Rays that the tree holds before buckets leave it.
+    pub waiting: usize,
+    /// Which faces can be hit.
+    pub sides: Sides,
+    /// Whether the card takes part at all; else the host does everything, in the same order.
+    pub card: bool,
+    /// When the results of a pass are taken.
+    pub readback: Readback,
+    /// Whether the log of the run is kept.
+    pub record: bool,
+}
+
+impl Default for EngineParameters {
+    fn default() -> Self {
+        Self {
+            octree: OctreeParameters::default(),
+            triangles: 5..=15,
+            rays: 64,
+            tree: RayTreeParameters::default(),
+            waiting: 1 << 16,
+            sides: Sides::Front,
+            card: true,
+            readback: Readback::default(),
+            record: false,
+        }
+    }
+}

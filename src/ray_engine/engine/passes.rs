@@ -1,0 +1,98 @@
+//! Passes on their way through the card.
+
+use std::collections::VecDeque;
+
+use refsim::event::{Event, FenceId};
+
+use super::Readback;
+use super::flight::Waiting;
+use crate::geom::{Mesh, Ray};
+use crate::ray_engine::pass::PassCard;
+use crate::ray_engine::{EngineError, Hit, RayBatch};
+
+/// Rows of a pass's textures (section 5.3: 64 x 4).
+const ROWS: usize = 4;
+
+/// A pass that was given to the card.
+#[derive(Debug)]
+pub(super) struct Pass {
+    /// Its rays.
+    pub(super) waiting: Vec<Waiting>,
+    /// What they hit. The emulator knows at once; the host must not look before it has taken the pass.
+    pub(super) hits: Vec<Option<Hit>>,
+    /// The fence behind its read-back, if nobody waited for it.
+    fence: Option<FenceId>,
+    /// Its textures and targets.
+    sheet: usize,
+}
+
+/// The card, and what it has been given.
+#[derive(Debug)]
+pub(super) struct Passes {
+    card: PassCard,
+    readback: Readback,
+    flying: VecDeque<Pass>,
+    /// Textures and targets that no pass in flight uses, the one not used longest first.
+    free: VecDeque<usize>,
+}
+
+impl Passes {
+    /// A card with textures and targets for every pass in flight and one more.
+    pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
+        card.record(record && readback != Readback::InfinitelyFast);
+        let mut passes = Self { card, readback, flying: VecDeque::new(), free: VecDeque::new() };
+        passes.free.extend(0..=passes.ahead());
+        passes
+    }
+
+    /// Passes that stay in flight while the host goes on.
+    fn ahead(&self) -> usize {
+        match self.readback {
+            Readback::Asynchronous { passes } => passes.max(1),
+            Readback::Synchronous | Readback::InfinitelyFast => 0,
+        }
+    }
+
+    /// Whether more are in flight than are to be.
+    pub(super) fn too_many(&self) -> bool {
+        self.flying.len() > self.ahead()
+    }
+
+    /// Gives a pass to the card; `rays` are those that wait.
+    pub(super) fn issue(
+        &mut self,
+        mesh: &Mesh,
+        triangles: &[u32],
+        mut rays: Vec<Ray>,
+        waiting: Vec<Waiting>,
+    ) -> Result<(), EngineError> {
+        let width = rays.len().div_ceil(ROWS);
+        // The last ray fills what is left of the rectangle.
+        if let Some(last) = rays.last().copied() {
+            rays.resize(width * ROWS, last);
+        }
+        let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let batch = RayBatch::new(side(width), side(ROWS), rays)?;
+        let sheet = self.free.pop_front().unwrap_or(self.flying.len());
+        self.card.draw(sheet, mesh, triangles, &batch)?;
+        let wait = !matches!(self.readback, Readback::Asynchronous { .. });
+        let (hits, fence) = self.card.read_back(sheet, &batch, wait)?;
+        self.flying.push_back(Pass { waiting, hits, fence, sheet });
+        Ok(())
+    }
+
+    /// The oldest pass in flight, waited for.
+    pub(super) fn take(&mut self) -> Option<Pass> {
+        let pass = self.flying.pop_front()?;
+        if let Some(fence) = pass.fence {
+            self.card.finish(fence);
+        }
+        self.free.push_back(pass.sheet);
+        Some(pass)
+    }
+
+    /// What was asked of the card since the last time.
+    pub(super) fn take_log(&mut self) -> Vec<Event> {
+        self.card.take_log()
+    }
+}

@@ -1,0 +1,153 @@
+//! The ways to wait for the card: what the log says of each, and what follows for the time.
+
+use std::collections::BTreeSet;
+
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::Hit;
+use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine, Readback};
+use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::scene::Camera;
+use refsim::device::Profile;
+use refsim::event::{Event, FenceId, ReadBackMode};
+use refsim::machine::ExecutorKind;
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, Operation};
+use refsim::timing::replay::{Options, Replay, replay};
+use refsim::timing::{Level, Model};
+
+struct Run {
+    hits: Vec<Option<Hit>>,
+    counts: EngineCounts,
+    log: Vec<Event>,
+}
+
+fn run(mesh: &Mesh, rays: &[Ray], parameters: EngineParameters) -> Run {
+    let profile = Profile::named("ideal-fp32").expect("a profile");
+    let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
+    // A small tree: buckets leave it while rays still come in.
+    let parameters = EngineParameters { octree, rays: 32, waiting: 600, record: true, ..parameters };
+    let mut engine = RayEngine::new(mesh, profile, ExecutorKind::Batch, parameters).expect("an engine");
+    let hits = engine.trace(rays).expect("the card works");
+    Run { hits, counts: engine.counts(), log: engine.take_log() }
+}
+
+fn with(readback: Readback) -> EngineParameters {
+    EngineParameters { readback, ..EngineParameters::default() }
+}
+
+fn scene() -> (Mesh, Vec<Ray>) {
+    (teapot(3).expect("a teapot"), Camera::teapot(64, 48).expect("a camera").rays())
+}
+
+fn host_work(log: &[Event]) -> HostCounts {
+    let mut out = HostCounts::default();
+    for event in log {
+        if let Event::Host(work) = event {
+            out.add(Operation::named(&work.kind).expect("a kind that the model knows"), work.operations);
+        }
+    }
+    out
+}
+
+/// The run on the time axis: the log says what was asked, a card's figures how long it takes.
+fn timed(run: &Run, host: &HostModel) -> Replay {
+    let model = Model::new(Level::Pipeline, &Profile::named("nv35").expect("a card")).expect("a model");
+    replay(&run.log, &model, &Options { host: Some(host), ..Options::of(Level::Pipeline) }).expect("a good log")
+}
+
+#[test]
+fn waiting_changes_the_time_and_never_a_hit() {
+    let (mesh, rays) = scene();
+    let alone = run(&mesh, &rays, EngineParameters { card: false, ..with(Readback::Synchronous) });
+    let host = HostModel::calibrate(&host_work(&alone.log), rays.len() as u64, CPU_ONLY_RAYS_PER_SECOND)
+        .expect("the host did something");
+    let modes = [
+        Readback::Synchronous,
+        Readback::Asynchronous { passes: 1 },
+        Readback::Asynchronous { passes: 4 },
+        Readback::InfinitelyFast,
+    ];
+    let runs = modes.map(|mode| run(&mesh, &rays, with(mode)));
+    for (mode, found) in modes.iter().zip(&runs) {
+        assert_eq!(found.hits, alone.hits, "{mode:?}");
+        assert!(found.counts.passes > 20, "{mode:?}: {} passes", found.counts.passes);
+    }
+    let [synchronous, one, four, infinite] = runs.each_ref().map(|run| timed(run, &host).timeline.makespan().0);
+    assert!(four <= one && one < synchronous, "{synchronous} {one} {four}");
+    assert!(infinite < four, "{four} {infinite}");
+    let working = host.time_of_all(&host_work(&runs[3].log)).0;
+    assert!(infinite >= working && infinite - working <= runs[3].log.len() as u64, "nothing but host work, rounded up");
+}
+
+#[test]
+fn a_synchronous_host_waits_for_every_pass() {
+    let (mesh, rays) = scene();
+    let found = run(&mesh, &rays, with(Readback::Synchronous));
+    let modes = |log: &[Event]| -> Vec<ReadBackMode> {
+        let mode = |event: &Event| match event {
+            Event::ReadBack { mode, .. } => Some(*mode),
+            _ => None,
+        };
+        log.iter().filter_map(mode).collect()
+    };
+    assert_eq!(modes(&found.log), vec![ReadBackMode::Synchronous; 2 * found.counts.passes as usize], "ids and t");
+    assert!(!found.log.iter().any(|event| matches!(event, Event::FinishFence(_))));
+}
+
+#[test]
+fn an_asynchronous_host_has_some_passes_in_flight_and_waits_for_the_oldest() {
+    let (mesh, rays) = scene();
+    for passes in [1, 3] {
+        let found = run(&mesh, &rays, with(Readback::Asynchronous { passes }));
+        let (mut open, mut most) = (Vec::new(), 0);
+        let (mut seen, mut looked) = (BTreeSet::new(), 0);
+        let mut last: Option<FenceId> = None;
+        for event in &found.log {
+            match event {
+                Event::Draw(_) => {
+                    open.push(last.take());
+                    most = most.max(open.len());
+                }
+                Event::ReadBack { mode, fence, .. } => {
+                    assert_eq!(*mode, ReadBackMode::Asynchronous);
+                    *open.last_mut().expect("a draw before") = *fence;
+                    assert!(seen.insert(fence.expect("a fence")), "a fence of its own");
+                }
+                Event::FinishFence(fence) => assert_eq!(open.remove(0), Some(*fence), "the last of the oldest pass"),
+                Event::Host(work) if work.kind == Operation::ResultRead.name() => looked += work.operations,
+                _ => {}
+            }
+        }
+        assert!(open.is_empty(), "every pass is taken");
+        assert_eq!(most, passes + 1, "one more while the host waits for the oldest");
+        assert_eq!(looked, found.counts.pass_rays, "every result is looked at");
+    }
+}
+
+#[test]
+fn an_infinitely_fast_card_is_not_in_the_log() {
+    let (mesh, rays) = scene();
+    let [fast, synchronous] =
+        [Readback::InfinitelyFast, Readback::Synchronous].map(|mode| run(&mesh, &rays, with(mode)));
+    assert!(fast.log.iter().all(|event| matches!(event, Event::Host(_))));
+    assert_eq!(host_work(&fast.log), host_work(&synchronous.log), "the same work");
+    assert_eq!(fast.counts, synchronous.counts);
+}
+
+#[test]
+fn a_renderer_counts_its_own_work_into_the_log() {
+    let (mesh, rays) = scene();
+    let parameters = EngineParameters { record: true, ..EngineParameters::default() };
+    let profile = || Profile::named("ideal-fp32").expect("a profile");
+    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+    engine.note_host(Operation::RayGenerated, rays.len() as u64);
+    let hits = engine.trace(&rays).expect("the card works").iter().flatten().count() as u64;
+    engine.note_host(Operation::Shade, hits);
+    let work = host_work(&engine.take_log());
+    assert_eq!(work.of(Operation::RayGenerated), rays.len() as u64);
+    assert_eq!(work.of(Operation::Shade), hits);
+    assert_eq!(work.of(Operation::VertexSent), 4 * work.of(Operation::TriangleSent), "a quad a triangle");
+    let mut silent = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, EngineParameters::default()).expect("one");
+    silent.note_host(Operation::Shade, 1);
+    assert!(silent.take_log().is_empty());
+}
