@@ -211,14 +211,14 @@ impl Mesh {
 
 /// Collects triangles and shares their vertices: corners at the bit-identical place become one vertex.
 #[derive(Debug, Default)]
-pub(super) struct Welder {
+pub(crate) struct Welder {
     positions: Vec<[f32; 3]>,
     index: BTreeMap<[u32; 3], u32>,
 }
 
 impl Welder {
     /// The vertex at a place, new or known. -0 and +0 are one place.
-    pub(super) fn vertex(&mut self, position: [f32; 3]) -> u32 {
+    pub(crate) fn vertex(&mut self, position: [f32; 3]) -> u32 {
         let position = position.map(|value| value + 0.0);
         let next = self.positions.len() as u32;
         let index = *self.index.entry(position.map(f32::to_bits)).or_insert(next);
@@ -229,12 +229,12 @@ impl Welder {
     }
 
     /// The place of a vertex that [`Welder::vertex`] has named.
-    pub(super) fn position(&self, index: u32) -> [f32; 3] {
+    pub(crate) fn position(&self, index: u32) -> [f32; 3] {
         self.positions[index as usize]
     }
 
     /// The vertices in the order in which they were first seen.
-    pub(super) fn into_positions(self) -> Vec<[f32; 3]> {
+    pub(crate) fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
     }
 }

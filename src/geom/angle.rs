@@ -1,0 +1,35 @@
+//! Sine and cosine with the same bits everywhere: those of the standard library vary by platform.
+
+/// Sine and cosine of an angle in radians.
+#[must_use]
+pub fn sin_cos(radians: f64) -> (f64, f64) {
+    libm::sincos(radians)
+}
+
+/// The point of the unit circle at `turns` full turns from (1, 0), counter-clockwise. Quarters are exact.
+#[must_use]
+pub fn on_circle(turns: f64) -> [f64; 2] {
+    let quarters = turns * 4.0;
+    let whole = (quarters + 0.5).floor();
+    let (sin, cos) = sin_cos((quarters - whole) * std::f64::consts::FRAC_PI_2);
+    match whole.rem_euclid(4.0) {
+        0.0 => [cos, sin],
+        1.0 => [-sin, cos],
+        2.0 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quarters_are_exact_and_the_bits_are_these() {
+        assert_eq!(
+            [0.0, 0.25, 0.5, 0.75, -0.25, 5.25].map(on_circle).map(|at| at.map(|value| value + 0.0)),
+            [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [0.0, -1.0], [0.0, 1.0],]
+        );
+        assert_eq!(on_circle(1.0 / 12.0).map(f64::to_bits), [0x3feb_b67a_e858_4cab, 0x3fdf_ffff_ffff_ffff]);
+    }
+}

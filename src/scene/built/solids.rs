@@ -1,0 +1,147 @@
+//! Closed pieces: blocks, cylinders, spheres, vessels, bent tubes.
+
+use super::parts::{Parts, Place, Stuff, Vec3};
+use crate::geom::angle::on_circle;
+
+/// Corners of a profile sharper than this (cosine of the angle between neighbours) stay sharp.
+const CREASE: f64 = 0.6;
+
+/// The faces of a block: looking along -x, +x, -y, +y, -z, +z.
+pub(super) type Faces = [Stuff; 6];
+
+impl Parts {
+    /// A block between two corners. 12 triangles.
+    pub(super) fn block(&mut self, place: Place, low: Vec3, high: Vec3, stuff: Stuff) {
+        self.painted_block(place, low, high, [stuff; 6]);
+    }
+
+    /// A block with a material a face. 12 triangles.
+    pub(super) fn painted_block(&mut self, place: Place, low: Vec3, high: Vec3, faces: Faces) {
+        self.frustum(place, [low, high], 0.0, faces);
+    }
+
+    /// A block whose upper face is drawn in by `inset` on all four sides. 12 triangles.
+    pub(super) fn frustum(&mut self, place: Place, [low, high]: [Vec3; 2], inset: f64, faces: Faces) {
+        let corner = |index: usize| {
+            let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            let draw = if index & 4 == 0 { 0.0 } else { inset };
+            let drawn = |axis: usize| if index >> axis & 1 == 0 { draw } else { -draw };
+            [pick(0) + drawn(0), pick(1) + drawn(1), pick(2)]
+        };
+        // Bits of the corner's number: x, y, z; each face counter-clockwise from outside.
+        let rings = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        for (ring, stuff) in rings.into_iter().zip(faces) {
+            self.polygon(place, &ring.map(corner), stuff);
+        }
+    }
+
+    /// An upright cylinder of `sides` sides, closed by two polygons. 4 `sides` - 4 triangles.
+    pub(super) fn cylinder(&mut self, place: Place, radius: f64, [low, high]: [f64; 2], sides: u32, stuff: Stuff) {
+        self.lathe(place, &[[radius, low], [radius, high]], sides, stuff);
+        self.disc(place, radius, low, sides, false, stuff);
+        self.disc(place, radius, high, sides, true, stuff);
+    }
+
+    /// A flat polygon that looks up or down. `sides` - 2 triangles.
+    pub(super) fn disc(&mut self, place: Place, radius: f64, height: f64, sides: u32, up: bool, stuff: Stuff) {
+        let corner = |index: u32| {
+            let [x, y] = on_circle(f64::from(index) / f64::from(sides));
+            [radius * x, radius * y, height]
+        };
+        let ring: Vec<Vec3> =
+            if up { (0..sides).map(corner).collect() } else { (0..sides).rev().map(corner).collect() };
+        self.polygon(place, &ring, stuff);
+    }
+
+    /// A sphere of `bands` bands between its poles. 2 `sides` (`bands` - 1) triangles.
+    pub(super) fn sphere(&mut self, place: Place, radius: f64, sides: u32, bands: u32, stuff: Stuff) {
+        let profile: Vec<[f64; 2]> = (0..=bands)
+            .map(|band| {
+                let [z, r] = on_circle(0.5 * f64::from(bands - band) / f64::from(bands));
+                [if band == 0 || band == bands { 0.0 } else { radius * r }, radius * z]
+            })
+            .collect();
+        let normals = profile.iter().map(|&at| [at; 2]).collect();
+        self.revolve(place, &profile, normals, sides, stuff);
+    }
+
+    /// A surface of revolution around z. The profile is a line of (radius, height) with the outside to its right: upwards on the outside,
+    /// downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides` where an end lies on the axis. Gentle
+    /// corners of the profile are smoothed.
+    pub(super) fn lathe(&mut self, place: Place, profile: &[[f64; 2]], sides: u32, stuff: Stuff) {
+        let stretches: Vec<[f64; 2]> = profile.windows(2).map(|ends| outward(ends[0], ends[1])).collect();
+        let smooth = |one: [f64; 2], other: [f64; 2]| {
+            let gentle = one[0] * other[0] + one[1] * other[1] > CREASE;
+            if gentle { [one[0] + other[0], one[1] + other[1]] } else { one }
+        };
+        let normals = (0..profile.len())
+            .map(|at| {
+                let (before, after) = (at.checked_sub(1).map(|i| stretches[i]), stretches.get(at).copied());
+                let (before, after) = (before.or(after).unwrap_or_default(), after.or(before).unwrap_or_default());
+                // On the axis a gentle top is level.
+                let level = |n: [f64; 2]| if profile[at][0] == 0.0 && n[1].abs() > CREASE { [0.0, n[1]] } else { n };
+                [level(smooth(before, after)), level(smooth(after, before))]
+            })
+            .collect();
+        self.revolve(place, profile, normals, sides, stuff);
+    }
+
+    /// A profile turned around z; `normals` (radius, height) at each of its points, as the end of one stretch and the start of the next.
+    fn revolve(&mut self, place: Place, profile: &[[f64; 2]], normals: Vec<[[f64; 2]; 2]>, sides: u32, stuff: Stuff) {
+        for (at, ends) in profile.windows(2).enumerate() {
+            let normals = [normals[at][1], normals[at + 1][0]];
+            for side in 0..sides {
+                let corner = |end: usize, step: u32| {
+                    let [x, y] = on_circle(f64::from((side + step) % sides) / f64::from(sides));
+                    let turn = |[r, z]: [f64; 2]| [r * x, r * y, z];
+                    (place.point(turn(ends[end])), place.direction(turn(normals[end])))
+                };
+                let [a, b, c, d] = [corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)];
+                if ends[0][0] != 0.0 {
+                    self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), stuff);
+                }
+                if ends[1][0] != 0.0 {
+                    self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), stuff);
+                }
+            }
+        }
+    }
+
+    /// A tube bent in a circle around the place's y axis: `bend` is its radius, `from` and `to` parts of a full turn from +x towards +z.
+    /// Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
+    pub(super) fn bent_tube(
+        &mut self,
+        place: Place,
+        [bend, radius]: [f64; 2],
+        [from, to]: [f64; 2],
+        [steps, sides]: [u32; 2],
+        stuff: Stuff,
+    ) {
+        let corner = |step: u32, side: u32| {
+            let [along, up] = on_circle(from + (to - from) * f64::from(step) / f64::from(steps));
+            let [out, y] = on_circle(f64::from(side % sides) / f64::from(sides));
+            let normal = [out * along, y, out * up];
+            let r = bend + radius * out;
+            ([r * along, radius * y, r * up], normal)
+        };
+        for step in 0..steps {
+            for side in 0..sides {
+                let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)]
+                    .map(|(i, j)| corner(step + i, side + j))
+                    .map(|(at, normal)| (place.point(at), place.direction(normal)));
+                self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), stuff);
+                self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), stuff);
+            }
+        }
+        let end = |step: u32| (0..sides).map(move |side| corner(step, side).0);
+        self.polygon(place, &end(0).rev().collect::<Vec<_>>(), stuff);
+        self.polygon(place, &end(steps).collect::<Vec<_>>(), stuff);
+    }
+}
+
+/// The normal to the right of a line of a profile, at length 1.
+fn outward(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    let (across, up) = (to[0] - from[0], to[1] - from[1]);
+    let length = (across * across + up * up).sqrt();
+    [up / length, -across / length]
+}

@@ -1,0 +1,144 @@
+//! A small closed room with a teapot: 2,650 triangles, as many as the teapot room of the Ray Engine (Table 1).
+//!
+//! | what | triangles |
+//! |---|---|
+//! | the teapot at 6 quads a patch side, of polished copper | 2,256 |
+//! | the glass sphere, 16 around and 8 bands | 224 |
+//! | the round plinth, 20 sides | 76 |
+//! | the floor, 4 x 5 tiles | 40 |
+//! | the ceiling around its light | 8 |
+//! | the light | 2 |
+//! | four walls | 8 |
+//! | a mirror block, a glossy block, a picture on the wall | 36 |
+
+use super::super::{Material, PointLight, Scene, Surface, View};
+use super::parts::{Parts, Place, Stuff, Vec3, cross, sub};
+use crate::geom::random::Keyed;
+use crate::geom::teapot::{Part, part_of_patch, tessellate};
+
+/// Quads along a patch side.
+const RATE: u32 = 6;
+/// Half the width of the room, half its depth, its height.
+const HALF_WIDTH: f64 = 0.6;
+const HALF_DEPTH: f64 = 0.75;
+const HEIGHT: f64 = 1.1;
+/// Half a side of the light in the ceiling.
+const LIGHT: f64 = 0.18;
+
+/// The room. The seed shifts and turns blocks and sphere a little.
+pub fn teapot_room(seed: u64) -> Scene {
+    let mut parts = Parts::default();
+    walls(&mut parts);
+    things(&mut parts, Keyed::new(seed));
+    let view = View {
+        name: "front".into(),
+        eye: [0.02, -0.74, 0.7],
+        target: [0.01, 0.3, 0.34],
+        up: [0.0, 0.0, 1.0],
+        tan_half_height: 0.56,
+    };
+    let lamp = PointLight { position: [0.0, 0.05, 1.0], intensity: [0.75, 0.7, 0.6] };
+    let fill = PointLight { position: [-0.3, -0.65, 0.85], intensity: [0.16, 0.17, 0.2] };
+    parts.scene(vec![view], vec![lamp, fill])
+}
+
+fn walls(parts: &mut Parts) {
+    let (w, d, h) = (HALF_WIDTH, HALF_DEPTH, HEIGHT);
+    let white = parts.paint("white", [0.74, 0.73, 0.70]);
+    let red = parts.paint("red", [0.60, 0.06, 0.05]);
+    let green = parts.paint("green", [0.12, 0.42, 0.10]);
+    let light_tile = parts.paint("light-tile", [0.68, 0.64, 0.56]);
+    let dark_tile = parts.paint("dark-tile", [0.22, 0.20, 0.19]);
+    let room = Place::ROOM;
+    parts.tiles(room, [[-w, -d, 0.0], [2.0 * w, 0.0, 0.0], [0.0, 2.0 * d, 0.0]], [4, 5], |i, j| {
+        if (i + j) % 2 == 0 { light_tile } else { dark_tile }
+    });
+    parts.quad(room, [[-w, d, 0.0], [2.0 * w, 0.0, 0.0], [0.0, 0.0, h]], white);
+    parts.quad(room, [[w, -d, 0.0], [-2.0 * w, 0.0, 0.0], [0.0, 0.0, h]], white);
+    parts.quad(room, [[-w, -d, 0.0], [0.0, 2.0 * d, 0.0], [0.0, 0.0, h]], red);
+    parts.quad(room, [[w, d, 0.0], [0.0, -2.0 * d, 0.0], [0.0, 0.0, h]], green);
+    let lamp = parts.material(Material {
+        name: "lamp".into(),
+        surface: Surface::Diffuse { albedo: [0.0; 3] },
+        emission: [12.0, 11.0, 9.0],
+    });
+    ceiling(parts, [[-w, -d], [w, d]], [[-LIGHT, -LIGHT], [LIGHT, LIGHT]], h, white, lamp);
+}
+
+/// A ceiling that looks down, with a square in it. 10 triangles.
+pub(super) fn ceiling(
+    parts: &mut Parts,
+    [low, high]: [[f64; 2]; 2],
+    hole: [[f64; 2]; 2],
+    height: f64,
+    around: Stuff,
+    within: Stuff,
+) {
+    let ring = |[low, high]: [[f64; 2]; 2]| {
+        [[low[0], low[1]], [low[0], high[1]], [high[0], high[1]], [high[0], low[1]]].map(|[x, y]| [x, y, height])
+    };
+    let (outer, inner) = (ring([low, high]), ring(hole));
+    for at in 0..4 {
+        let next = (at + 1) % 4;
+        parts.polygon(Place::ROOM, &[outer[at], outer[next], inner[next], inner[at]], around);
+    }
+    parts.polygon(Place::ROOM, &inner, within);
+}
+
+fn things(parts: &mut Parts, random: Keyed) {
+    // A number from -1 to 1 for each thing that may move.
+    let wobble = |thing: u64| 2.0 * random.unit(thing, 0, 0) - 1.0;
+    let copper = parts.material(Material {
+        name: "copper".into(),
+        surface: Surface::Mirror { reflectance: [0.90, 0.66, 0.48] },
+        emission: [0.0; 3],
+    });
+    let glass = parts.material(Material {
+        name: "glass".into(),
+        surface: Surface::Glass { index: 1.5, transmittance: [0.97, 0.98, 0.98] },
+        emission: [0.0; 3],
+    });
+    let mirror = parts.material(Material {
+        name: "mirror".into(),
+        surface: Surface::Mirror { reflectance: [0.88; 3] },
+        emission: [0.0; 3],
+    });
+    let lacquer = parts.material(Material {
+        name: "lacquer".into(),
+        surface: Surface::Glossy { albedo: [0.08, 0.16, 0.42], specular: [0.35; 3], exponent: 60.0 },
+        emission: [0.0; 3],
+    });
+    let stone = parts.paint("stone", [0.62, 0.60, 0.56]);
+    let picture = parts.paint("picture", [0.75, 0.52, 0.12]);
+    parts.cylinder(Place::at(0.0, 0.12, 0.0), 0.225, [0.0, 0.15], 20, stone);
+    teapot(parts, Place::at(-0.01, 0.12, 0.15).facing(-14.0), 0.092, copper);
+    let block = Place::at(-0.34 + 0.01 * wobble(0), 0.47, 0.0).facing(22.0 + 4.0 * wobble(1));
+    parts.block(block, [-0.13, -0.13, 0.0], [0.13, 0.13, 0.66], mirror);
+    let block = Place::at(-0.37, -0.1 + 0.01 * wobble(2), 0.0).facing(-24.0 + 6.0 * wobble(3));
+    parts.block(block, [-0.08, -0.08, 0.0], [0.08, 0.08, 0.16], lacquer);
+    parts.sphere(Place::at(0.37 + 0.01 * wobble(4), -0.06, 0.125), 0.125, 16, 8, glass);
+    parts.block(Place::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
+}
+
+/// The teapot standing at a place, with smooth normals: each corner has the mean of its part's triangles there, by area.
+fn teapot(parts: &mut Parts, place: Place, scale: f64, stuff: Stuff) {
+    let teapot = tessellate(RATE).expect("a rate in range");
+    let corners: Vec<[Vec3; 3]> = teapot.mesh.iter_corners().map(|c| c.map(|at| at.map(f64::from))).collect();
+    let part = |triangle: usize| match part_of_patch(u32::from(teapot.patch_of[triangle])) {
+        // Joined without a crease.
+        Part::Bottom => Part::Body,
+        other => other,
+    };
+    let mut sums = std::collections::BTreeMap::<(u32, Part), Vec3>::new();
+    for (triangle, ([a, b, c], indices)) in corners.iter().zip(teapot.mesh.triangles()).enumerate() {
+        let normal = cross(sub(*b, *a), sub(*c, *a));
+        for &index in indices {
+            let sum = sums.entry((index, part(triangle))).or_default();
+            *sum = [0, 1, 2].map(|axis| sum[axis] + normal[axis]);
+        }
+    }
+    for (triangle, (at, indices)) in corners.iter().zip(teapot.mesh.triangles()).enumerate() {
+        let normals = indices.map(|index| place.direction(sums[&(index, part(triangle))]));
+        parts.triangle(at.map(|at| place.point(at.map(|value| value * scale))), Some(normals), stuff);
+    }
+}

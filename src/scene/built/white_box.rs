@@ -1,0 +1,29 @@
+//! A closed box of grey walls that all shine: 12 triangles. Inside it the radiance is emission / (1 - albedo) everywhere.
+
+use super::super::{Material, Scene, Surface, View};
+use super::parts::{Parts, Place};
+
+/// A box from 0 to 1 whose walls look inwards, with an emission and albedo of a half: the radiance is 1 in every direction.
+pub fn white_box() -> Scene {
+    let mut parts = Parts::default();
+    let surface = Surface::Diffuse { albedo: [0.5; 3] };
+    let wall = parts.material(Material { name: "wall".into(), surface, emission: [0.5; 3] });
+    for [corner, across, along] in [
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+        [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+        [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
+    ] {
+        parts.quad(Place::ROOM, [corner, across, along], wall);
+    }
+    let view = View {
+        name: "front".into(),
+        eye: [0.5, 0.1, 0.5],
+        target: [0.5, 1.0, 0.5],
+        up: [0.0, 0.0, 1.0],
+        tan_half_height: 0.75,
+    };
+    parts.scene(vec![view], Vec::new())
+}

@@ -1,0 +1,70 @@
+//! The scenes that the project builds: exact counts, sound triangles, and nothing but fronts to be seen.
+
+use crossbar::geom::exact::{Sides, nearest_all};
+use crossbar::scene::{Scene, built};
+
+fn scene(name: &str) -> Scene {
+    built::build(name).expect("a scene of that name")
+}
+
+#[test]
+fn counts_are_those_of_the_paper_for_every_seed() {
+    for seed in 0..3 {
+        assert_eq!(built::teapot_room(seed).mesh().len(), 2_650);
+    }
+    assert_eq!(built::cornell_box().mesh().len(), 42);
+    assert_eq!(built::white_box().mesh().len(), 12);
+    assert!(built::build("nowhere").is_none());
+}
+
+#[test]
+fn triangles_have_areas_and_normals_lean_to_the_front() {
+    for name in built::names() {
+        let scene = scene(name);
+        assert_eq!(scene.mesh().degenerate_count(), 0, "{name}");
+        assert!(!scene.views.is_empty(), "{name} has a view");
+        assert!(!scene.emitters().is_empty(), "{name} has a light");
+        for (triangle, [a, b, c]) in (0..).zip(scene.mesh().iter_corners()) {
+            let Some(normals) = scene.corner_normals(triangle) else { continue };
+            let face = cross(sub(b, a), sub(c, a));
+            for normal in normals {
+                let normal = normal.map(f64::from);
+                assert!((dot(normal, normal) - 1.0).abs() < 1e-6, "{name}: normal {normal:?} of triangle {triangle}");
+                assert!(dot(normal, face) > 0.0, "{name}: normal {normal:?} of triangle {triangle} leans back");
+            }
+        }
+    }
+}
+
+#[test]
+fn views_see_fronts_only() {
+    for name in built::names() {
+        let scene = scene(name);
+        for view in &scene.views {
+            let rays = view.camera(64, 64).expect("a camera").rays();
+            let front = nearest_all(scene.mesh(), &rays, Sides::Front);
+            let both = nearest_all(scene.mesh(), &rays, Sides::Both);
+            for (pixel, (front, both)) in front.iter().zip(&both).enumerate() {
+                if front == both {
+                    continue;
+                }
+                // The teapot is open between pot and lid, and there one looks at its inside.
+                let seen = both.as_ref().map(|hit| scene.material(hit.triangle));
+                let through = seen.is_some_and(|material| material.name == "copper");
+                assert!(through, "{name}, {}: pixel {pixel} sees the back of {seen:?}", view.name);
+            }
+        }
+    }
+}
+
+fn sub(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| f64::from(a[axis]) - f64::from(b[axis]))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
