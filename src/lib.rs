@@ -30,6 +30,7 @@ pub mod cli;
 pub mod compare;
 pub mod geom;
 pub mod io;
+pub mod oracle;
 pub mod ray_engine;
 pub mod report;
 pub mod scene;

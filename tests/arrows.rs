@@ -37,6 +37,7 @@ const CROSSBAR: Law = (
         ("report", &[]),
         ("shader", &["io"]),
         ("compare", &[]),
+        ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
         ("study", &["ray_engine", "report", "card", "geom", "scene", "linalg", "io"]),

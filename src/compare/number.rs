@@ -17,6 +17,12 @@ pub struct Number {
     pub bits: u32,
 }
 
+impl From<f32> for Number {
+    fn from(value: f32) -> Self {
+        Self { format: Format::FP32, bits: value.to_bits() }
+    }
+}
+
 /// A value by two sides, ready to be read.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Compared {

@@ -10,5 +10,6 @@ mod ground_truth;
 mod logs;
 mod models;
 mod octree;
+mod oracle;
 mod ray_tree;
 mod timing;

@@ -1,0 +1,198 @@
+//! One answer that departs from the truth.
+
+use std::cmp::Reverse;
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::geom::{ExactT, Hit, Ray, RayError};
+
+/// In what way an answer is wrong; the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// A triangle that the mesh does not have.
+    NoSuchTriangle,
+    /// No hit where there is a surface: a hole.
+    Leak,
+    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is seen.
+    LeakThrough,
+    /// A hit where the ray meets nothing.
+    FalseHit,
+    /// A triangle that the ray meets from behind, where only fronts count.
+    BackFace,
+    /// A triangle that has nothing to do with the right one.
+    WrongTriangle,
+    /// A triangle that shares an edge or a vertex with the right one.
+    WrongNeighbour,
+    /// The right triangle, at a t beyond the tolerance.
+    TOff,
+    /// A triangle that the ray meets behind the first one by no more than the tolerance of t.
+    NearTie,
+}
+
+impl Kind {
+    /// All of them, the worst first.
+    pub const ALL: [Self; 9] = [
+        Self::NoSuchTriangle,
+        Self::Leak,
+        Self::LeakThrough,
+        Self::FalseHit,
+        Self::BackFace,
+        Self::WrongTriangle,
+        Self::WrongNeighbour,
+        Self::TOff,
+        Self::NearTie,
+    ];
+
+    /// Whether a surface that is there was missed.
+    #[must_use]
+    pub const fn is_leak(self) -> bool {
+        matches!(self, Self::Leak | Self::LeakThrough)
+    }
+
+    /// What to call it: `leak`, `wrong neighbour`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NoSuchTriangle => "no such triangle",
+            Self::Leak => "leak",
+            Self::LeakThrough => "leak through to what is behind",
+            Self::FalseHit => "false hit",
+            Self::BackFace => "back face",
+            Self::WrongTriangle => "wrong triangle",
+            Self::WrongNeighbour => "wrong neighbour",
+            Self::TOff => "t off",
+            Self::NearTie => "near tie",
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What is true of a ray that hits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Expected {
+    /// All triangles at the first t, in rising order: each is right.
+    pub triangles: Vec<u32>,
+    /// The first t, in multiples of the ray's direction; in JSON the nearest double.
+    #[serde(serialize_with = "nearest_double")]
+    pub t: ExactT,
+}
+
+fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(t.to_f64())
+}
+
+/// A ray whose answer is wrong.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Disagreement {
+    /// Its place among the rays that were judged.
+    pub ray: usize,
+    /// Where it starts.
+    pub origin: [f32; 3],
+    /// Where it goes.
+    pub direction: [f32; 3],
+    /// In what way.
+    pub kind: Kind,
+    /// What it truly hits, if anything.
+    pub expected: Option<Expected>,
+    /// What was found, if anything.
+    #[serde(serialize_with = "found")]
+    pub found: Option<Hit>,
+    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one side has
+    /// a t, or one is not finite.
+    pub t_ulps: Option<u64>,
+    /// Where the ray truly meets the triangle that was found, if it does, from either side; in JSON the nearest double.
+    #[serde(serialize_with = "nearest_double_if_any")]
+    pub met_at: Option<ExactT>,
+}
+
+fn nearest_double_if_any<S: serde::Serializer>(t: &Option<ExactT>, serializer: S) -> Result<S::Ok, S::Error> {
+    t.as_ref().map(ExactT::to_f64).serialize(serializer)
+}
+
+/// A hit in JSON, which has no infinity and no NaN: its t is null then, and its bits say which.
+fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Found {
+        triangle: u32,
+        t: Option<f32>,
+        t_bits: String,
+    }
+    let found = hit.map(|Hit { triangle, t }| Found {
+        triangle,
+        t: t.is_finite().then_some(t),
+        t_bits: format!("0x{:08x}", t.to_bits()),
+    });
+    found.serialize(serializer)
+}
+
+impl Disagreement {
+    /// The ray, as it was given.
+    ///
+    /// # Errors
+    /// [`RayError`] if the fields have been changed and are no ray any more.
+    pub fn ray(&self) -> Result<Ray, RayError> {
+        Ray::new(self.origin, self.direction)
+    }
+
+    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the ray.
+    pub(super) fn rank(&self) -> impl Ord + use<> {
+        (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
+    }
+}
+
+/// Three numbers in parentheses; -0 shows its sign, and every f32 enough digits to be read back.
+pub(super) struct Vector(pub(super) [f32; 3]);
+
+impl fmt::Display for Vector {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0.map(short);
+        write!(f, "({x}, {y}, {z})")
+    }
+}
+
+/// The shortest text that is read back to the same f32: plain near one, with an exponent far from it.
+pub(super) fn short(x: f32) -> String {
+    let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
+    if plain { format!("{x}") } else { format!("{x:e}") }
+}
+
+fn short_double(x: f64) -> String {
+    let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
+    if plain { format!("{x}") } else { format!("{x:e}") }
+}
+
+impl fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (from, along) = (Vector(self.origin), Vector(self.direction));
+        write!(f, "ray {} from {from} along {along}: {}: expected ", self.ray, self.kind)?;
+        match &self.expected {
+            None => f.write_str("nothing")?,
+            Some(Expected { triangles, t }) => {
+                let mut names = triangles.iter().take(4).map(u32::to_string).collect::<Vec<_>>().join(" or ");
+                if triangles.len() > 4 {
+                    names += &format!(" or {} more", triangles.len() - 4);
+                }
+                write!(f, "triangle {names} at t = {}", short_double(t.to_f64()))?;
+            }
+        }
+        let Some(Hit { triangle, t }) = self.found else { return f.write_str(", found nothing") };
+        write!(f, ", found triangle {triangle} at t = {}", short(t))?;
+        match self.t_ulps {
+            Some(0) | None => {}
+            Some(1) => f.write_str(", 1 ULP off")?,
+            Some(ulps) => write!(f, ", {ulps} ULPs off")?,
+        }
+        match &self.met_at {
+            Some(met) if self.kind != Kind::TOff => write!(f, " (the ray meets it at {})", short_double(met.to_f64())),
+            None if self.kind != Kind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
+            _ => Ok(()),
+        }
+    }
+}

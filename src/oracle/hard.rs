@@ -1,0 +1,164 @@
+//! Rays on which intersectors differ.
+
+use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
+use crate::geom::random::Keyed;
+use crate::geom::{Mesh, Ray};
+
+/// What makes a ray hard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Aim {
+    /// Aimed from outside at a point of an edge that triangles share.
+    Edge,
+    /// Aimed from outside at a vertex.
+    Vertex,
+    /// Along an axis through a vertex or the middle of a triangle; the other two components are +0 or -0.
+    Axis,
+    /// In the plane of a triangle, up to the rounding of f32: it misses that one and meets the others.
+    Plane,
+    /// From a point of a surface (a vertex, or inside up to rounding) into any direction.
+    Surface,
+    /// From far away, a thousand to a million sizes of the mesh, at a point of an edge.
+    Far,
+}
+
+impl Aim {
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::Edge, Self::Vertex, Self::Axis, Self::Plane, Self::Surface, Self::Far];
+}
+
+/// A hard ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HardRay {
+    /// The ray.
+    pub ray: Ray,
+    /// Why it is hard.
+    pub aim: Aim,
+}
+
+/// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an empty mesh has none.
+#[must_use]
+pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
+    let Some(place) = Place::of(mesh) else { return Vec::new() };
+    let dice = Keyed::new(seed);
+    let mut rays = Vec::new();
+    for (key, aim) in (0..).zip(Aim::ALL) {
+        let found: Vec<Ray> = match aim {
+            Aim::Edge => spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(dice, eye, 2.0), 1, seed ^ eye), n)),
+            Aim::Vertex => spread(each, |eye, n| some(aimed_at_vertices(mesh, place.eye(dice, eye, 2.0)), n)),
+            Aim::Far => {
+                let far = |eye: u64| [1e3, 1e4, 1e5, 1e6][eye as usize % 4];
+                spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(dice, eye, far(eye)), 1, seed ^ eye), n))
+            }
+            Aim::Axis | Aim::Plane | Aim::Surface => {
+                let one = |i: u64| {
+                    let at = Triangle::choose(mesh, dice, key, i)?;
+                    match aim {
+                        Aim::Axis => at.axis_ray(&place, i),
+                        Aim::Plane => at.plane_ray(dice, i),
+                        _ => at.surface_ray(dice, i),
+                    }
+                };
+                (0..each as u64).filter_map(one).collect()
+            }
+        };
+        rays.extend(found.into_iter().map(|ray| HardRay { ray, aim }));
+    }
+    rays
+}
+
+/// Eyes that rays of one aim are shared out to.
+const EYES: usize = 8;
+
+/// At most `each` rays from some eyes, as evenly as whole numbers go.
+fn spread(each: usize, rays: impl Fn(u64, usize) -> Vec<Ray>) -> Vec<Ray> {
+    (0..EYES).flat_map(|eye| rays(eye as u64, (each + eye) / EYES)).collect()
+}
+
+/// At most `most` of them, at even distances.
+fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
+    let step = aimed.len().div_ceil(most.max(1)).max(1);
+    aimed.into_iter().step_by(step).take(most).map(|aimed| aimed.ray).collect()
+}
+
+/// Where a mesh is, and how large.
+struct Place {
+    middle: [f64; 3],
+    size: f64,
+}
+
+impl Place {
+    fn of(mesh: &Mesh) -> Option<Self> {
+        let [low, high] = mesh.bounds()?.map(|corner| corner.map(f64::from));
+        let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+        let middle = [0, 1, 2].map(|axis| (low[axis] + high[axis]) / 2.0);
+        Some(Self { middle, size: if size > 0.0 { size } else { 1.0 } })
+    }
+
+    /// A point about `sizes` sizes of the mesh from its middle, kept within f32.
+    fn eye(&self, dice: Keyed, index: u64, sizes: f64) -> [f32; 3] {
+        let side = |axis: usize| {
+            let step = 2.0 * dice.unit(index, 0, axis as u64) - 1.0;
+            // Never near the middle on the axis that the eye's number names.
+            if axis == index as usize % 3 { 1.0f64.copysign(step) } else { step }
+        };
+        [0, 1, 2].map(|axis| in_f32(self.middle[axis] + sizes * self.size * side(axis)))
+    }
+}
+
+/// The nearest f32 that is finite.
+fn in_f32(x: f64) -> f32 {
+    x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+}
+
+/// A triangle, and a point of it.
+struct Triangle {
+    corners: [[f64; 3]; 3],
+    point: [f32; 3],
+}
+
+impl Triangle {
+    /// A triangle by dice, with one of its corners, or a point inside it.
+    fn choose(mesh: &Mesh, dice: Keyed, key: u64, index: u64) -> Option<Self> {
+        let id = dice.bits(index, key, 100) % mesh.len().max(1) as u64;
+        let exact = mesh.corners(id as u32)?;
+        let corners = exact.map(|corner| corner.map(f64::from));
+        let kind = dice.bits(index, key, 101) % 4;
+        if let Some(&point) = exact.get(kind as usize) {
+            return Some(Self { corners, point });
+        }
+        let [mut u, mut v] = [102, 103].map(|dimension| dice.unit(index, key, dimension));
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        let [a, b, c] = corners;
+        let point = [0, 1, 2].map(|axis| in_f32(a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis])));
+        Some(Self { corners, point })
+    }
+
+    /// All six ways along the axes, all four pairs of signs of the zeros, in turn.
+    fn axis_ray(&self, place: &Place, index: u64) -> Option<Ray> {
+        let axis = (index % 3) as usize;
+        let sign = |bit: u64| if (index / 3) >> bit & 1 == 1 { -1.0f32 } else { 1.0 };
+        let (way, mut direction) = (sign(0), [0.0, sign(1) * 0.0, sign(2) * 0.0]);
+        direction[0] = way;
+        direction.rotate_right(axis);
+        let mut origin = self.point;
+        origin[axis] = in_f32(f64::from(origin[axis]) - 2.0 * place.size * f64::from(way));
+        Ray::new(origin, direction).ok()
+    }
+
+    /// From outside the triangle, beyond the corner a, towards the side bc.
+    fn plane_ray(&self, dice: Keyed, index: u64) -> Option<Ray> {
+        let [a, b, c] = self.corners;
+        // Every other ray along an edge.
+        let share = if index.is_multiple_of(2) { 0.0 } else { dice.unit(index, 0, 104) };
+        let along = [0, 1, 2].map(|axis| b[axis] + share * (c[axis] - b[axis]) - a[axis]);
+        let origin = [0, 1, 2].map(|axis| in_f32(a[axis] - along[axis]));
+        Ray::new(origin, along.map(in_f32)).ok()
+    }
+
+    fn surface_ray(&self, dice: Keyed, index: u64) -> Option<Ray> {
+        let direction = [0, 1, 2].map(|axis| (2.0 * dice.unit(index, 1, axis) - 1.0) as f32);
+        Ray::new(self.point, direction).ok()
+    }
+}

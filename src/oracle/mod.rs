@@ -1,0 +1,50 @@
+//! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic out.
+//!
+//! An [`Oracle`] decides first hits on the f32 figures as given ([`crate::geom::exact`]) and sorts each answer that
+//! departs from them into a [`Kind`]: a leak, a false hit, a neighbour in place of the right triangle, a t too far off. Ties are
+//! judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right. [`hard_rays`] makes the rays on
+//! which intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
+//! `assert_` give it back as a [`Result`].
+//!
+//! ```
+//! use crossbar::geom::{Hit, Mesh, Ray, Sides};
+//! use crossbar::oracle::{Kind, Oracle, Tolerance, hard_rays};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // A square of two triangles, and somebody's intersector that never finds the second.
+//! let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?;
+//! let mine = |ray: &Ray| {
+//!     let [x, y, _] = ray.origin();
+//!     (y <= x).then_some(Hit { triangle: 0, t: 2.0 })
+//! };
+//! let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(4));
+//! let down = |x, y| Ray::new([x, y, 2.0], [0.0, 0.0, -1.0]);
+//!
+//! // On the diagonal, either triangle is right.
+//! oracle.assert_agrees(&[down(0.75, 0.25)?, down(0.5, 0.5)?], mine);
+//!
+//! let report = oracle.examine(&[down(0.75, 0.25)?, down(0.25, 0.75)?], mine);
+//! assert_eq!(report.count(Kind::Leak), 1);
+//! assert!(report.to_string().contains("ray 1 from (0.25, 0.75, 2) along (0, 0, -1): leak: expected triangle 1 at t = 2"));
+//!
+//! // Rays that ask for trouble, for any mesh.
+//! let rays: Vec<Ray> = hard_rays(&mesh, 100, 1).iter().map(|hard| hard.ray).collect();
+//! assert!(!oracle.examine(&rays, mine).agrees());
+//! # Ok(())
+//! # }
+//! ```
+
+mod disagreement;
+mod equal;
+mod hard;
+mod judge;
+mod pictures;
+mod report;
+
+pub use disagreement::{Disagreement, Expected, Kind};
+pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
+pub use hard::{Aim, HardRay, hard_rays};
+pub use judge::{Oracle, OracleError, Tolerance};
+pub use pictures::{Sample, assert_images_equal, images_equal};
+pub use report::Report;

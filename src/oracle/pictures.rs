@@ -1,0 +1,80 @@
+//! Pictures that must be equal, or nearly.
+
+use super::disagreement::short;
+use super::equal::{Asked, Unequal, compare};
+use super::judge::ulps;
+
+/// One channel of a pixel: a stored number with a next one.
+pub trait Sample: Copy {
+    /// Steps from this number to the other; `None` where one is not finite and they differ.
+    fn steps(self, other: Self) -> Option<u64>;
+
+    /// The number in decimal.
+    fn text(self) -> String;
+}
+
+impl Sample for u8 {
+    fn steps(self, other: Self) -> Option<u64> {
+        Some(self.abs_diff(other).into())
+    }
+
+    fn text(self) -> String {
+        self.to_string()
+    }
+}
+
+impl Sample for u16 {
+    fn steps(self, other: Self) -> Option<u64> {
+        Some(self.abs_diff(other).into())
+    }
+
+    fn text(self) -> String {
+        self.to_string()
+    }
+}
+
+impl Sample for f32 {
+    fn steps(self, other: Self) -> Option<u64> {
+        ulps(self, other)
+    }
+
+    fn text(self) -> String {
+        short(self)
+    }
+}
+
+/// Whether two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from its partner
+/// (0: equal; of f32, steps are ULPs).
+///
+/// # Errors
+/// [`Unequal`] says at which column and row first, and where most.
+pub fn images_equal<S: Sample, const N: usize>(
+    width: usize,
+    left: &[[S; N]],
+    right: &[[S; N]],
+    most: u32,
+) -> Result<(), Unequal> {
+    let steps = if most == 1 { "step" } else { "steps" };
+    let asked = Asked { what: "pixels", beyond: format!("by more than {most} {steps}") };
+    let apart = |l: [S; N], r: [S; N]| {
+        let far = l.into_iter().zip(r).map(|(l, r)| l.steps(r).unwrap_or(u64::MAX)).max().unwrap_or(0);
+        (far > u64::from(most)).then_some(far)
+    };
+    let words = |pixel: [S; N]| format!("({})", pixel.map(S::text).join(", "));
+    let text = |at: usize, l, r| {
+        let width = width.max(1);
+        format!("pixel ({}, {}) {} and {}", at % width, at / width, words(l), words(r))
+    };
+    compare(asked, [left, right], apart, text)
+}
+
+/// As [`images_equal`], for tests.
+///
+/// # Panics
+/// Where it is called, if they differ.
+#[track_caller]
+pub fn assert_images_equal<S: Sample, const N: usize>(width: usize, left: &[[S; N]], right: &[[S; N]], most: u32) {
+    if let Err(unequal) = images_equal(width, left, right, most) {
+        panic!("{unequal}");
+    }
+}

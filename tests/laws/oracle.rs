@@ -1,0 +1,215 @@
+//! The oracle for other people's tests, tested: every way to be wrong is planted and found, and nothing else.
+
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Hit, Mesh, Ray, Sides, exact};
+use crossbar::oracle::{
+    Aim, Kind, Oracle, OracleError, Tolerance, assert_bits_eq, assert_hits_eq, assert_images_equal, assert_within_ulps,
+    bits_equal, hard_rays, hits_equal, images_equal, within_ulps,
+};
+
+/// The square in z = 0 seen from above, a triangle that touches its corner, one far below, one that looks down.
+fn scene() -> Mesh {
+    let positions = vec![
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [-5.0, -5.0, -2.0],
+        [5.0, -5.0, -2.0],
+        [0.0, 5.0, -2.0],
+        [3.0, 3.0, 0.0],
+        [3.0, 4.0, 0.0],
+        [4.0, 3.0, 0.0],
+    ];
+    Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [6, 7, 8], [9, 10, 11]]).expect("a mesh")
+}
+
+fn down(x: f32, y: f32) -> Ray {
+    Ray::new([x, y, 3.0], [0.0, -0.0, -1.0]).expect("a ray")
+}
+
+fn hit(triangle: u32, t: f32) -> Option<Hit> {
+    Some(Hit { triangle, t })
+}
+
+#[test]
+fn every_way_to_be_wrong_has_its_kind() {
+    let mesh = scene();
+    let inside = down(0.75, 0.25);
+    let past = down(9.0, 0.0);
+    let cases = [
+        (inside, hit(0, 3.0), None),
+        (inside, hit(0, 3.000_000_2), None),
+        (inside, hit(0, 3.000_000_5), Some(Kind::TOff)),
+        (inside, hit(0, f32::NAN), Some(Kind::TOff)),
+        (inside, None, Some(Kind::Leak)),
+        (inside, hit(3, 5.0), Some(Kind::LeakThrough)),
+        (inside, hit(1, 3.0), Some(Kind::WrongNeighbour)),
+        (inside, hit(2, 3.0), Some(Kind::WrongNeighbour)),
+        (inside, hit(4, 3.0), Some(Kind::WrongTriangle)),
+        (inside, hit(5, 3.0), Some(Kind::NoSuchTriangle)),
+        (down(0.5, 0.5), hit(0, 3.0), None),
+        (down(0.5, 0.5), hit(1, 3.0), None),
+        (down(0.0, 0.0), hit(1, 3.0), None),
+        (past, None, None),
+        (past, hit(0, 3.0), Some(Kind::FalseHit)),
+        (past, hit(77, 3.0), Some(Kind::NoSuchTriangle)),
+        (down(3.25, 3.25), None, None),
+        (down(3.25, 3.25), hit(4, 3.0), Some(Kind::BackFace)),
+    ];
+    let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(1));
+    for (ray, found, kind) in cases {
+        let report = oracle.judge(&[ray], &[found]).expect("one answer a ray");
+        assert_eq!(report.disagreements().first().map(|wrong| wrong.kind), kind, "{ray:?} {found:?}: {report}");
+    }
+    let both = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T);
+    both.assert_agrees(&[down(3.25, 3.25)], |_| hit(4, f32::INFINITY));
+}
+
+#[test]
+fn what_t_cannot_tell_apart_is_a_near_tie() {
+    let next = f32::from_bits(1.0f32.to_bits() + 2);
+    let sheet = |z: f32| [[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z]];
+    let positions = [sheet(next), sheet(1.0)].into_iter().flatten().collect();
+    let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");
+    let ray = Ray::new([1.0, 1.0, 4.0], [0.0, 0.0, -1.0]).expect("a ray");
+    let kind = |tolerance| {
+        let report = Oracle::new(&mesh, Sides::Front, tolerance).examine(&[ray], |_| hit(1, 3.0));
+        report.disagreements().first().map(|wrong| wrong.kind)
+    };
+    assert_eq!(kind(Tolerance::ulps(1)), Some(Kind::NearTie), "4 - (1 + 2 ULPs) is 3 less one ULP");
+    assert_eq!(kind(Tolerance::ulps(0)), Some(Kind::LeakThrough));
+    assert_eq!(kind(Tolerance::ulps(0).or_absolute(1e-6)), Some(Kind::NearTie));
+}
+
+#[test]
+fn tolerances_near_zero_can_be_a_distance() {
+    let mesh = scene();
+    let ray = Ray::new([0.25, 0.125, 0.0], [0.5, 0.5, -1.0]).expect("a ray");
+    let off = |tolerance: Tolerance, t| {
+        Oracle::new(&mesh, Sides::Front, tolerance).examine(&[ray], |_| hit(0, t)).count(Kind::TOff)
+    };
+    assert_eq!(off(Tolerance::ulps(100), 1e-9), 1);
+    assert_eq!(off(Tolerance::ulps(100).or_absolute(1e-8), 1e-9), 0);
+    assert_eq!(off(Tolerance::ulps(0), -0.0), 0, "both zeros are one t");
+}
+
+#[test]
+fn the_report_reads_well() {
+    let mesh = scene();
+    let rays = [down(0.75, 0.25), down(0.5, 0.5), down(9.0, 0.0), down(0.75, 0.5), down(0.5, 0.25), down(0.25, 0.75)];
+    let found = [hit(3, 5.0), None, hit(2, 1e-7), hit(0, f32::NAN), hit(0, 3.000_001), hit(1, 3.0)];
+    let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(1));
+    let report = oracle.judge(&rays, &found).expect("one answer a ray");
+    insta::assert_snapshot!("report", report);
+    let json = serde_json::to_value(&report).expect("JSON");
+    insta::assert_snapshot!("report_counts", serde_json::to_string(&json["counts"]).expect("JSON"));
+    insta::assert_snapshot!("report_worst_in_json", serde_json::to_string(&json["worst"][1]).expect("JSON"));
+    assert!(json["worst"][3]["found"]["t"].is_null(), "JSON has no NaN: {json}");
+    let leaks = report.only(Kind::is_leak);
+    assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
+}
+
+#[test]
+fn long_reports_are_cut() {
+    let mesh = scene();
+    let rays = vec![down(0.5, 0.25); 1500];
+    let report = Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).examine(&rays, |_| None);
+    let text = report.to_string();
+    assert_eq!(text.lines().count(), 13, "{text}");
+    assert!(text.ends_with("and 1490 more"), "{text}");
+    let json = serde_json::to_value(&report).expect("JSON");
+    assert_eq!((json["worst"].as_array().map(Vec::len), json["not_listed"].as_u64()), (Some(1000), Some(500)));
+    assert_eq!(report.disagreements().len(), 1500);
+}
+
+#[test]
+fn answers_are_counted() {
+    let mesh = scene();
+    let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T);
+    let found = oracle.judge(&[down(0.0, 0.0)], &[]).unwrap_err();
+    assert_eq!(found, OracleError::Count { rays: 1, hits: 0 });
+    insta::assert_snapshot!("count_of_answers", found);
+    let nothing = Mesh::default();
+    Oracle::new(&nothing, Sides::Both, Tolerance::ANY_T).assert_agrees(&[down(0.0, 0.0)], |_| None);
+    assert!(hard_rays(&nothing, 100, 1).is_empty());
+}
+
+/// What a panic says.
+fn said(test: impl FnOnce() + std::panic::UnwindSafe) -> String {
+    let payload = std::panic::catch_unwind(test).expect_err("it panics");
+    payload.downcast_ref::<String>().expect("words").clone()
+}
+
+#[test]
+fn assertions_say_what_differs() {
+    let next = f32::from_bits(1.0f32.to_bits() + 1);
+    insta::assert_snapshot!("bits_differ", bits_equal(&[0.0, 1.0, 2.0], &[-0.0, 1.0, 2.5]).unwrap_err());
+    insta::assert_snapshot!("lengths_differ", bits_equal(&[0.0], &[]).unwrap_err());
+    insta::assert_snapshot!("ulps_differ", within_ulps(&[1.0, 1.0, 1.0], &[next, f32::NAN, 1.000_1], 1).unwrap_err());
+    insta::assert_snapshot!("hits_differ", hits_equal(&[None, hit(1, 2.0)], &[None, hit(2, 2.0)]).unwrap_err());
+    let left = [[0u8, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]];
+    let right = [[0u8, 1, 2], [3, 6, 5], [6, 7, 8], [90, 10, 11]];
+    insta::assert_snapshot!("pictures_differ", images_equal(2, &left, &right, 1).unwrap_err());
+    assert_bits_eq(&[f32::NAN], &[f32::NAN]);
+    assert_within_ulps(&[1.0, f32::NAN, 0.0], &[next, f32::NAN, -0.0], 1);
+    assert_hits_eq(&[hit(1, 2.0)], &[hit(1, 2.0)]);
+    assert_images_equal(2, &left, &right, 255);
+    assert!(said(|| assert_bits_eq(&[1.0], &[next])).contains("1 ULP apart"));
+    assert!(said(|| assert_within_ulps(&[1.0], &[-1.0], 4)).contains("more than 4 ULPs"));
+    assert!(said(|| assert_hits_eq(&[None], &[hit(1, 2.0)])).contains("nothing and triangle 1"));
+    assert!(said(|| assert_images_equal(1, &[[1.0f32]], &[[2.0]], 0)).contains("pixel (0, 0)"));
+    assert!(
+        said(|| {
+            let mesh = scene();
+            Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).assert_no_leaks(&[down(0.5, 0.25)], |_| hit(3, 5.0));
+        })
+        .contains("leak through to what is behind")
+    );
+}
+
+#[test]
+fn hard_rays_are_what_they_say() {
+    let mesh = teapot(3).expect("a teapot");
+    let rays = hard_rays(&mesh, 100, 7);
+    assert_eq!(rays, hard_rays(&mesh, 100, 7));
+    assert_ne!(rays, hard_rays(&mesh, 100, 8));
+    for aim in Aim::ALL {
+        let count = rays.iter().filter(|hard| hard.aim == aim).count();
+        assert!((90..=100).contains(&count), "{aim:?}: {count}");
+    }
+    let mut zeros = std::collections::BTreeSet::new();
+    for hard in rays.iter().filter(|hard| hard.aim == Aim::Axis) {
+        let signs = hard.ray.direction().map(|x| (x == 0.0, x.is_sign_negative()));
+        assert_eq!(signs.iter().filter(|(zero, _)| *zero).count(), 2);
+        zeros.insert(signs);
+    }
+    assert_eq!(zeros.len(), 3 * 8, "three axes, two ways, four pairs of zeros");
+    let hit = |aim| {
+        let of_aim = rays.iter().filter(|hard| hard.aim == aim);
+        of_aim.filter(|hard| exact::nearest(&mesh, &hard.ray, Sides::Both).is_some()).count()
+    };
+    for aim in [Aim::Edge, Aim::Vertex, Aim::Axis, Aim::Surface, Aim::Far] {
+        assert!(hit(aim) > 25, "{aim:?}: {}", hit(aim));
+    }
+}
+
+#[test]
+fn exact_hits_agree_with_the_oracle_and_damaged_ones_do_not() {
+    let mesh = teapot(2).expect("a teapot");
+    let rays: Vec<Ray> = hard_rays(&mesh, 60, 3).iter().map(|hard| hard.ray).collect();
+    for sides in [Sides::Front, Sides::Both] {
+        let oracle = Oracle::new(&mesh, sides, Tolerance::ulps(0));
+        let nearest = |ray: &Ray| exact::nearest(&mesh, ray, sides);
+        let first = |ray: &Ray| nearest(ray).map(|hit| Hit { triangle: hit.triangle, t: hit.t.to_f32() });
+        let last =
+            |ray: &Ray| nearest(ray).map(|hit| Hit { triangle: hit.ties[hit.ties.len() - 1], t: hit.t.to_f32() });
+        oracle.assert_agrees(&rays, first);
+        oracle.assert_agrees(&rays, last);
+        let blind = oracle.examine(&rays, |_| None);
+        assert_eq!(blind.count(Kind::Leak), blind.surface());
+        assert_eq!(blind.disagreements().len(), blind.surface());
+    }
+}
