@@ -32,6 +32,7 @@ pub mod geom;
 pub mod io;
 pub mod oracle;
 pub mod ray_engine;
+pub mod renderer;
 pub mod report;
 pub mod scene;
 pub mod shader;

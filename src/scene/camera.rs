@@ -160,9 +160,28 @@ impl Camera {
         (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.ray(x, y))).collect()
     }
 
+    /// To the right edge of the picture from its centre, at distance 1.
+    #[must_use]
+    pub fn right(&self) -> [f64; 3] {
+        self.right
+    }
+
+    /// To the upper edge of the picture from its centre, at distance 1.
+    #[must_use]
+    pub fn up(&self) -> [f64; 3] {
+        self.up
+    }
+
     fn exact_direction(&self, x: u32, y: u32) -> [f64; 3] {
-        let across = (2.0 * f64::from(x) + 1.0) / f64::from(self.width) - 1.0;
-        let upwards = 1.0 - (2.0 * f64::from(y) + 1.0) / f64::from(self.height);
+        self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
+    }
+
+    /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32; the middle of
+    /// pixel (0, 0) is at (0.5, 0.5).
+    #[must_use]
+    pub fn direction_at(&self, x: f64, y: f64) -> [f64; 3] {
+        let across = 2.0 * x / f64::from(self.width) - 1.0;
+        let upwards = 1.0 - 2.0 * y / f64::from(self.height);
         [0, 1, 2].map(|axis| self.forward[axis] + across * self.right[axis] + upwards * self.up[axis])
     }
 }

@@ -7,6 +7,7 @@ mod engine;
 mod engine_modes;
 mod geometry;
 mod ground_truth;
+mod light;
 mod logs;
 mod models;
 mod octree;

@@ -1,0 +1,88 @@
+//! Distributed ray tracing: what Whitted's rays did sharply, spread at random (Cook, Porter and Carpenter 1984).
+
+use super::film::{Picture, expose};
+use super::lamps::Lamps;
+use super::lobes::{Lobes, one_way};
+use super::surfel::Surfel;
+use super::tracer::{Kind, Tracer, Watch};
+use super::vector::{largest, mul, wide};
+use super::wave::{Flight, Scatter, Shade};
+use super::{RenderError, Settings};
+use crate::geom::{Caster, Hit};
+use crate::scene::{Camera, Scene};
+
+/// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters and by each point light; a glossy
+/// lobe sends one ray into a direction drawn from it, which sees emitters and other surfaces; a mirror sends one ray, glass one of its two, by
+/// chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
+///
+/// # Errors
+/// [`RenderError`] if the settings make no sense or the caster fails.
+pub fn render<'a>(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &Settings,
+    caster: &'a mut dyn Caster,
+    watch: &'a mut Watch<'a>,
+) -> Result<Picture, RenderError> {
+    let mut tracer = Tracer::new(caster, watch);
+    let lamps = Lamps::new(scene);
+    let fan = 2 + lamps.points();
+    expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lamps })
+}
+
+struct Distributed<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+    lamps: Lamps<'a>,
+}
+
+impl Shade for Distributed<'_> {
+    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+        };
+        let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));
+        let more = flight.depth < self.settings.depth;
+        match Lobes::of(&surfel.material.surface) {
+            Some(lobes) => {
+                direct(&self.lamps, flight, &surfel, &lobes, &mut scatter);
+                if more && largest(lobes.specular) > 0.0 {
+                    gloss(flight, &surfel, lobes, &mut scatter);
+                }
+            }
+            None if more => go_on(flight, &surfel, &mut scatter),
+            None => {}
+        }
+        scatter
+    }
+}
+
+/// The diffuse part, by one point of the emitters; and both parts by the point lights, which no ray from a lobe could find.
+pub(super) fn direct(lamps: &Lamps<'_>, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+    let area = lamps.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
+    let points = (0..lamps.points()).filter_map(|light| Some((lamps.point(surfel, light)?, *lobes)));
+    for (arriving, lobes) in area.into_iter().chain(points) {
+        let (value, _) = lobes.evaluate(surfel, arriving.towards);
+        let light = mul(flight.weight, mul(value, arriving.light));
+        if largest(light) > 0.0 {
+            scatter.shadows.push((arriving.ray, light));
+        }
+    }
+}
+
+/// The glossy lobe, by one ray.
+pub(super) fn gloss(flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
+    let shiny = Lobes { albedo: [0.0; 3], ..lobes };
+    let Some(chosen) = shiny.choose(surfel, 0.0, flight.dice.pair(flight.depth, 4)) else { return };
+    let weight = mul(flight.weight, chosen.weight);
+    scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, Kind::Reflection, weight)));
+}
+
+/// A mirror's ray, or one of glass.
+pub(super) fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
+    let weight = mul(flight.weight, way.weight);
+    if largest(weight) > 0.0 {
+        scatter.next.extend(surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight)));
+    }
+}

@@ -1,0 +1,173 @@
+//! From samples to a picture.
+
+use rayon::prelude::*;
+
+use super::settings::{Lens, RenderError, Settings};
+use super::tracer::{Kind, RayCounts, Tracer};
+use super::vector::{Vec3, add, along, mul, narrow, scale, sub, unit, wide};
+use super::wave::{Dice, Flight, Shade, follow};
+use crate::geom::{Hit, Ray};
+use crate::scene::Camera;
+
+/// Linear radiance of each pixel, rows from the top, with what was first hit through its middle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Mean of the samples.
+    pub color: Vec<Vec3>,
+    /// Estimated variance of that mean: of the samples, over their number; 0 of one sample.
+    pub variance: Vec<Vec3>,
+    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is the depth along the view.
+    pub first: Vec<Option<Hit>>,
+    /// Samples that were not finite and count as black: none, unless a scene's figures are beyond reason.
+    pub not_finite: u64,
+    /// Rays cast.
+    pub counts: RayCounts,
+}
+
+impl Picture {
+    /// t of each pixel, infinite where nothing is hit.
+    pub fn t(&self) -> Vec<f32> {
+        self.first.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t)).collect()
+    }
+
+    /// Triangle of each pixel, `u32::MAX` where nothing is hit.
+    pub fn triangles(&self) -> Vec<u32> {
+        self.first.iter().map(|hit| hit.map_or(u32::MAX, |hit| hit.triangle)).collect()
+    }
+
+    /// One channel (0 red, 1 green, 2 blue) in single precision.
+    pub fn channel(&self, channel: usize) -> Vec<f32> {
+        self.color.iter().map(|color| color[channel] as f32).collect()
+    }
+}
+
+/// Sums of samples.
+struct Film {
+    sum: Vec<Vec3>,
+    squares: Vec<Vec3>,
+    not_finite: u64,
+}
+
+impl Film {
+    fn add(&mut self, pixel: usize, sample: Vec3) {
+        if !sample.iter().all(|channel| channel.is_finite()) {
+            self.not_finite += 1;
+            return;
+        }
+        self.sum[pixel] = add(self.sum[pixel], sample);
+        self.squares[pixel] = add(self.squares[pixel], mul(sample, sample));
+    }
+}
+
+/// Renders by a shader. `fan` says how many rays one ray from the eye may become at a time, about.
+pub(super) fn expose(
+    tracer: &mut Tracer<'_>,
+    camera: &Camera,
+    settings: &Settings,
+    fan: usize,
+    shader: &impl Shade,
+) -> Result<Picture, RenderError> {
+    settings.checked()?;
+    let pixels = camera.width() as usize * camera.height() as usize;
+    let samples = u64::from(settings.samples);
+    let mut film = Film { sum: vec![[0.0; 3]; pixels], squares: vec![[0.0; 3]; pixels], not_finite: 0 };
+    // With one sample a pixel and no lens the rays of the picture are those through the middles.
+    let middles = settings.samples == 1 && settings.lens.is_none();
+    let mut first = if middles { Vec::with_capacity(pixels) } else { through_middles(tracer, camera, settings)? };
+    let total = pixels as u64 * samples;
+    tracer.begin("samples", total);
+    let chunk = (settings.bundle / fan.max(1)).clamp(1, 1 << 24) as u64;
+    let mut start = 0;
+    while start < total {
+        let end = total.min(start + chunk);
+        let flights = (start..end).into_par_iter().map(|index| {
+            let (pixel, sample) = (index / samples, index % samples);
+            let dice = Dice::new(settings.seed, pixel, sample);
+            Flight::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
+        });
+        let wave = follow(tracer, flights.collect(), shader)?;
+        for (index, light) in (start..end).zip(wave.light) {
+            film.add((index / samples) as usize, light);
+        }
+        if middles {
+            first.extend(wave.first);
+        }
+        tracer.advance(end - start);
+        start = end;
+    }
+    let (color, variance) = means(&film, settings.samples);
+    let (width, height, counts) = (camera.width(), camera.height(), tracer.counts);
+    Ok(Picture { width, height, color, variance, first, not_finite: film.not_finite, counts })
+}
+
+/// Means, and the variances of the means.
+fn means(film: &Film, samples: u32) -> (Vec<Vec3>, Vec<Vec3>) {
+    let n = f64::from(samples);
+    let of = |(sum, squares): (&Vec3, &Vec3)| {
+        let mean = scale(*sum, 1.0 / n);
+        let spread = sub(*squares, scale(mul(mean, mean), n)).map(|x| x.max(0.0));
+        (mean, if samples > 1 { scale(spread, 1.0 / (n * (n - 1.0))) } else { [0.0; 3] })
+    };
+    film.sum.iter().zip(&film.squares).map(of).unzip()
+}
+
+/// What the rays through the middles of the pixels meet.
+fn through_middles(
+    tracer: &mut Tracer<'_>,
+    camera: &Camera,
+    settings: &Settings,
+) -> Result<Vec<Option<Hit>>, RenderError> {
+    let pixels = u64::from(camera.width()) * u64::from(camera.height());
+    tracer.begin("pixels", pixels);
+    let mut hits = Vec::with_capacity(pixels as usize);
+    while (hits.len() as u64) < pixels {
+        let start = hits.len() as u64;
+        let end = pixels.min(start + settings.bundle.clamp(1, 1 << 24) as u64);
+        let rays: Vec<Ray> = (start..end).map(|pixel| middle(camera, pixel)).collect();
+        hits.extend(tracer.cast(&rays, |_| Kind::Eye)?);
+        if (hits.len() as u64) < end {
+            // A caster that answers too little; the rest is taken as missed.
+            hits.resize(end as usize, None);
+        }
+        tracer.advance(end - start);
+    }
+    Ok(hits)
+}
+
+fn middle(camera: &Camera, pixel: u64) -> Ray {
+    let width = u64::from(camera.width());
+    camera.ray((pixel % width) as u32, (pixel / width) as u32)
+}
+
+/// The ray of a sample.
+fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, dice: Dice) -> Ray {
+    let centre = middle(camera, pixel);
+    if settings.samples == 1 && settings.lens.is_none() {
+        return centre;
+    }
+    let width = u64::from(camera.width());
+    let jitter = if settings.samples == 1 { [0.5; 2] } else { [dice.before(0), dice.before(1)] };
+    let direction = camera.direction_at((pixel % width) as f64 + jitter[0], (pixel / width) as f64 + jitter[1]);
+    let ray = match settings.lens {
+        None => Ray::new(camera.eye(), narrow(direction)),
+        Some(lens) => through_lens(camera, lens, direction, [dice.before(2), dice.before(3)]),
+    };
+    // Only a direction beyond f32 has no ray.
+    ray.unwrap_or(centre)
+}
+
+/// From a point of the lens to where the pinhole's ray is at the distance of focus.
+fn through_lens(camera: &Camera, lens: Lens, direction: Vec3, u: [f64; 2]) -> Result<Ray, crate::geom::RayError> {
+    let [x, y] = super::sampling::disk(u);
+    let [right, up] = [camera.right(), camera.up()].map(|axis| unit(axis).unwrap_or(axis));
+    let eye = wide(camera.eye());
+    let start = along(along(eye, right, x * lens.radius), up, y * lens.radius);
+    let start = narrow(start);
+    let sharp = along(eye, direction, lens.focus);
+    // As long as the pinhole's ray, so that t stays the depth along the view.
+    Ray::new(start, narrow(scale(sub(sharp, wide(start)), 1.0 / lens.focus)))
+}

@@ -1,0 +1,95 @@
+//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11, the estimate).
+//!
+//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its front that arrives at
+//! b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean is F.
+
+use std::f64::consts::PI;
+
+use super::sampling::triangle;
+use super::surfel::{Place, between};
+use super::tracer::Tracer;
+use super::vector::{Vec3, cross, dot, length, sub, wide};
+use super::visibility::visible;
+use crate::geom::random::Keyed;
+use crate::geom::{CastError, Caster, Ray};
+use crate::scene::Scene;
+
+/// An estimate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FormFactor {
+    /// Its value, dimensionless.
+    pub value: f64,
+    /// Estimated variance of the value; 0 of one sample.
+    pub variance: f64,
+}
+
+/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a` arrives at `b`. `samples` pairs
+/// of points decide; pairs that cannot see each other by their cosines alone cost no ray. 0 if either has no area.
+///
+/// # Errors
+/// [`CastError`] if the caster fails.
+pub fn form_factor(
+    scene: &Scene,
+    a: &[u32],
+    b: &[u32],
+    samples: u32,
+    seed: u64,
+    caster: &mut dyn Caster,
+) -> Result<FormFactor, CastError> {
+    let (from, to) = (Patch::new(scene, a), Patch::new(scene, b));
+    let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, Keyed::new(seed), sample));
+    let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
+    let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
+    let mut ignore = |_| {};
+    let (seen, _) = visible(&rays, &mut Tracer::new(caster, &mut ignore))?;
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for ((value, _), seen) in pairs.into_iter().flatten().zip(seen) {
+        if seen {
+            sum += value;
+            squares += value * value;
+        }
+    }
+    let n = f64::from(samples.max(1));
+    let value = sum / n;
+    let variance = if samples > 1 { (squares - n * value * value).max(0.0) / (n * (n - 1.0)) } else { 0.0 };
+    Ok(FormFactor { value, variance })
+}
+
+/// Two points that face each other, the integrand without V, and the ray between them.
+fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<(f64, Ray)> {
+    let number = |dimension| random.unit(0, sample, dimension);
+    let p = from.place(number(0), [number(1), number(2)])?;
+    let q = to.place(number(3), [number(4), number(5)])?;
+    let way = sub(q.at, p.at);
+    let square = dot(way, way);
+    let cosines = [dot(way, p.normal), -dot(way, q.normal)];
+    if !(square > 0.0 && cosines.iter().all(|&cosine| cosine > 0.0)) {
+        return None;
+    }
+    Some((to.area * cosines[0] * cosines[1] / (PI * square * square), between(&p, &q)?))
+}
+
+/// Triangles from which points are drawn, uniformly over their area.
+struct Patch<'a> {
+    scene: &'a Scene,
+    triangles: &'a [u32],
+    table: super::sampling::Table,
+    area: f64,
+}
+
+impl<'a> Patch<'a> {
+    fn new(scene: &'a Scene, triangles: &'a [u32]) -> Self {
+        let area = |id: &u32| {
+            let [a, b, c]: [Vec3; 3] = scene.mesh().corners(*id).unwrap_or([[0.0; 3]; 3]).map(wide);
+            length(cross(sub(b, a), sub(c, a))) / 2.0
+        };
+        let table = super::sampling::Table::new(triangles.iter().map(area));
+        let area = table.total();
+        Self { scene, triangles, table, area }
+    }
+
+    fn place(&self, which: f64, u: [f64; 2]) -> Option<Place> {
+        let (entry, _) = self.table.draw(which)?;
+        Place::new(self.scene, self.triangles[entry], triangle(u))
+    }
+}

@@ -1,0 +1,109 @@
+//! Lights: the triangles that shine, and the points.
+
+use super::sampling::{Table, triangle};
+use super::surfel::{Place, Surfel};
+use super::vector::{Vec3, cross, dot, length, mean, scale, sub, wide};
+use super::wave::Dice;
+use crate::geom::Ray;
+use crate::scene::Scene;
+
+/// What may shine on a point, not knowing what is between.
+pub(super) struct Arriving {
+    /// The ray to the light, reached at t = 1.
+    pub(super) ray: Ray,
+    /// Unit vector to the light.
+    pub(super) towards: Vec3,
+    /// Radiance over the density of the choice (area lights), or irradiance across the direction (points).
+    pub(super) light: Vec3,
+    /// Density of the choice over solid angle; infinite for points, which no other way of choosing ever finds.
+    pub(super) density: f64,
+}
+
+/// The lights of a scene.
+pub(super) struct Lamps<'a> {
+    scene: &'a Scene,
+    emitters: Vec<u32>,
+    /// By power.
+    table: Table,
+    /// Density over area with which points of each emitter are chosen.
+    densities: Vec<f64>,
+    points: Vec<(Vec3, Vec3)>,
+}
+
+impl<'a> Lamps<'a> {
+    /// Collects what shines.
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        let emitters = scene.emitters();
+        let area = |id: u32| {
+            let [a, b, c] = scene.mesh().corners(id).unwrap_or([[0.0; 3]; 3]).map(wide);
+            length(cross(sub(b, a), sub(c, a))) / 2.0
+        };
+        let areas: Vec<f64> = emitters.iter().map(|&id| area(id)).collect();
+        let power = |(&id, area): (&u32, &f64)| area * mean(wide(scene.material(id).emission));
+        let table = Table::new(emitters.iter().zip(&areas).map(power));
+        let density = |(entry, &area): (usize, &f64)| if area > 0.0 { table.chance(entry) / area } else { 0.0 };
+        let densities = areas.iter().enumerate().map(density).collect();
+        let points = scene.point_lights.iter().map(|light| (wide(light.position), wide(light.intensity))).collect();
+        Self { scene, emitters, table, densities, points }
+    }
+
+    /// Point lights.
+    pub(super) fn points(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Flux of all emitters: pi times radiance times area, the channels' mean.
+    pub(super) fn power(&self) -> f64 {
+        std::f64::consts::PI * self.table.total()
+    }
+
+    /// Radiance that a surfel sends towards the viewer: its material's, from front faces alone.
+    pub(super) fn seen(surfel: &Surfel<'_>) -> Vec3 {
+        if surfel.front { wide(surfel.material.emission) } else { [0.0; 3] }
+    }
+
+    /// A place on an emitter, by three numbers in [0, 1): where, its radiance, and the density over area.
+    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(Place, Vec3, f64)> {
+        let (entry, _) = self.table.draw(which)?;
+        let id = self.emitters[entry];
+        let place = Place::new(self.scene, id, triangle(u))?;
+        let radiance = wide(self.scene.material(id).emission);
+        Some((place, radiance, self.densities[entry]))
+    }
+
+    /// A place of an emitter that may light a surfel. `None` where the place shows its back or cannot be reached.
+    pub(super) fn area(&self, surfel: &Surfel<'_>, dice: Dice, depth: u32) -> Option<Arriving> {
+        let (place, radiance, density) = self.place(dice.at(depth, 0), dice.pair(depth, 1))?;
+        let way = sub(place.at, surfel.place.at);
+        let square = dot(way, way);
+        let towards = scale(way, 1.0 / square.sqrt());
+        let cosine = -dot(towards, place.normal);
+        if cosine <= 0.0 || !cosine.is_finite() {
+            return None;
+        }
+        let density = density * square / cosine;
+        let ray = surfel.ray_to(&place)?;
+        Some(Arriving { ray, towards, light: scale(radiance, 1.0 / density), density })
+    }
+
+    /// The density over solid angle with which [`Lamps::area`] would have chosen the place of an emitter that a ray found.
+    pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: Vec3) -> f64 {
+        let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
+        let way = sub(found.place.at, from);
+        let cosine = dot(found.view, found.place.normal);
+        if cosine > 0.0 { self.densities[entry] * dot(way, way) / cosine } else { 0.0 }
+    }
+
+    /// A point light as it shines on a surfel.
+    pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<Arriving> {
+        let (position, intensity) = self.points[light];
+        let way = sub(position, surfel.place.at);
+        let square = dot(way, way);
+        let towards = scale(way, 1.0 / square.sqrt());
+        if !towards[0].is_finite() || dot(towards, surfel.normal) <= 0.0 {
+            return None;
+        }
+        let ray = surfel.ray_to_point(position)?;
+        Some(Arriving { ray, towards, light: scale(intensity, 1.0 / square), density: f64::INFINITY })
+    }
+}

@@ -1,0 +1,145 @@
+//! How surfaces scatter: what can be evaluated (diffuse, glossy) and what cannot (mirror, glass).
+
+use std::f64::consts::PI;
+
+use super::fresnel::{reflectance, reflected, refracted};
+use super::sampling::{cosine, lobe, power};
+use super::surfel::Surfel;
+use super::tracer::Kind;
+use super::vector::{Vec3, add, dot, mean, scale, splat, wide};
+use crate::scene::Surface;
+
+/// A diffuse part and Phong's lobe about the mirror direction, normalised after Lafortune and Willems (1994):
+/// `f = albedo / pi + specular (n + 2) / (2 pi) cos^n`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lobes {
+    pub(super) albedo: Vec3,
+    pub(super) specular: Vec3,
+    pub(super) exponent: f64,
+}
+
+/// A direction that a surface chose.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chosen {
+    pub(super) towards: Vec3,
+    /// `f cos / density`.
+    pub(super) weight: Vec3,
+    /// Over solid angle, of both lobes together.
+    pub(super) density: f64,
+}
+
+impl Lobes {
+    /// The lobes of a surface; `None` of mirrors and glass, which send light one way only.
+    pub(super) fn of(surface: &Surface) -> Option<Self> {
+        match *surface {
+            Surface::Diffuse { albedo } => Some(Self { albedo: wide(albedo), specular: [0.0; 3], exponent: 1.0 }),
+            Surface::Glossy { albedo, specular, exponent } => {
+                let exponent = f64::from(exponent).max(f64::MIN_POSITIVE);
+                Some(Self { albedo: wide(albedo), specular: wide(specular), exponent })
+            }
+            Surface::Mirror { .. } | Surface::Glass { .. } => None,
+        }
+    }
+
+    /// The diffuse part alone.
+    pub(super) fn diffuse(self) -> Self {
+        Self { specular: [0.0; 3], ..self }
+    }
+
+    /// The share of light that both lobes send on, about.
+    pub(super) fn total(&self) -> Vec3 {
+        add(self.albedo, self.specular)
+    }
+
+    /// The chance of the glossy lobe when a direction is chosen.
+    fn chance_of_gloss(&self) -> f64 {
+        let (matt, gloss) = (mean(self.albedo), mean(self.specular));
+        if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }
+    }
+
+    /// `f cos`, and the density with which [`Lobes::choose`] takes the direction. Both are zero where the direction leaves by the other side of
+    /// the triangle, or is below the shading normal's horizon.
+    pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: Vec3) -> (Vec3, f64) {
+        let cos = dot(towards, surfel.shading);
+        if cos <= 0.0 || dot(towards, surfel.normal) <= 0.0 {
+            return ([0.0; 3], 0.0);
+        }
+        let mut value = scale(self.albedo, cos / PI);
+        let gloss = self.chance_of_gloss();
+        let mut density = (1.0 - gloss) * cos / PI;
+        if gloss > 0.0 {
+            let from_axis = dot(reflected(surfel.view, surfel.shading), towards);
+            if from_axis > 0.0 {
+                let shape = power(from_axis, self.exponent) / (2.0 * PI);
+                value = add(value, scale(self.specular, (self.exponent + 2.0) * shape * cos));
+                density += gloss * (self.exponent + 1.0) * shape;
+            }
+        }
+        (value, density)
+    }
+
+    /// A direction, from three numbers in [0, 1); `None` if the surface swallows the light.
+    pub(super) fn choose(&self, surfel: &Surfel<'_>, which: f64, u: [f64; 2]) -> Option<Chosen> {
+        let towards = if which < self.chance_of_gloss() {
+            lobe(reflected(surfel.view, surfel.shading), self.exponent, u)
+        } else {
+            cosine(surfel.shading, u)
+        };
+        let (value, density) = self.evaluate(surfel, towards);
+        (density > 0.0).then(|| Chosen { towards, weight: scale(value, 1.0 / density), density })
+    }
+}
+
+/// A way on from a mirror or glass, with the share of the light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    pub(super) towards: Vec3,
+    pub(super) weight: Vec3,
+    pub(super) kind: Kind,
+    /// The chance with which it is taken where one of several is.
+    pub(super) chance: f64,
+}
+
+/// The ways on from a mirror (one) or glass (one under total internal reflection, else two); none from other surfaces.
+///
+/// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963): so there is no factor here,
+/// and what shines or scatters inside glass does so as in air.
+pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
+    let mirrored = |weight, chance| Way { towards: mirror_direction(surfel), weight, kind: Kind::Reflection, chance };
+    match surfel.material.surface {
+        Surface::Diffuse { .. } | Surface::Glossy { .. } => [None, None],
+        Surface::Mirror { reflectance } => [Some(mirrored(wide(reflectance), 1.0)), None],
+        Surface::Glass { index, transmittance } => {
+            let index = f64::from(index);
+            let ratio = if surfel.front { 1.0 / index } else { index };
+            let share = reflectance(dot(surfel.view, surfel.shading), ratio);
+            let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(splat(1.0), 1.0)), None] };
+            let weight = scale(wide(transmittance), 1.0 - share);
+            let refracted = Way { towards, weight, kind: Kind::Refraction, chance: 1.0 - share };
+            let reflected = (share > 0.0).then(|| mirrored(splat(share), share));
+            [Some(refracted), reflected]
+        }
+    }
+}
+
+/// One of the ways, by a number in [0, 1), its weight divided by its chance.
+pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<Way> {
+    let [first, second] = ways(surfel);
+    let first = first?;
+    let way = match second {
+        Some(second) if u >= first.chance => second,
+        _ => first,
+    };
+    Some(Way { weight: scale(way.weight, 1.0 / way.chance), ..way })
+}
+
+/// By the shading normal, unless that leads through the triangle.
+fn mirror_direction(surfel: &Surfel<'_>) -> Vec3 {
+    let smooth = reflected(surfel.view, surfel.shading);
+    if dot(smooth, surfel.normal) > 0.0 { smooth } else { reflected(surfel.view, surfel.normal) }
+}
+
+fn through(surfel: &Surfel<'_>, ratio: f64) -> Option<Vec3> {
+    let smooth = refracted(surfel.view, surfel.shading, ratio)?;
+    if dot(smooth, surfel.normal) < 0.0 { Some(smooth) } else { refracted(surfel.view, surfel.normal, ratio) }
+}

@@ -1,0 +1,145 @@
+//! Path tracing: the rendering equation by random walks (Kajiya 1986), unbiased.
+
+use super::film::{Picture, expose};
+use super::lamps::{Arriving, Lamps};
+use super::lobes::{Lobes, one_way};
+use super::surfel::Surfel;
+use super::tracer::{Kind, Tracer, Watch};
+use super::vector::{Vec3, largest, mul, scale, wide};
+use super::wave::{Flight, Scatter, Shade};
+use super::{RenderError, Settings};
+use crate::geom::{Caster, Hit};
+use crate::scene::{Camera, Scene};
+
+/// Hits before Russian roulette begins.
+const SAFE: u32 = 3;
+/// The least chance to live on, so that weights grow by no more than 20 at once.
+const LEAST_CHANCE: f64 = 0.05;
+
+/// How light straight from emitters is found. All three have the same mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direct {
+    /// Only by rays that happen to meet an emitter.
+    Walk,
+    /// Only by points chosen on the emitters (next-event estimation), wherever the surface is not a mirror or glass.
+    Emitters,
+    /// By both, each weighted by its density over the sum of the two (the balance heuristic, Veach and Guibas 1995).
+    #[default]
+    Both,
+}
+
+/// Renders by path tracing. `settings.depth` is the most surfaces that a path meets between eye and light: 0 shows emitters alone, 1 light that
+/// comes straight from emitters too. After three hits a path lives on by chance (Russian roulette), which leaves the mean as it is.
+///
+/// # Errors
+/// [`RenderError`] if the settings make no sense or the caster fails.
+pub fn render<'a>(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &Settings,
+    direct: Direct,
+    caster: &'a mut dyn Caster,
+    watch: &'a mut Watch<'a>,
+) -> Result<Picture, RenderError> {
+    let mut tracer = Tracer::new(caster, watch);
+    let lamps = Lamps::new(scene);
+    let fan = 2 + lamps.points();
+    expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lamps, direct })
+}
+
+struct Paths<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+    lamps: Lamps<'a>,
+    direct: Direct,
+}
+
+impl Shade for Paths<'_> {
+    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+        let found = hit.and_then(|hit| Some((Surfel::new(self.scene, &flight.ray, hit)?, hit.triangle)));
+        let Some((surfel, triangle)) = found else {
+            // Only rays find the background, so it needs no weighing.
+            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+        };
+        let share = self.share_of_walk(flight, &surfel, triangle);
+        let mut scatter = Scatter::of(scale(mul(flight.weight, Lamps::seen(&surfel)), share));
+        if flight.depth < self.settings.depth {
+            match Lobes::of(&surfel.material.surface) {
+                Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),
+                None => self.pass(flight, &surfel, &mut scatter),
+            }
+        }
+        scatter
+    }
+}
+
+impl Paths<'_> {
+    /// How much an emitter counts that the walk has found.
+    fn share_of_walk(&self, flight: &Flight, surfel: &Surfel<'_>, triangle: u32) -> f64 {
+        match (flight.density, self.direct) {
+            // From the eye, a mirror or glass there is no other way to find it.
+            (None, _) | (_, Direct::Walk) => 1.0,
+            (Some(_), Direct::Emitters) => 0.0,
+            (Some(walk), Direct::Both) => {
+                let chosen = self.lamps.density(surfel, triangle, wide(flight.ray.origin()));
+                walk / (walk + chosen)
+            }
+        }
+    }
+
+    fn scatter(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+        let dice = flight.dice;
+        if self.direct != Direct::Walk
+            && let Some(arriving) = self.lamps.area(surfel, dice, flight.depth)
+        {
+            self.lit(flight, surfel, lobes, &arriving, scatter);
+        }
+        for light in 0..self.lamps.points() {
+            if let Some(arriving) = self.lamps.point(surfel, light) {
+                self.lit(flight, surfel, lobes, &arriving, scatter);
+            }
+        }
+        let Some(chosen) = lobes.choose(surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4)) else { return };
+        // A ray after the last surface only serves to find emitters.
+        if flight.depth + 1 == self.settings.depth && self.direct == Direct::Emitters && !self.sees_background() {
+            return;
+        }
+        let weight = mul(flight.weight, chosen.weight);
+        if let Some(mut next) = self.go_on(flight, surfel, chosen.towards, Kind::Gather, weight) {
+            next.density = Some(chosen.density);
+            scatter.next.push(next);
+        }
+    }
+
+    fn sees_background(&self) -> bool {
+        self.settings.background.iter().any(|&channel| channel > 0.0)
+    }
+
+    fn lit(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &Arriving, scatter: &mut Scatter) {
+        let (value, walk) = lobes.evaluate(surfel, arriving.towards);
+        // Points have an infinite density: nothing else finds them, and they count in full.
+        let share = match self.direct {
+            Direct::Both if arriving.density.is_finite() => arriving.density / (arriving.density + walk),
+            _ => 1.0,
+        };
+        let light = scale(mul(flight.weight, mul(value, arriving.light)), share);
+        if largest(light) > 0.0 {
+            scatter.shadows.push((arriving.ray, light));
+        }
+    }
+
+    fn pass(&self, flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+        let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
+        let weight = mul(flight.weight, way.weight);
+        scatter.next.extend(self.go_on(flight, surfel, way.towards, way.kind, weight));
+    }
+
+    /// The ray on, if roulette lets it live.
+    fn go_on(&self, flight: &Flight, surfel: &Surfel<'_>, towards: Vec3, kind: Kind, weight: Vec3) -> Option<Flight> {
+        let chance = if flight.depth < SAFE { 1.0 } else { largest(weight).clamp(LEAST_CHANCE, 1.0) };
+        if largest(weight) <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
+            return None;
+        }
+        Some(flight.on(surfel.ray(towards)?, kind, scale(weight, 1.0 / chance)))
+    }
+}

@@ -1,0 +1,115 @@
+//! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global Illumination Compendium).
+//!
+//! Sines, cosines and powers come from `libm`, which is the same everywhere; std's are the platform's.
+
+use std::f64::consts::PI;
+
+use super::vector::{Vec3, turned};
+
+/// x to the power y, for x >= 0.
+pub(super) fn power(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
+/// A point of the unit disk, uniform in area.
+pub fn disk(u: [f64; 2]) -> [f64; 2] {
+    let radius = u[0].sqrt();
+    let (sine, cosine) = libm::sincos(2.0 * PI * u[1]);
+    [radius * cosine, radius * sine]
+}
+
+/// A direction about a unit normal with density cos / pi (Malley's method).
+pub fn cosine(normal: Vec3, u: [f64; 2]) -> Vec3 {
+    let [x, y] = disk(u);
+    turned([x, y, (1.0 - x * x - y * y).max(0.0).sqrt()], normal)
+}
+
+/// A direction about a unit axis with density `(n + 1) / (2 pi) * cos^n`, for Phong's lobe of exponent n.
+pub fn lobe(axis: Vec3, exponent: f64, u: [f64; 2]) -> Vec3 {
+    // 1 - u is never 0.
+    let cosine = power(1.0 - u[0], 1.0 / (exponent + 1.0));
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let (s, c) = libm::sincos(2.0 * PI * u[1]);
+    turned([sine * c, sine * s, cosine], axis)
+}
+
+/// Barycentric coordinates of a point of a triangle, uniform in area.
+pub fn triangle(u: [f64; 2]) -> Vec3 {
+    let root = u[0].sqrt();
+    [1.0 - root, root * (1.0 - u[1]), root * u[1]]
+}
+
+/// A table from which entries are drawn with chances in proportion to weights.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// Running sums of the weights.
+    sums: Vec<f64>,
+}
+
+impl Table {
+    /// A table of weights, none below zero.
+    pub fn new(weights: impl IntoIterator<Item = f64>) -> Self {
+        let mut sum = 0.0;
+        let sums = weights.into_iter().map(|weight| {
+            sum += weight;
+            sum
+        });
+        Self { sums: sums.collect() }
+    }
+
+    /// Sum of all weights; 0 of none.
+    pub fn total(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    /// The entry for a number in [0, 1), and its chance; `None` if all weights are zero.
+    pub fn draw(&self, u: f64) -> Option<(usize, f64)> {
+        let total = self.total();
+        if total <= 0.0 {
+            return None;
+        }
+        let entry = self.sums.partition_point(|&sum| sum <= u * total).min(self.sums.len() - 1);
+        Some((entry, self.chance(entry)))
+    }
+
+    /// The chance of an entry.
+    pub fn chance(&self, entry: usize) -> f64 {
+        let before = if entry == 0 { 0.0 } else { self.sums[entry - 1] };
+        (self.sums[entry] - before) / self.total()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::Keyed;
+    use crate::renderer::vector::dot;
+
+    const COUNT: u64 = 20_000;
+
+    fn mean(f: impl Fn([f64; 2]) -> f64) -> f64 {
+        let random = Keyed::new(5);
+        (0..COUNT).map(|i| f([random.unit(i, 0, 0), random.unit(i, 0, 1)])).sum::<f64>() / COUNT as f64
+    }
+
+    #[test]
+    fn densities_are_those_stated() {
+        let normal = [0.0, 0.6, 0.8];
+        // Under cos / pi the mean cosine is 2/3; under the lobe's density it is (n + 1) / (n + 2).
+        assert!((mean(|u| dot(cosine(normal, u), normal)) - 2.0 / 3.0).abs() < 0.01);
+        assert!((mean(|u| dot(lobe(normal, 8.0, u), normal)) - 0.9).abs() < 0.005);
+        // The centroid of a triangle is the mean of its corners; half of a disk's area lies within 1 / sqrt 2.
+        assert!((mean(|u| triangle(u)[1]) - 1.0 / 3.0).abs() < 0.01);
+        assert!((mean(|u| disk(u).map(|x| x * x).iter().sum::<f64>()) - 0.5).abs() < 0.01);
+    }
+
+    #[test]
+    fn tables_pass_over_what_has_no_weight() {
+        let table = Table::new([0.0, 1.0, 0.0, 3.0, 0.0]);
+        assert_eq!(table.draw(0.0), Some((1, 0.25)));
+        assert_eq!(table.draw(0.2499), Some((1, 0.25)));
+        assert_eq!(table.draw(0.25), Some((3, 0.75)));
+        assert_eq!(table.draw(0.999), Some((3, 0.75)));
+        assert_eq!(Table::new([0.0]).draw(0.5), None);
+    }
+}

@@ -1,0 +1,140 @@
+//! Casting with counts, and with word to whoever waits.
+
+use std::ops::AddAssign;
+
+use crate::geom::{CastError, Caster, Hit, Ray};
+
+/// What a ray is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// From the eye through a pixel.
+    Eye,
+    /// To a light: is anything between?
+    Shadow,
+    /// Into the mirror direction, or about it.
+    Reflection,
+    /// Through a boundary.
+    Refraction,
+    /// From a diffuse surface into a random direction, for light that comes by other surfaces.
+    Gather,
+    /// From a light.
+    Photon,
+}
+
+/// Rays cast, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the eye.
+    pub eye: u64,
+    /// To lights.
+    pub shadow: u64,
+    /// Into mirror directions and glossy lobes.
+    pub reflection: u64,
+    /// Through boundaries.
+    pub refraction: u64,
+    /// From diffuse surfaces.
+    pub gather: u64,
+    /// From lights.
+    pub photon: u64,
+    /// Bundles in which they were cast.
+    pub bundles: u64,
+}
+
+impl RayCounts {
+    /// Rays of all kinds.
+    pub fn rays(&self) -> u64 {
+        self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
+    }
+
+    /// Counts of each kind, by name, in the order of [`Kind`].
+    pub fn kinds(&self) -> [(&'static str, u64); 6] {
+        [
+            ("eye", self.eye),
+            ("shadow", self.shadow),
+            ("reflection", self.reflection),
+            ("refraction", self.refraction),
+            ("gather", self.gather),
+            ("photon", self.photon),
+        ]
+    }
+
+    pub(super) fn count(&mut self, kind: Kind, rays: u64) {
+        *match kind {
+            Kind::Eye => &mut self.eye,
+            Kind::Shadow => &mut self.shadow,
+            Kind::Reflection => &mut self.reflection,
+            Kind::Refraction => &mut self.refraction,
+            Kind::Gather => &mut self.gather,
+            Kind::Photon => &mut self.photon,
+        } += rays;
+    }
+}
+
+impl AddAssign for RayCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.eye += other.eye;
+        self.shadow += other.shadow;
+        self.reflection += other.reflection;
+        self.refraction += other.refraction;
+        self.gather += other.gather;
+        self.photon += other.photon;
+        self.bundles += other.bundles;
+    }
+}
+
+/// How far the work is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being made: `photons` or `samples`.
+    pub what: &'static str,
+    /// Samples or photons done.
+    pub done: u64,
+    /// Of how many.
+    pub total: u64,
+    /// Rays cast since the beginning, of any kind.
+    pub rays: u64,
+}
+
+/// Who wants to know: called after every bundle.
+pub type Watch<'a> = dyn FnMut(Progress) + 'a;
+
+/// A caster that counts.
+pub(super) struct Tracer<'a> {
+    caster: &'a mut dyn Caster,
+    watch: &'a mut Watch<'a>,
+    pub(super) counts: RayCounts,
+    progress: Progress,
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(caster: &'a mut dyn Caster, watch: &'a mut Watch<'a>) -> Self {
+        let progress = Progress { what: "samples", done: 0, total: 0, rays: 0 };
+        Self { caster, watch, counts: RayCounts::default(), progress }
+    }
+
+    /// A new piece of work begins.
+    pub(super) fn begin(&mut self, what: &'static str, total: u64) {
+        self.progress = Progress { what, done: 0, total, rays: self.counts.rays() };
+    }
+
+    /// A part of it is done.
+    pub(super) fn advance(&mut self, done: u64) {
+        self.progress.done += done;
+        (self.watch)(self.progress);
+    }
+
+    /// First hits of a bundle; `kind` says what the ray of an index is for.
+    pub(super) fn cast(&mut self, rays: &[Ray], kind: impl Fn(usize) -> Kind) -> Result<Vec<Option<Hit>>, CastError> {
+        if rays.is_empty() {
+            return Ok(Vec::new());
+        }
+        for index in 0..rays.len() {
+            self.counts.count(kind(index), 1);
+        }
+        self.counts.bundles += 1;
+        let hits = self.caster.cast(rays)?;
+        self.progress.rays = self.counts.rays();
+        (self.watch)(self.progress);
+        Ok(hits)
+    }
+}

@@ -1,0 +1,80 @@
+//! Whitted's ray tracing: point lights, hard shadows, mirrors, glass (An Improved Illumination Model for Shaded Display, 1980).
+
+use super::film::{Picture, expose};
+use super::lamps::Lamps;
+use super::lobes::{Lobes, ways};
+use super::surfel::Surfel;
+use super::tracer::{Tracer, Watch};
+use super::vector::{Vec3, add, largest, mul, wide};
+use super::wave::{Flight, Scatter, Shade};
+use super::{RenderError, Settings};
+use crate::geom::{Caster, Hit};
+use crate::scene::{Camera, Scene};
+
+/// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit display.
+const LEAST_WEIGHT: f64 = 1.0 / 512.0;
+
+/// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and by `settings.ambient`;
+/// mirrors and glass send rays on, at most `settings.depth` after each other. Emitters are seen, directly and in mirrors, but do not light.
+///
+/// # Errors
+/// [`RenderError`] if the settings make no sense or the caster fails.
+pub fn render<'a>(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &Settings,
+    caster: &'a mut dyn Caster,
+    watch: &'a mut Watch<'a>,
+) -> Result<Picture, RenderError> {
+    let mut tracer = Tracer::new(caster, watch);
+    let lamps = Lamps::new(scene);
+    // A ray may become two at each glass surface on its way; few do.
+    let fan = 2 + lamps.points();
+    expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lamps })
+}
+
+struct Whitted<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+    lamps: Lamps<'a>,
+}
+
+impl Shade for Whitted<'_> {
+    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+        };
+        let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));
+        match Lobes::of(&surfel.material.surface) {
+            Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
+            None if flight.depth < self.settings.depth => go_on(flight, &surfel, &mut scatter),
+            None => {}
+        }
+        scatter
+    }
+}
+
+impl Whitted<'_> {
+    fn light(&self, weight: Vec3, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+        let ambient = mul(lobes.albedo, wide(self.settings.ambient));
+        scatter.light = add(scatter.light, mul(weight, ambient));
+        for light in 0..self.lamps.points() {
+            let Some(arriving) = self.lamps.point(surfel, light) else { continue };
+            let (value, _) = lobes.evaluate(surfel, arriving.towards);
+            let light = mul(weight, mul(value, arriving.light));
+            if largest(light) > 0.0 {
+                scatter.shadows.push((arriving.ray, light));
+            }
+        }
+    }
+}
+
+fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    for way in ways(surfel).into_iter().flatten() {
+        let weight = mul(flight.weight, way.weight);
+        if largest(weight) < LEAST_WEIGHT {
+            continue;
+        }
+        scatter.next.extend(surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight)));
+    }
+}

@@ -1,0 +1,105 @@
+//! The renderers, held against closed forms, against each other, and against themselves on other threads and casters.
+
+mod whitted;
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::HostTracer;
+use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::renderer::{Settings, Vec3};
+use crossbar::scene::{Camera, Color, Material, Scene, Surface};
+
+/// Squares and triangles with a material each, put together.
+#[derive(Default)]
+struct Builder {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    materials: Vec<Material>,
+    material_of: Vec<u32>,
+}
+
+impl Builder {
+    fn triangle(&mut self, corners: [[f32; 3]; 3], material: Material) {
+        let first = self.positions.len() as u32;
+        self.positions.extend(corners);
+        self.triangles.push([first, first + 1, first + 2]);
+        self.material_of.push(self.materials.len() as u32);
+        self.materials.push(material);
+    }
+
+    /// A parallelogram from a corner along two sides; its front is where `u x v` points.
+    fn quad(&mut self, corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: Material) {
+        let at = |a: f32, b: f32| [0, 1, 2].map(|k| corner[k] + a * u[k] + b * v[k]);
+        self.triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], material.clone());
+        self.triangle([at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)], material);
+    }
+
+    /// The six sides of a box, seen from inside or outside.
+    fn boxed(&mut self, low: [f32; 3], high: [f32; 3], inwards: bool, material: &Material) {
+        for axis in 0..3 {
+            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+            let (mut u, mut v) = ([0.0; 3], [0.0; 3]);
+            u[next] = high[next] - low[next];
+            v[last] = high[last] - low[last];
+            let mut top = low;
+            top[axis] = high[axis];
+            // u x v points along the axis: inwards at the low side.
+            let (from_low, from_high) = if inwards { ((u, v), (v, u)) } else { ((v, u), (u, v)) };
+            self.quad(low, from_low.0, from_low.1, material.clone());
+            self.quad(top, from_high.0, from_high.1, material.clone());
+        }
+    }
+
+    fn scene(self) -> Scene {
+        let mesh = Mesh::new(self.positions, self.triangles).expect("a mesh");
+        Scene::new(mesh, self.materials, self.material_of, Vec::new()).expect("a scene")
+    }
+}
+
+fn white(albedo: f32) -> Material {
+    Material::diffuse("white", [albedo; 3])
+}
+
+fn lamp(emission: Color) -> Material {
+    Material { emission, ..Material::diffuse("lamp", [0.0; 3]) }
+}
+
+fn of(surface: Surface) -> Material {
+    Material { name: "made".to_owned(), surface, emission: [0.0; 3] }
+}
+
+fn host(scene: &Scene) -> HostTracer {
+    HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both)
+}
+
+/// A camera of one pixel, a needle's eye wide.
+fn needle(eye: [f32; 3], target: [f32; 3]) -> Camera {
+    let way = [0, 1, 2].map(|k| target[k] - eye[k]);
+    let up = if way[0] == 0.0 && way[1] == 0.0 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    Camera::new(eye, target, up, 1e-6, 1, 1).expect("a camera")
+}
+
+fn near(found: Vec3, expected: Vec3, within: f64) {
+    for channel in 0..3 {
+        let wrong = (found[channel] - expected[channel]).abs();
+        assert!(wrong <= within, "found {found:?}, expected {expected:?} within {within}");
+    }
+}
+
+fn settings() -> Settings {
+    Settings::default()
+}
+
+/// So that the helpers above can't go wrong unseen.
+#[test]
+fn boxes_face_the_way_they_say() {
+    for (inwards, from) in [(true, [0.5; 3]), (false, [0.5, 0.5, 4.0])] {
+        let mut builder = Builder::default();
+        builder.boxed([0.0; 3], [1.0; 3], inwards, &white(0.5));
+        let scene = builder.scene();
+        assert_eq!(scene.mesh().len(), 12);
+        let fronts = HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Front);
+        let ray = Ray::new(from, [0.1, 0.05, if inwards { 1.0 } else { -1.0 }]).expect("a ray");
+        assert!(fronts.nearest(&ray).0.is_some());
+    }
+}
