@@ -1,10 +1,9 @@
 //! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global Illumination Compendium).
 //!
-//! Sines, cosines and powers come from `libm`, which is the same everywhere; std's are the platform's.
-
-use std::f64::consts::PI;
+//! Powers come from `libm`, which is the same everywhere; std's are the platform's.
 
 use super::vector::{Vec3, turned};
+use crate::geom::angle::on_circle;
 
 /// x to the power y, for x >= 0.
 pub(super) fn power(x: f64, y: f64) -> f64 {
@@ -14,8 +13,7 @@ pub(super) fn power(x: f64, y: f64) -> f64 {
 /// A point of the unit disk, uniform in area.
 pub fn disk(u: [f64; 2]) -> [f64; 2] {
     let radius = u[0].sqrt();
-    let (sine, cosine) = libm::sincos(2.0 * PI * u[1]);
-    [radius * cosine, radius * sine]
+    on_circle(u[1]).map(|x| radius * x)
 }
 
 /// A direction about a unit normal with density cos / pi (Malley's method).
@@ -29,8 +27,8 @@ pub fn lobe(axis: Vec3, exponent: f64, u: [f64; 2]) -> Vec3 {
     // 1 - u is never 0.
     let cosine = power(1.0 - u[0], 1.0 / (exponent + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-    let (s, c) = libm::sincos(2.0 * PI * u[1]);
-    turned([sine * c, sine * s, cosine], axis)
+    let [x, y] = on_circle(u[1]);
+    turned([sine * x, sine * y, cosine], axis)
 }
 
 /// Barycentric coordinates of a point of a triangle, uniform in area.
