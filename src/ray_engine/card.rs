@@ -11,9 +11,9 @@ use refsim::machine::{
 use refsim::num::Format;
 use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState, DepthSurface};
 use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::{Image, Region, SamplerState, TexelFormat};
+use refsim::texture::{Image, Region, SamplerState};
 
-use super::crossbar::{color_of_id, id_of_color};
+use super::outputs::{Code, Told};
 use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Hit, Kernel, RayBatch};
 use crate::geom::{Mesh, Ray};
@@ -25,8 +25,41 @@ pub(super) struct Sheet {
     made: Vec<(usize, Region, TextureId)>,
     /// Those with the rays that were loaded last.
     textures: Vec<(usize, TextureId)>,
+    code: Code,
     ids: TextureId,
     depth: DepthId,
+}
+
+/// What is drawn, beside the triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pass<'a> {
+    pub(super) kernel: &'a Kernel,
+    pub(super) units: &'a Units,
+    /// What the vertex program knows of the rays, if it culls: c3 and on.
+    pub(super) bucket: &'a [[u32; 4]],
+}
+
+/// What a ray met, as the card says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CardHit {
+    pub(super) triangle: u32,
+    /// If the t-buffer was read back.
+    pub(super) t: Option<f32>,
+    /// If the card computed it.
+    pub(super) uvw: Option<[f32; 3]>,
+}
+
+/// What to read back of a bucket, and how.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading<'a> {
+    pub(super) rays: &'a RayBatch,
+    pub(super) units: &'a Units,
+    /// The triangles drawn, in their order.
+    pub(super) triangles: &'a [u32],
+    /// Whether the t-buffer comes too.
+    pub(super) t: bool,
+    /// Whether the host waits.
+    pub(super) wait: bool,
 }
 
 impl Sheet {
@@ -36,13 +69,14 @@ impl Sheet {
         kernel: &Kernel,
         rays: &RayBatch,
         units: &Units,
+        code: Code,
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
-        let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
+        let ids = machine.create_target(code.format(), rays.width(), rays.height())?;
         let format = depth_format(machine.profile(), kernel.form);
         let depth = machine.create_depth(format, rays.width(), rays.height())?;
-        Ok(Self { made, textures, ids, depth })
+        Ok(Self { made, textures, code, ids, depth })
     }
 
     /// Uploads other rays, as many.
@@ -68,11 +102,12 @@ impl Sheet {
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
-        kernel: &Kernel,
-        units: &Units,
+        Pass { kernel, units, bucket }: Pass<'_>,
         streams: &Streams,
     ) -> Result<DrawEvents, EngineError> {
-        let vertex_constants = Constants { float: units.vertex_constants(), ..Constants::default() };
+        let mut float = units.vertex_constants();
+        float.extend_from_slice(bucket);
+        let vertex_constants = Constants { float, ..Constants::default() };
         let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
         let source =
             VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
@@ -81,8 +116,8 @@ impl Sheet {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
         call.center = PixelCenter::OpenGl;
-        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
-        call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
+        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by themselves.
+        call.alpha_test = (!kernel.weights).then_some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
         call.depth_buffer = Some(self.depth);
         Ok(machine.draw(&call)?)
@@ -92,18 +127,40 @@ impl Sheet {
     pub(super) fn read_back(
         &self,
         machine: &Machine,
-        rays: &RayBatch,
-        units: &Units,
-        wait: bool,
-    ) -> Result<(Vec<Option<Hit>>, Option<FenceId>), EngineError> {
-        if wait {
-            let image = machine.read_back(self.ids)?;
-            return Ok((hits(image, machine.read_depth(self.depth)?, rays, units), None));
-        }
-        let (_, image) = machine.read_back_async(self.ids)?;
-        // Behind the last of the transfers, so one fence does for both.
-        let (fence, depth) = machine.read_depth_async(self.depth)?;
-        Ok((hits(image, depth, rays, units), Some(fence)))
+        reading: &Reading<'_>,
+    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
+        // The fence of the last transfer stands behind the others too.
+        let (mut fence, image) = match reading.wait {
+            true => (None, machine.read_back(self.ids)?),
+            false => machine.read_back_async(self.ids).map(|(fence, image)| (Some(fence), image))?,
+        };
+        let depth = match (reading.t, reading.wait) {
+            (false, _) => None,
+            (true, true) => Some(machine.read_depth(self.depth)?),
+            (true, false) => {
+                let (last, depth) = machine.read_depth_async(self.depth)?;
+                fence = Some(last);
+                Some(depth)
+            }
+        };
+        Ok((reading.hits(self.code, image, depth), fence))
+    }
+}
+
+impl Reading<'_> {
+    /// Hits from colours and depths.
+    fn hits(&self, code: Code, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
+        let width = self.rays.width();
+        let t = |i: usize, ray: &Ray| {
+            let depth = depth?;
+            let stored = *depth.data().get(i)?;
+            Some(self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray))
+        };
+        let pixel = |(i, ray): (usize, &Ray)| {
+            let Told { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
+            Some(CardHit { triangle, t: t(i, ray), uvw })
+        };
+        self.rays.rays().iter().enumerate().map(pixel).collect()
     }
 }
 
@@ -132,20 +189,6 @@ fn upload(
     Ok(bound)
 }
 
-/// Hits from ids and depths.
-fn hits(image: &Image, depth: &DepthSurface, rays: &RayBatch, units: &Units) -> Vec<Option<Hit>> {
-    let pixel = |(i, ray): (usize, &Ray)| {
-        let (x, y) = (i as u32 % rays.width(), i as u32 / rays.width());
-        let raw = image.raw(0, 0, y, x) as u32;
-        (raw >> 24 != 0).then(|| {
-            let stored = depth.data()[i];
-            let depth = f32::from_bits(depth.format().to_format(stored, Format::FP32));
-            Hit { triangle: id_of_color(raw), t: units.t(depth, ray) }
-        })
-    };
-    rays.rays().iter().enumerate().map(pixel).collect()
-}
-
 /// A machine with one bucket of rays.
 #[derive(Debug)]
 pub(super) struct Card {
@@ -163,7 +206,7 @@ impl Card {
         rays: &RayBatch,
         units: Units,
     ) -> Result<Self, EngineError> {
-        let sheet = Sheet::new(&mut machine, &kernel, rays, &units)?;
+        let sheet = Sheet::new(&mut machine, &kernel, rays, &units, Code::Id)?;
         Ok(Self { machine, kernel, units, sheet })
     }
 
@@ -179,12 +222,16 @@ impl Card {
 
     /// One screen-filling quad a triangle.
     pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
-        self.sheet.draw(&mut self.machine, &self.kernel, &self.units, streams)
+        let pass = Pass { kernel: &self.kernel, units: &self.units, bucket: &[] };
+        self.sheet.draw(&mut self.machine, pass, streams)
     }
 
     /// What each of the rays hits.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
-        Ok(self.sheet.read_back(&self.machine, rays, &self.units, true)?.0)
+        let reading = Reading { rays, units: &self.units, triangles: &[], t: true, wait: true };
+        let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
+        let hit = |hit: CardHit| Some(Hit { triangle: hit.triangle, t: hit.t? });
+        Ok(hits.into_iter().map(|found| found.and_then(hit)).collect())
     }
 }
 
@@ -202,15 +249,18 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    pub(super) fn new(mesh: &Mesh, ids: &[u32]) -> Self {
+    /// Triangles in their order, coloured as a target's code says.
+    pub(super) fn new(mesh: &Mesh, ids: &[u32], code: Code) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
-        for (id, corners) in ids.iter().filter_map(|id| Some((*id, mesh.corners(*id)?))) {
+        for (place, id, corners) in ids.iter().enumerate().filter_map(|(i, id)| Some((i, *id, mesh.corners(*id)?))) {
+            // Programs that return places find them in w.
+            let w = (place + 1) as f32;
             for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
-                stream.push([x, y, z, 1.0].map(f32::to_bits));
+                stream.push([x, y, z, w].map(f32::to_bits));
             }
-            triangles[3].push(color_of_id(id));
+            triangles[3].push(code.color(place, id));
         }
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
     }

@@ -9,9 +9,10 @@ use refsim::machine::{Executor, MachineError};
 use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
-use super::card::{Card, Streams};
+use super::card::{Card, CardHit, Streams};
 use super::kept::KeptCard;
-use super::pass::PassCard;
+use super::outputs::{Code, Outputs};
+use super::pass::{PassCard, PassWish};
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
@@ -148,14 +149,37 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
+    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the vertex program: the hits
+    /// are the same to the bit. Quads that were culled make no fragments.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn intersect_pass(
+        &self,
+        mesh: &Mesh,
+        triangles: &[u32],
+        rays: &RayBatch,
+        sides: Sides,
+        cull: bool,
+    ) -> Result<Answer, EngineError> {
+        let wish = PassWish { outputs: Outputs::IdAndT, small_ids: false, cull };
+        let mut card = self.pass_card(mesh, sides, wish)?;
+        let drawn = card.draw(0, mesh, triangles, rays)?;
+        let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
+        let hit = |hit: CardHit| Some(Hit { triangle: hit.triangle, t: hit.t? });
+        let hits = hits.into_iter().map(|found| found.and_then(hit)).collect();
+        Ok(Answer { hits, events: drawn.events, kernel: card.kernel_name(), log: Vec::new() })
+    }
+
     /// A card for passes of rays of any origin against some triangles of a mesh at a time.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides) -> Result<PassCard, EngineError> {
-        let kernel = self.kernel((false, sides))?;
+    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassWish) -> Result<PassCard, EngineError> {
+        let weights = wish.outputs == Outputs::IdAndBarycentrics;
+        let kernel = Kernel::for_passes(&self.profile, sides, wish.cull, weights)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel))
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, sides, wish))
     }
 
     /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:
@@ -173,7 +197,7 @@ impl Crossbar {
         let units = Units::choose(kernel.form, mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(KeptCard::new(card, Streams::new(mesh, &ids), rays.clone(), name))
+        Ok(KeptCard::new(card, Streams::new(mesh, &ids, Code::Id), rays.clone(), name))
     }
 
     /// The program for a use: chosen once.
@@ -210,7 +234,7 @@ impl Crossbar {
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
             // New targets hold just that; a card that keeps them from bucket to bucket has to be told.
             card.clear()?;
-            let events = card.draw(&Streams::new(mesh, &triangles))?;
+            let events = card.draw(&Streams::new(mesh, &triangles, Code::Id))?;
             Ok((region, card.read_back(&bucket)?, events, card.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);

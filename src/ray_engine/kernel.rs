@@ -5,6 +5,7 @@ use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
+use refsim::texture::TexelFormat;
 
 use super::EngineError;
 use super::kernels::{self, KernelText};
@@ -34,6 +35,10 @@ pub struct Kernel {
     pub pixel: CheckedProgram,
     /// Whether ray textures hold signed codes; else a component x is stored as (x + 1) / 2. Of `ps_1_4` forms only.
     pub signed_rays: bool,
+    /// Whether the vertex program culls by the bucket of rays.
+    pub culls: bool,
+    /// Whether colour is (u, v, w, place) and not an id.
+    pub weights: bool,
 }
 
 impl Kernel {
@@ -68,6 +73,35 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
+    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric coordinates, or both. A
+    /// card without float programs and targets gives ids.
+    ///
+    /// # Errors
+    /// As [`Kernel::choose`].
+    pub fn for_passes(profile: &Profile, sides: Sides, cull: bool, weights: bool) -> Result<Self, EngineError> {
+        let plain = Self::choose(profile, false, sides)?;
+        let targets = &profile.limits.target_formats;
+        let weights = weights && plain.form == Form::Float && targets.iter().any(|f| f == TexelFormat::Rgba32f.name());
+        if !cull && !weights {
+            return Ok(plain);
+        }
+        let setup = match plain.form {
+            Form::Float => kernels::SEVEN_VECTORS_BUCKET_SETUP,
+            _ => kernels::ANY_ORIGIN_BUCKET_SETUP,
+        };
+        let vertex = checked(profile, setup)?;
+        if !weights {
+            return Ok(Self { vertex, culls: cull, ..plain });
+        }
+        let pixel = if sides == Sides::Front { kernels::FLOAT_UVW } else { kernels::FLOAT_UVW_BOTH };
+        Ok(Self { vertex, pixel: checked(profile, pixel)?, name: pixel.name, culls: cull, weights, ..plain })
+    }
+
+    /// Whether the vertex program wants the constants of a bucket.
+    pub(super) fn takes_bucket(&self) -> bool {
+        self.culls || self.weights
+    }
+
     fn load(
         profile: &Profile,
         form: Form,
@@ -81,6 +115,8 @@ impl Kernel {
             vertex: checked(profile, setup)?,
             pixel: checked(profile, pixel)?,
             signed_rays,
+            culls: false,
+            weights: false,
         })
     }
 }

@@ -3,9 +3,11 @@
 //! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
 //! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
 
+mod barycentrics;
 mod bundle;
 mod card;
 mod crossbar;
+mod cull;
 pub mod engine;
 mod host_test;
 mod host_tracer;
@@ -14,6 +16,7 @@ mod kernel;
 pub mod kernels;
 pub mod model;
 pub mod octree;
+mod outputs;
 mod pass;
 pub mod ray_tree;
 mod rays;
@@ -26,5 +29,6 @@ pub use crossbar::{Answer, Crossbar, EngineError, MakeWatcher};
 pub use host_tracer::{HostCounts, HostTracer};
 pub use kept::KeptCard;
 pub use kernel::{Form, Kernel};
+pub use outputs::Outputs;
 pub use rays::{RayBatch, RayBatchError};
 pub use vertex_crossbar::VertexCrossbar;

@@ -2,34 +2,57 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::sync::Arc;
 
-use refsim::event::{Event, FenceId};
+use refsim::event::{DrawEvents, Event, FenceId};
 use refsim::machine::Machine;
 
-use super::card::{Sheet, Streams};
+use super::card::{CardHit, Pass, Reading, Sheet, Streams};
+use super::cull;
+use super::outputs::{Code, Outputs};
 use super::units::Units;
-use super::{EngineError, Hit, Kernel, RayBatch};
+use super::{EngineError, Kernel, RayBatch};
 use crate::geom::Mesh;
+use crate::geom::exact::Sides;
+
+/// What passes are to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PassWish {
+    pub(super) outputs: Outputs,
+    pub(super) small_ids: bool,
+    pub(super) cull: bool,
+}
 
 /// A card with several sets of textures and targets, so that one pass can be prepared while others are on their way.
 #[derive(Debug)]
 pub(super) struct PassCard {
     machine: Machine,
-    kernel: Arc<Kernel>,
-    sheets: BTreeMap<(usize, u32, u32), Loaded>,
+    kernel: Kernel,
+    sides: Sides,
+    wish: PassWish,
+    sheets: BTreeMap<(usize, u32, u32, Format), Sheet>,
 }
 
-/// Textures and targets, and the units of the rays in them.
-#[derive(Debug)]
-struct Loaded {
-    sheet: Sheet,
+/// The name of a target's format, to tell sheets apart.
+type Format = &'static str;
+
+/// What a draw hands on to its read-back.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawn {
     units: Units,
+    code: Code,
+    sheet: usize,
+    /// What happened.
+    pub(super) events: DrawEvents,
 }
 
 impl PassCard {
-    pub(super) fn new(machine: Machine, kernel: Arc<Kernel>) -> Self {
-        Self { machine, kernel, sheets: BTreeMap::new() }
+    pub(super) fn new(machine: Machine, kernel: Kernel, sides: Sides, wish: PassWish) -> Self {
+        Self { machine, kernel, sides, wish, sheets: BTreeMap::new() }
+    }
+
+    /// The pixel program.
+    pub(super) fn kernel_name(&self) -> &'static str {
+        self.kernel.name
     }
 
     /// Starts or stops writing down what is asked of the card.
@@ -49,34 +72,43 @@ impl PassCard {
         mesh: &Mesh,
         triangles: &[u32],
         rays: &RayBatch,
-    ) -> Result<(), EngineError> {
+    ) -> Result<Drawn, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
         let units = Units::choose(kernel.form, mesh, rays);
-        let loaded = match self.sheets.entry((sheet, rays.width(), rays.height())) {
+        let bucket = match (kernel.takes_bucket(), kernel.culls) {
+            (true, true) => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
+            (true, false) => cull::nothing(),
+            (false, _) => Vec::new(),
+        };
+        let code = Code::choose(machine.profile(), kernel.weights, self.wish.small_ids, triangles.len());
+        let loaded = match self.sheets.entry((sheet, rays.width(), rays.height(), code.format().name())) {
             Entry::Occupied(held) => {
                 let loaded = held.into_mut();
-                loaded.sheet.load(machine, kernel, rays, &units)?;
-                loaded.units = units;
+                loaded.load(machine, kernel, rays, &units)?;
                 loaded
             }
-            Entry::Vacant(slot) => slot.insert(Loaded { sheet: Sheet::new(machine, kernel, rays, &units)?, units }),
+            Entry::Vacant(slot) => slot.insert(Sheet::new(machine, kernel, rays, &units, code)?),
         };
-        loaded.sheet.clear(machine)?;
-        loaded.sheet.draw(machine, kernel, &units, &Streams::new(mesh, triangles))?;
-        Ok(())
+        loaded.clear(machine)?;
+        let pass = Pass { kernel, units: &units, bucket: &bucket };
+        let events = loaded.draw(machine, pass, &Streams::new(mesh, triangles, code))?;
+        Ok(Drawn { units, code, sheet, events })
     }
 
-    /// What each ray of the last draw of a sheet hits. If the host does not wait, a fence tells when it may look.
+    /// What each ray of a draw hits. If the host does not wait, a fence tells when it may look.
     pub(super) fn read_back(
         &self,
-        sheet: usize,
+        drawn: &Drawn,
+        triangles: &[u32],
         rays: &RayBatch,
         wait: bool,
-    ) -> Result<(Vec<Option<Hit>>, Option<FenceId>), EngineError> {
-        let Some(loaded) = self.sheets.get(&(sheet, rays.width(), rays.height())) else {
+    ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
+        let place = (drawn.sheet, rays.width(), rays.height(), drawn.code.format().name());
+        let Some(sheet) = self.sheets.get(&place) else {
             return Ok((vec![None; rays.rays().len()], None));
         };
-        loaded.sheet.read_back(&self.machine, rays, &loaded.units, wait)
+        let t = self.wish.outputs == Outputs::IdAndT;
+        sheet.read_back(&self.machine, &Reading { rays, units: &drawn.units, triangles, t, wait })
     }
 
     /// The host waits for a fence.

@@ -44,6 +44,11 @@ impl Units {
         Self { form, scale, t_max, origin }
     }
 
+    /// Card units in a scene unit; a power of two.
+    pub(super) const fn scale(&self) -> f64 {
+        self.scale
+    }
+
     /// `c0` is the program's own; `c1` scene scale, edge scale, 1 / t_max; `c2` the common origin.
     pub(super) fn vertex_constants(&self) -> Vec<[u32; 4]> {
         let [x, y, z] = self.origin;

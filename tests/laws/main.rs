@@ -3,6 +3,7 @@
 mod built;
 mod cases;
 mod comparing;
+mod culling;
 mod engine;
 mod engine_modes;
 mod geometry;
@@ -12,5 +13,6 @@ mod logs;
 mod models;
 mod octree;
 mod oracle;
+mod outputs;
 mod ray_tree;
 mod timing;

@@ -16,6 +16,10 @@ pub struct EngineCounts {
     pub pass_rays: u64,
     /// Ray-triangle tests of all passes: rays times triangles.
     pub pass_tests: u64,
+    /// Triangles of all passes.
+    pub pass_triangles: u64,
+    /// Those of them that the vertex program moved off the screen.
+    pub culled: u64,
     /// Rays in caches that were forced to the host in the end.
     pub forced_rays: u64,
     /// Ray-triangle tests on the host.

@@ -1,6 +1,7 @@
 //! Rays on their way.
 
-use crate::geom::Ray;
+use super::Ticket;
+use crate::geom::{Hit, Ray};
 use crate::ray_engine::host_test::HostRay;
 use crate::ray_engine::host_tracer::Best;
 
@@ -29,12 +30,23 @@ impl Cache {
 /// A ray that has no answer yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Flight {
-    pub(super) ticket: u64,
+    pub(super) ticket: Ticket,
     pub(super) ray: Ray,
     pub(super) host: HostRay,
     pub(super) best: Best,
     /// Whether it has met the card.
     pub(super) on_card: bool,
+    /// The last triangle that the card hit, with what it computed there.
+    pub(super) uvw: Option<(u32, [f32; 3])>,
+}
+
+/// A ray that has its answer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answered {
+    pub(super) ticket: Ticket,
+    pub(super) hit: Option<Hit>,
+    /// What the card computed of the hit, if it did.
+    pub(super) uvw: Option<[f32; 3]>,
 }
 
 /// All of them, in places that are used again.
@@ -51,10 +63,13 @@ impl Flights {
         self.given
     }
 
-    pub(super) fn start(&mut self, ray: Ray) -> u32 {
-        let ticket = self.given;
-        self.given += 1;
-        let flight = Flight { ticket, ray, host: HostRay::new(&ray), best: Best::default(), on_card: false };
+    /// So many tickets more have been given.
+    pub(super) fn give(&mut self, rays: usize) {
+        self.given += rays as u64;
+    }
+
+    pub(super) fn start(&mut self, ticket: Ticket, ray: Ray) -> u32 {
+        let flight = Flight { ticket, ray, host: HostRay::new(&ray), best: Best::default(), on_card: false, uvw: None };
         if let Some(place) = self.free.pop() {
             self.places[place as usize] = flight;
             return place;

@@ -12,6 +12,7 @@
 
 mod counts;
 mod flight;
+mod order;
 mod parameters;
 mod passes;
 mod schedule;
@@ -23,12 +24,15 @@ use refsim::event::Event;
 use refsim::machine::Executor;
 use refsim::timing::host::Operation;
 
+use super::barycentrics::plane_point;
 use super::host_tracer::HostTracer;
 use super::octree::{CellId, GpuCells};
+use super::pass::PassWish;
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError, Hit};
 use crate::geom::{CastError, Caster, Mesh, Ray};
-use flight::{Cache, Flights};
+use flight::{Answered, Cache, Flights};
+use order::order;
 use passes::Passes;
 
 pub use counts::EngineCounts;
@@ -37,6 +41,15 @@ pub use parameters::{EngineParameters, Readback};
 /// A ray given to the engine, by the order of giving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ticket(pub u64);
+
+/// A hit with its place in the triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocatedHit {
+    /// Triangle and t.
+    pub hit: Hit,
+    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can be far off.
+    pub weights: [f32; 3],
+}
 
 /// Rays in, hits out.
 #[derive(Debug)]
@@ -54,7 +67,7 @@ pub struct RayEngine<'a> {
     ready: VecDeque<(u32, f64)>,
     /// Cells whose caches hold a whole pass, once a pass.
     full: VecDeque<CellId>,
-    answered: Vec<(Ticket, Option<Hit>)>,
+    answered: Vec<Answered>,
     counts: EngineCounts,
     log: Vec<Event>,
 }
@@ -72,7 +85,8 @@ impl<'a> RayEngine<'a> {
     ) -> Result<Self, EngineError> {
         let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
-        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides)?;
+        let wish = PassWish { outputs: parameters.outputs, small_ids: parameters.small_ids, cull: parameters.cull };
+        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, wish)?;
         let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {
             mesh,
@@ -96,11 +110,12 @@ impl<'a> RayEngine<'a> {
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
-        let first = Ticket(self.flights.given());
-        for ray in rays {
-            self.take_in(*ray)?;
+        let first = self.flights.given();
+        self.flights.give(rays.len());
+        for i in order(rays.len(), self.parameters.shuffle.map(|seed| (seed, first))) {
+            self.take_in(Ticket(first + i as u64), rays[i])?;
         }
-        Ok(first)
+        Ok(Ticket(first))
     }
 
     /// Answers everything that waits.
@@ -117,7 +132,7 @@ impl<'a> RayEngine<'a> {
 
     /// What has been answered since the last time, in no particular order.
     pub fn take_answers(&mut self) -> Vec<(Ticket, Option<Hit>)> {
-        std::mem::take(&mut self.answered)
+        std::mem::take(&mut self.answered).into_iter().map(|answer| (answer.ticket, answer.hit)).collect()
     }
 
     /// A bundle in, its first hits out, in its own order: what a host renderer calls.
@@ -125,18 +140,49 @@ impl<'a> RayEngine<'a> {
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
     pub fn trace(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, EngineError> {
+        Ok(self.answers_of(rays)?.into_iter().map(|answer| answer.and_then(|answer| answer.hit)).collect())
+    }
+
+    /// The same with the place of each hit in its triangle: from the card where it computed that and found the hit
+    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The bits are the same on fp32.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the card refuses the work.
+    pub fn trace_located(&mut self, rays: &[Ray]) -> Result<Vec<Option<LocatedHit>>, EngineError> {
+        let answers = self.answers_of(rays)?;
+        let (mesh, sides, mut tests) = (self.mesh, self.parameters.sides, 0);
+        let mut locate = |(ray, answer): (&Ray, Option<Answered>)| {
+            let Answered { hit, uvw, .. } = answer?;
+            let hit = hit?;
+            let [u, v, w] = match uvw {
+                Some(uvw) => uvw,
+                None => {
+                    tests += 1;
+                    plane_point(mesh, hit.triangle, ray, sides)?.uvw
+                }
+            };
+            Some(LocatedHit { hit, weights: [w, u, v] })
+        };
+        let hits = rays.iter().zip(answers).map(&mut locate).collect();
+        self.counts.host_tests += tests;
+        self.note(Operation::RayTriangleTest, tests);
+        Ok(hits)
+    }
+
+    /// Submits, finishes, and puts the answers into the order of the rays; answers to rays before stay.
+    fn answers_of(&mut self, rays: &[Ray]) -> Result<Vec<Option<Answered>>, EngineError> {
         let first = self.submit(rays)?;
         self.finish()?;
-        let mut hits = vec![None; rays.len()];
+        let mut answers = vec![None; rays.len()];
         let mut others = Vec::new();
-        for (ticket, hit) in self.take_answers() {
-            match ticket.0.checked_sub(first.0).and_then(|i| hits.get_mut(i as usize)) {
-                Some(slot) => *slot = hit,
-                None => others.push((ticket, hit)),
+        for answer in std::mem::take(&mut self.answered) {
+            match answer.ticket.0.checked_sub(first.0).and_then(|i| answers.get_mut(i as usize)) {
+                Some(slot) => *slot = Some(answer),
+                None => others.push(answer),
             }
         }
         self.answered = others;
-        Ok(hits)
+        Ok(answers)
     }
 
     /// What happened so far.

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::geom::exact::Sides;
+use crate::ray_engine::Outputs;
 use crate::ray_engine::octree::OctreeParameters;
 use crate::ray_engine::ray_tree::RayTreeParameters;
 
@@ -42,6 +43,15 @@ pub struct EngineParameters {
     pub card: bool,
     /// When the results of a pass are taken.
     pub readback: Readback,
+    /// What comes back of a ray.
+    pub outputs: Outputs,
+    /// Whether triangles come back as places in the pass's list, in the smallest colour target that the card has: one byte for up to 255
+    /// triangles, two for more, four where the card has no such target. Not with barycentric coordinates.
+    pub small_ids: bool,
+    /// Whether the vertex program culls triangles that no ray of a pass can hit.
+    pub cull: bool,
+    /// Rays of a bundle enter the tree in random order (section 5.3), keyed by this seed; `None`: as they come.
+    pub shuffle: Option<u64>,
     /// Whether the log of the run is kept.
     pub record: bool,
 }
@@ -57,6 +67,10 @@ impl Default for EngineParameters {
             sides: Sides::Front,
             card: true,
             readback: Readback::default(),
+            outputs: Outputs::default(),
+            small_ids: false,
+            cull: false,
+            shuffle: None,
             record: false,
         }
     }

@@ -7,8 +7,9 @@ use refsim::event::{Event, FenceId};
 use super::Readback;
 use super::flight::Waiting;
 use crate::geom::{Mesh, Ray};
+use crate::ray_engine::card::CardHit;
 use crate::ray_engine::pass::PassCard;
-use crate::ray_engine::{EngineError, Hit, RayBatch};
+use crate::ray_engine::{EngineError, RayBatch};
 
 /// Rows of a pass's textures (section 5.3: 64 x 4).
 const ROWS: usize = 4;
@@ -19,7 +20,7 @@ pub(super) struct Pass {
     /// Its rays.
     pub(super) waiting: Vec<Waiting>,
     /// What they hit. The emulator knows at once; the host must not look before it has taken the pass.
-    pub(super) hits: Vec<Option<Hit>>,
+    pub(super) hits: Vec<Option<CardHit>>,
     /// The fence behind its read-back, if nobody waited for it.
     fence: Option<FenceId>,
     /// Its textures and targets.
@@ -58,14 +59,14 @@ impl Passes {
         self.flying.len() > self.ahead()
     }
 
-    /// Gives a pass to the card; `rays` are those that wait.
+    /// Gives a pass to the card; `rays` are those that wait. How many of the triangles were on the screen.
     pub(super) fn issue(
         &mut self,
         mesh: &Mesh,
         triangles: &[u32],
         mut rays: Vec<Ray>,
         waiting: Vec<Waiting>,
-    ) -> Result<(), EngineError> {
+    ) -> Result<u64, EngineError> {
         let width = rays.len().div_ceil(ROWS);
         // The last ray fills what is left of the rectangle.
         if let Some(last) = rays.last().copied() {
@@ -74,11 +75,12 @@ impl Passes {
         let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let batch = RayBatch::new(side(width), side(ROWS), rays)?;
         let sheet = self.free.pop_front().unwrap_or(self.flying.len());
-        self.card.draw(sheet, mesh, triangles, &batch)?;
+        let drawn = self.card.draw(sheet, mesh, triangles, &batch)?;
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
-        let (hits, fence) = self.card.read_back(sheet, &batch, wait)?;
+        let (hits, fence) = self.card.read_back(&drawn, triangles, &batch, wait)?;
         self.flying.push_back(Pass { waiting, hits, fence, sheet });
-        Ok(())
+        // A quad covers the screen or nothing.
+        Ok((drawn.events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
     }
 
     /// The oldest pass in flight, waited for.

@@ -3,17 +3,19 @@
 use refsim::event::{Event, HostWork};
 use refsim::timing::host::Operation;
 
-use super::flight::{Cache, Waiting};
+use super::flight::{Answered, Cache, Waiting};
 use super::{RayEngine, Ticket};
 use crate::geom::Ray;
 use crate::ray_engine::EngineError;
+use crate::ray_engine::barycentrics::plane_point;
+use crate::ray_engine::card::CardHit;
 use crate::ray_engine::octree::{CellId, Flow, Visit};
 
 impl RayEngine<'_> {
     /// A ray enters the tree; buckets leave it when it is full.
-    pub(super) fn take_in(&mut self, ray: Ray) -> Result<(), EngineError> {
+    pub(super) fn take_in(&mut self, ticket: Ticket, ray: Ray) -> Result<(), EngineError> {
         let before = self.tree.counts().nodes_passed;
-        let flight = self.flights.start(ray);
+        let flight = self.flights.start(ticket, ray);
         self.tree.insert(flight, &ray);
         self.note(Operation::RayTreeNode, self.tree.counts().nodes_passed - before);
         self.note(Operation::BucketInsert, 1);
@@ -114,11 +116,13 @@ impl RayEngine<'_> {
         let rays = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
         self.note(Operation::TriangleSent, triangles_given);
         self.note(Operation::VertexSent, 4 * triangles_given);
-        self.passes.issue(self.mesh, &triangles, rays, waiting)?;
+        let drawn = self.passes.issue(self.mesh, &triangles, rays, waiting)?;
         self.log.extend(self.passes.take_log());
         self.counts.passes += 1;
         self.counts.pass_rays += rays_given;
         self.counts.pass_tests += rays_given * triangles_given;
+        self.counts.pass_triangles += triangles_given;
+        self.counts.culled += triangles_given - drawn;
         while self.passes.too_many() && self.take_pass() {}
         Ok(())
     }
@@ -128,14 +132,23 @@ impl RayEngine<'_> {
         let Some(pass) = self.passes.take() else { return false };
         self.log.extend(self.passes.take_log());
         self.note(Operation::ResultRead, pass.waiting.len() as u64);
+        let (mesh, sides, mut tests) = (self.mesh, self.parameters.sides, 0);
         for (ray, hit) in pass.waiting.iter().zip(pass.hits) {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
-            if let Some(hit) = hit {
-                // Back into the ray's range, by a power of two.
-                flight.best.offer((f64::from(hit.t) / flight.host.power) as f32, hit.triangle);
+            let Some(CardHit { triangle, t, uvw }) = hit else { continue };
+            // Without the t-buffer, the host finds t of the one triangle.
+            tests += u64::from(t.is_none());
+            let found = || plane_point(mesh, triangle, &flight.ray, sides).map(|point| point.t);
+            let Some(t) = t.or_else(found) else { continue };
+            // Back into the ray's range, by a power of two.
+            flight.best.offer((f64::from(t) / flight.host.power) as f32, triangle);
+            if let Some(uvw) = uvw.filter(|_| flight.best.hit(1.0).is_some_and(|best| best.triangle == triangle)) {
+                flight.uvw = Some((triangle, uvw));
             }
         }
+        self.counts.host_tests += tests;
+        self.note(Operation::RayTriangleTest, tests);
         self.go_on(&pass.waiting);
         true
     }
@@ -169,7 +182,9 @@ impl RayEngine<'_> {
         let ended = self.flights.end(flight);
         self.counts.rays += 1;
         self.counts.rays_on_card += u64::from(ended.on_card);
-        self.answered.push((Ticket(ended.ticket), ended.best.hit(ended.host.power)));
+        let hit = ended.best.hit(ended.host.power);
+        let uvw = ended.uvw.filter(|(triangle, _)| hit.is_some_and(|h| h.triangle == *triangle)).map(|(_, uvw)| uvw);
+        self.answered.push(Answered { ticket: ended.ticket, hit, uvw });
     }
 
     /// Work of the host, for the log; neighbours of one kind are one entry.

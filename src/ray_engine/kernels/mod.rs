@@ -35,4 +35,8 @@ kernels! {
     FLOAT_BOTH "float_both.psa"
     VERTEX_TEST "vertex_test.vsa"
     ID "id.psa"
+    ANY_ORIGIN_BUCKET_SETUP "any_origin_bucket.vsa"
+    SEVEN_VECTORS_BUCKET_SETUP "seven_vectors_bucket.vsa"
+    FLOAT_UVW "float_uvw.psa"
+    FLOAT_UVW_BOTH "float_uvw_both.psa"
 }

@@ -1,0 +1,55 @@
+//! What the host computes of a hit whose triangle it knows: `float_uvw*.psa` in f32, operation by operation.
+//!
+//! Written for being the same as the card, not for speed: it is asked once a hit.
+
+use super::rays::normalise_range;
+use crate::geom::exact::Sides;
+use crate::geom::{Mesh, Ray};
+
+type Vector = [f32; 3];
+
+/// A point of a triangle's plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PlanePoint {
+    /// In multiples of the ray's direction.
+    pub(super) t: f32,
+    /// u, v, w by -n.d, or by |n.d| for either side.
+    pub(super) uvw: [f32; 3],
+}
+
+/// Where a ray meets the plane of a triangle; `None` for a triangle that is not there.
+pub(super) fn plane_point(mesh: &Mesh, triangle: u32, ray: &Ray, sides: Sides) -> Option<PlanePoint> {
+    let [a, b, c] = mesh.corners(triangle)?;
+    let (direction, power) = normalise_range(ray.direction());
+    let d = direction.map(|x| x as f32);
+    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+    let n = cross(ab, ac);
+    let (ao, bo) = (sub(ray.origin(), a), sub(ray.origin(), b));
+    let n_dot_d = dot(n, d);
+    let inverse = n_dot_d.recip();
+    let (aod, bod) = (cross(ao, d), cross(bo, d));
+    let uvw = [dot(ac, aod), dot(neg(ab), aod), dot(neg(bc), bod)];
+    let uvw = match sides {
+        Sides::Front => uvw.map(|x| x * -inverse),
+        Sides::Both if n_dot_d >= 0.0 => neg(uvw).map(|x| x * inverse.abs()),
+        Sides::Both => uvw.map(|x| x * inverse.abs()),
+    };
+    let t = dot(n, ao) * -inverse;
+    Some(PlanePoint { t: (f64::from(t) * power) as f32, uvw })
+}
+
+fn sub(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn neg(a: Vector) -> Vector {
+    a.map(|x| -x)
+}
+
+fn dot(a: Vector, b: Vector) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

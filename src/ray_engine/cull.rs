@@ -1,0 +1,216 @@
+//! Culling in the vertex program for rays of any origin (section 5.3): what a pass tells it of its bucket of rays.
+//!
+//! The pixel program draws a hit where u, v, w >= 0, n.ao >= 0 and n.d < 0 (for back faces: all signs turned). Each of these is linear
+//! in the origin and in the direction. So with origins oc + x and directions dc + y, for an edge e (ac for u, -ab for v, -bc and b for w):
+//!
+//! `e . (ao x d) = dc . (e x ao)  +  y . (e x ao)  +  x . (dc x e)  +  e . (x x y)`
+//!
+//! The first term is the middle ray's. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x| <= oh, |y| <= dh and
+//! q is the vector of oh_j dh_k + oh_k dh_j; n.ao and n.d likewise. A triangle goes if one of the numbers has the wrong sign for
+//! every ray of the bucket.
+//!
+//! **No hit is lost to rounding.** A card makes errors, and so does the vertex program. Each is at most a share of the product of
+//! magnitudes, plus something for underflow or for the steps of fixed point; both are bounded here from the largest |a| + |o| and |d| of the pass, and
+//! added to q and to what stands alone. Where an intermediate could leave the range of the format, triangles stay.
+
+use refsim::device::Rules;
+use refsim::num::{Format, Kind};
+
+use super::RayBatch;
+use super::rays::normalise_range;
+use super::units::Units;
+use crate::geom::Mesh;
+use crate::geom::exact::Sides;
+
+type Vec3 = [f64; 3];
+
+/// Constants of a bucket: c3 to c10.
+const COUNT: usize = 8;
+
+/// How far a format is from the real numbers.
+#[derive(Clone, Copy, Debug)]
+struct Errors {
+    /// Of an operation, as a share of the magnitudes that go in; with room for all operations of a program.
+    share: f64,
+    /// Of an operation, beside that.
+    step: f64,
+    /// Of a number as a texture holds it.
+    texel: f64,
+    /// What every intermediate has to stay under, if factors of up to three of the largest numbers are multiplied.
+    largest: f64,
+    /// Whether that is the end of a fixed range, which single numbers have to keep too.
+    fixed: bool,
+}
+
+impl Errors {
+    fn of(rules: &Rules) -> Self {
+        let (pixel, vertex) = (Self::of_format(&rules.format), Self::of_format(&rules.vertex_format));
+        Self {
+            share: pixel.share.max(vertex.share),
+            step: pixel.step.max(vertex.step),
+            texel: pixel.texel,
+            largest: pixel.largest.min(vertex.largest),
+            fixed: pixel.fixed || vertex.fixed,
+        }
+    }
+
+    fn of_format(format: &Format) -> Self {
+        match format.kind {
+            Kind::Fixed { int_bits, frac_bits } => {
+                let step = power(-i32::from(frac_bits));
+                // Ray textures of fixed-point cards have 16 bits.
+                let texel = 2.0 * step + power(-14);
+                Self { share: 0.0, step, texel, largest: power(i32::from(int_bits)), fixed: true }
+            }
+            Kind::Float { exp_bits, man_bits } => {
+                let bias = power(i32::from(exp_bits) - 1) as i32 - 1;
+                let share = 64.0 * power(-i32::from(man_bits) - 1);
+                let step = power(18 - bias);
+                Self { share, step, texel: 0.0, largest: power(bias / 3 - 2), fixed: false }
+            }
+        }
+    }
+}
+
+/// 2^`exponent`, for exponents between -1022 and 1023.
+fn power(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+/// Constants that cull nothing: no triangle is so small that |ab| + |ac| <= -1.
+pub(super) fn nothing() -> Vec<[u32; 4]> {
+    let mut out = vec![[0.0_f32; 4]; COUNT];
+    out[COUNT - 1][2] = -1.0;
+    out.into_iter().map(|c| c.map(f32::to_bits)).collect()
+}
+
+/// The constants of a bucket that meets some triangles: c3 to c10 of `*_bucket.vsa`.
+pub(super) fn bucket(
+    rules: &Rules,
+    units: &Units,
+    mesh: &Mesh,
+    triangles: &[u32],
+    rays: &RayBatch,
+    sides: Sides,
+) -> Vec<[u32; 4]> {
+    let errors = Errors::of(rules);
+    let origins = Extent::of(rays.rays().iter().map(|ray| ray.origin().map(|x| f64::from(x) * units.scale())));
+    let directions = Extent::of(rays.rays().iter().map(|ray| normalise_range(ray.direction()).0));
+    let corners = triangles.iter().filter_map(|id| mesh.corners(*id)).flatten();
+    let places = Extent::of(corners.map(|p| p.map(|x| f64::from(x) * units.scale())));
+    let (Some(origins), Some(directions), Some(places)) = (origins, directions, places) else { return nothing() };
+    let (origins, directions) = (origins.grown(errors.texel), directions.grown(errors.texel));
+    Bounds::new(&origins, &directions, &places, errors).constants(&origins, &directions, sides)
+}
+
+/// Vectors that lie in a box: its middle, a single-precision number, half its extent, and the largest magnitudes.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    middle: Vec3,
+    half: Vec3,
+    most: Vec3,
+}
+
+impl Extent {
+    fn of(vectors: impl Iterator<Item = Vec3>) -> Option<Self> {
+        let mut bounds: Option<[Vec3; 2]> = None;
+        for v in vectors {
+            let [low, high] = bounds.get_or_insert([v, v]);
+            for axis in 0..3 {
+                low[axis] = low[axis].min(v[axis]);
+                high[axis] = high[axis].max(v[axis]);
+            }
+        }
+        let [low, high] = bounds?;
+        let middle = [0, 1, 2].map(|i| f64::from((0.5 * (low[i] + high[i])) as f32));
+        let half = [0, 1, 2].map(|i| (high[i] - middle[i]).max(middle[i] - low[i]));
+        Some(Self { middle, half, most: [0, 1, 2].map(|i| low[i].abs().max(high[i].abs())) })
+    }
+
+    fn grown(self, by: f64) -> Self {
+        Self { middle: self.middle, half: self.half.map(|x| x + by), most: self.most.map(|x| x + by) }
+    }
+}
+
+/// The reaches of the tests, rounding included.
+struct Bounds {
+    /// Of n.ao, by |n|.
+    n_ao: Vec3,
+    /// Of n.d, by |n|.
+    n_d: Vec3,
+    /// Of u, v and w by their edge, beside what is known of a triangle itself.
+    edge: Vec3,
+    /// Of n.ao, n.d and of u, v, w, whatever the triangle.
+    alone: [f64; 3],
+    /// Of |ab| + |ac|.
+    most_edges: f64,
+}
+
+impl Bounds {
+    fn new(origins: &Extent, directions: &Extent, places: &Extent, errors: Errors) -> Self {
+        let Errors { share, step, .. } = errors;
+        let d = directions.most;
+        let a = [0, 1, 2].map(|i| places.most[i] + origins.most[i]);
+        let products = mixed(a, d);
+        let both = mixed(origins.half, directions.half);
+        let sum = |v: Vec3| v[0] + v[1] + v[2];
+        let others = 2.0 * sum(a) + 2.0 * sum(d) + 4.0;
+        Self {
+            n_ao: [0, 1, 2].map(|i| origins.half[i] + share * a[i] + step * (8.0 + d[i])),
+            n_d: [0, 1, 2].map(|i| directions.half[i] + share * d[i] + 2.0 * step),
+            edge: [0, 1, 2].map(|i| both[i] + share * products[i] + 2.0 * step * others),
+            // One card divides n.ao by four before it looks at its sign.
+            alone: [
+                8.0 * step * (sum(a) + 4.0),
+                2.0 * step * (sum(d) + 4.0),
+                2.0 * step * (sum(products) + sum(d) + 8.0),
+            ],
+            most_edges: most_edges(a, d, products, errors),
+        }
+    }
+
+    fn constants(&self, origins: &Extent, directions: &Extent, sides: Sides) -> Vec<[u32; 4]> {
+        let front = f64::from(u8::from(sides == Sides::Front));
+        let vector = |[x, y, z]: Vec3, w: f64| [x as f32, y as f32, z as f32, w as f32];
+        let up = |v: Vec3, w: f64| vector(v, w).map(upward);
+        let [n_ao, n_d, uvw] = self.alone.map(|x| upward(x as f32));
+        let all = [
+            vector(origins.middle, front),
+            up(origins.half, 0.0),
+            vector(directions.middle, 0.0),
+            up(directions.half, 0.0),
+            up(self.n_ao, 0.0),
+            up(self.edge, 0.0),
+            up(self.n_d, 0.0),
+            [n_ao, n_d, self.most_edges as f32, uvw],
+        ];
+        debug_assert_eq!(all.len(), COUNT);
+        all.map(|c| c.map(f32::to_bits)).to_vec()
+    }
+}
+
+/// The components of a cross product of vectors with these magnitudes, at most.
+fn mixed(a: Vec3, d: Vec3) -> Vec3 {
+    [a[1] * d[2] + a[2] * d[1], a[2] * d[0] + a[0] * d[2], a[0] * d[1] + a[1] * d[0]]
+}
+
+/// The largest |ab| + |ac| at which nothing leaves the range of the format; negative if other things do.
+fn most_edges(a: Vec3, d: Vec3, products: Vec3, errors: Errors) -> f64 {
+    let most = |v: Vec3| v[0].max(v[1]).max(v[2]);
+    let (range, largest) = (0.5 * errors.largest, most(a).max(most(d)).max(most(products)));
+    let limit = if errors.fixed { 0.9 * errors.largest } else { errors.largest };
+    if largest > limit {
+        return -1.0;
+    }
+    if !errors.fixed {
+        return errors.largest;
+    }
+    // |n| is at most the square of that by four, n.ao and n.d three times that and a or d; u, v and w an edge times the products.
+    let normal = (range * 4.0 / (3.0 * largest.max(1.0))).sqrt();
+    range.min(normal).min(range / most(products).max(1.0))
+}
+
+/// The next larger number or the one after: what is computed from f64 is not too small afterwards.
+fn upward(x: f32) -> f32 {
+    if x > 0.0 && x.is_finite() { (x * (1.0 + 4.0 * f32::EPSILON)).max(f32::MIN_POSITIVE) } else { x }
+}

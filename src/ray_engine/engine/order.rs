@@ -1,0 +1,36 @@
+//! In which order the rays of a bundle enter the tree.
+
+use crate::geom::random::Keyed;
+
+/// The places of `count` rays: as they came, or shuffled (section 5.3: "in random order, which helps keep the tree balanced") by a seed and the
+/// number of the first of them.
+pub(super) fn order(count: usize, shuffled: Option<(u64, u64)>) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..count).collect();
+    if let Some((seed, first)) = shuffled {
+        let random = Keyed::new(seed);
+        for last in (1..count).rev() {
+            let bits = random.bits(first, last as u64, 0);
+            // The high half of the product: as good as even for any number of rays that fits.
+            places.swap(last, ((u128::from(bits) * (last as u128 + 1)) >> 64) as usize);
+        }
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shuffled_rays_are_all_there_and_elsewhere() {
+        assert_eq!(order(5, None), [0, 1, 2, 3, 4]);
+        let mut shuffled = order(1000, Some((7, 0)));
+        assert_eq!(shuffled, order(1000, Some((7, 0))));
+        assert_ne!(shuffled, order(1000, Some((8, 0))));
+        assert_ne!(shuffled, order(1000, Some((7, 1000))));
+        let moved = shuffled.iter().enumerate().filter(|(i, place)| i != *place).count();
+        assert!(moved > 950, "{moved} moved");
+        shuffled.sort_unstable();
+        assert_eq!(shuffled, order(1000, None));
+    }
+}

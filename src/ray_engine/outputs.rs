@@ -1,0 +1,94 @@
+//! What comes back of a ray: equation 11's gamma, in bytes.
+
+use refsim::device::Profile;
+use refsim::texture::{Image, TexelFormat};
+
+use super::crossbar::{color_of_id, id_of_color};
+
+/// What is read back of each ray of a pass (sections 4.2 and 6.1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Outputs {
+    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare the hits of several
+    /// cells, computes t of the one triangle again.
+    Id,
+    /// The triangle and the t-buffer: 8 bytes.
+    #[default]
+    IdAndT,
+    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with [`Outputs::Id`]. Cards
+    /// without float targets return the triangle alone, and the host computes the rest.
+    IdAndBarycentrics,
+}
+
+/// What a colour target of a pass holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Code {
+    /// Ids of the mesh, 24 bits and a hit mask.
+    Id,
+    /// Places in the pass's list from 1, 5, 6 and 5 bits.
+    Place16,
+    /// Places from 1 to 255.
+    Place8,
+    /// u, v, w and the place, as floats.
+    Weights,
+}
+
+/// What one pixel says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Told {
+    pub(super) triangle: u32,
+    pub(super) uvw: Option<[f32; 3]>,
+}
+
+impl Code {
+    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells them apart.
+    pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
+        let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
+        if weights {
+            return Self::Weights;
+        }
+        let fits = |(code, most): &(Self, usize)| small && triangles <= *most && has(*code);
+        let found = [(Self::Place8, 0xff), (Self::Place16, 0xffff)].into_iter().find(fits);
+        found.map_or(Self::Id, |(code, _)| code)
+    }
+
+    /// The target's format.
+    pub(super) const fn format(self) -> TexelFormat {
+        match self {
+            Self::Id => TexelFormat::Bgra8,
+            Self::Place16 => TexelFormat::Bgr565,
+            Self::Place8 => TexelFormat::L8,
+            Self::Weights => TexelFormat::Rgba32f,
+        }
+    }
+
+    /// The colour that a triangle's quad has.
+    pub(super) fn color(self, place: usize, id: u32) -> [u32; 4] {
+        let part = |bits: u32, most: u32| ((bits & most) as f32 / most as f32).to_bits();
+        let place = (place + 1) as u32;
+        match self {
+            Self::Id => color_of_id(id),
+            Self::Place16 => [part(place, 31), part(place >> 5, 63), part(place >> 11, 31), 1.0_f32.to_bits()],
+            Self::Place8 => {
+                let level = part(place, 255);
+                [level, level, level, 1.0_f32.to_bits()]
+            }
+            Self::Weights => [1.0_f32.to_bits(); 4],
+        }
+    }
+
+    /// What a pixel of a target says; `None` if nothing was hit.
+    pub(super) fn read(self, image: &Image, x: u32, y: u32, triangles: &[u32]) -> Option<Told> {
+        let at = |place: u32| Some(Told { triangle: *triangles.get(place.checked_sub(1)? as usize)?, uvw: None });
+        let texel = image.raw(0, 0, y, x);
+        if self == Self::Weights {
+            let [u, v, w, place] = [0, 32, 64, 96].map(|shift| f32::from_bits((texel >> shift) as u32));
+            return at(place as u32).map(|told| Told { uvw: Some([u, v, w]), ..told });
+        }
+        let raw = texel as u32;
+        match self {
+            Self::Id => (raw >> 24 != 0).then(|| Told { triangle: id_of_color(raw), uvw: None }),
+            Self::Place16 => at(raw >> 11 & 31 | (raw >> 5 & 63) << 5 | (raw & 31) << 11),
+            Self::Place8 | Self::Weights => at(raw & 0xff),
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything finds.
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::random::Keyed;
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
+use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::ray_engine::{Answer, Crossbar, RayBatch};
+use crossbar::scene::Camera;
+use proptest::prelude::*;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+/// Numbers from -1 to 1 and, more often than by chance, 0 and the ends.
+fn coordinate(random: Keyed, i: u64, k: u64) -> f64 {
+    match random.bits(i, 9, k) % 8 {
+        0 => 0.0,
+        1 => 1.0,
+        2 => -1.0,
+        _ => 2.0 * random.unit(i, 10, k) - 1.0,
+    }
+}
+
+fn point(random: Keyed, i: u64) -> [f64; 3] {
+    [0, 1, 2].map(|k| coordinate(random, i, k))
+}
+
+fn add(a: [f64; 3], b: [f64; 3], by: f64) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] + by * b[k])
+}
+
+/// Triangles of all kinds: plain, tiny, huge, needles, points, lines, and with corners of their neighbours.
+fn triangles(random: Keyed, count: u64, size: f64, wild: bool) -> Mesh {
+    let mut positions: Vec<[f32; 3]> = Vec::new();
+    for i in 0..count {
+        let at = point(random, 100 + i);
+        let kind = random.bits(i, 0, 0) % 10;
+        let scale = match kind {
+            _ if !wild => 0.5,
+            0 => 1e-5,
+            1 => 1e-2,
+            2 => 50.0,
+            3 => 1e6,
+            _ => 0.5,
+        };
+        let corner = |k: u64| add(at, point(random, 1000 + 3 * i + k), scale);
+        let mut corners = [corner(0), corner(1), corner(2)];
+        match kind {
+            4 => corners[2] = add(corners[0], add(corners[1], corners[0], -1.0), 0.5),
+            5 => corners[2] = add(corners[1], point(random, 2000 + i), 1e-6),
+            6 => corners[1] = corners[0],
+            _ => {}
+        }
+        let touching = kind >= 7 && positions.len() >= 3;
+        for (k, corner) in corners.into_iter().enumerate() {
+            let shared = positions.len().checked_sub(2).map(|last| positions[last]).filter(|_| touching && k == 0);
+            positions.push(shared.unwrap_or(corner.map(|x| (x * size) as f32)));
+        }
+    }
+    let ids = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Mesh::new(positions, ids).expect("finite corners")
+}
+
+/// Rays from a box, most of them into a cone, some at corners and edges and from points of the triangles.
+fn rays(random: Keyed, mesh: &Mesh, size: f64, [origins, directions]: [f64; 2]) -> RayBatch {
+    let (eye, at) = (add([0.0; 3], point(random, 5000), 3.0), point(random, 5001));
+    let mut all = Vec::new();
+    for i in 0..64_u64 {
+        let id = random.bits(i, 1, 0) as u32 % mesh.len() as u32;
+        let on = mesh.corners(id).expect("a triangle").map(|c| c.map(|x| f64::from(x) / size));
+        let mix = [0, 1].map(|k| if random.bits(i, 2, k) % 3 == 0 { 0.0 } else { random.unit(i, 3, k) });
+        let target = add(add(on[0], add(on[1], on[0], -1.0), mix[0]), add(on[2], on[0], -1.0), mix[1] * (1.0 - mix[0]));
+        let mut origin = add(eye, point(random, 6000 + i), origins);
+        if origins > 0.0 && random.bits(i, 4, 0) % 5 == 0 {
+            origin = target;
+        }
+        let aimed = directions > 0.5 && random.bits(i, 5, 0) % 2 == 0 && origin != target;
+        let middle = if aimed { add(target, origin, -1.0) } else { add(at, eye, -1.0) };
+        let d = if aimed { middle } else { add(middle, point(random, 7000 + i), directions) };
+        let single = |v: [f64; 3], by: f64| v.map(|x| (x * by) as f32);
+        let ray = Ray::new(single(origin, size), single(d, 1.0));
+        all.push(ray.unwrap_or_else(|_| Ray::new(single(origin, size), [1.0, 0.0, -0.0]).expect("a ray")));
+    }
+    RayBatch::new(16, 4, all).expect("64 rays")
+}
+
+fn drawn(answer: &Answer) -> u64 {
+    answer.events.fragments.generated / 64
+}
+
+fn bits(answer: &Answer) -> Vec<Option<(u32, u32)>> {
+    answer.hits.iter().map(|hit| hit.map(|h| (h.triangle, h.t.to_bits()))).collect()
+}
+
+const DEVICES: [&str; 7] = ["ideal-fp32", "r200", "r300", "nv35", "ideal-s3.12", "ideal-fp16", "ideal-s2.8"];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 20_000 } else { 400 }))]
+
+    #[test]
+    fn a_pass_that_culls_finds_what_one_that_does_not_finds(
+        seed in any::<u64>(), device in 0..DEVICES.len(), both in any::<bool>(),
+        size in prop::sample::select(vec![1.0, 1.0, 1.0, 1e-3, 37.0, 1e6, 1e-12, 1e25]),
+        origins in prop::sample::select(vec![0.0, 0.01, 0.3, 3.0]),
+        directions in prop::sample::select(vec![0.0, 0.02, 0.3, 5.0]),
+    ) {
+        let random = Keyed::new(seed);
+        let mesh = triangles(random, 12, size, true);
+        let rays = rays(random, &mesh, size, [origins, directions]);
+        let all: Vec<u32> = (0..mesh.len() as u32).collect();
+        let profile = Profile::named(DEVICES[device]).expect("a profile");
+        let crossbar = Crossbar::new(profile, ExecutorKind::Batch);
+        let sides = if both { Sides::Both } else { Sides::Front };
+        let pass = |cull| crossbar.intersect_pass(&mesh, &all, &rays, sides, cull).expect("the card works");
+        let (plain, culled) = (pass(false), pass(true));
+        prop_assert_eq!(bits(&culled), bits(&plain), "{} {:?}", DEVICES[device], sides);
+        prop_assert_eq!(drawn(&plain), 12);
+    }
+}
+
+/// A test that culled nothing would pass the one above.
+#[test]
+fn much_of_what_can_be_culled_is() {
+    for (device, least) in [("ideal-fp32", 400), ("r300", 400), ("r200", 200)] {
+        let crossbar = Crossbar::new(Profile::named(device).expect("a profile"), ExecutorKind::Batch);
+        for (sides, share) in [(Sides::Front, 1), (Sides::Both, 2)] {
+            let mut gone = 0;
+            for seed in 0..60 {
+                let random = Keyed::new(seed);
+                let mesh = triangles(random, 12, 1.0, false);
+                let rays = rays(random, &mesh, 1.0, [0.0, 0.02]);
+                let all: Vec<u32> = (0..12).collect();
+                let answer = crossbar.intersect_pass(&mesh, &all, &rays, sides, true).expect("the card works");
+                gone += 12 - drawn(&answer);
+            }
+            assert!(gone * share >= least, "{device} {sides:?}: {gone} of 720");
+        }
+    }
+}
+
+#[test]
+fn the_engine_finds_the_same_and_draws_less() {
+    let mesh = teapot(4).expect("a teapot");
+    let rays = Camera::teapot(64, 64).expect("a camera").rays();
+    let run = |cull, sides| {
+        let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
+        let parameters = EngineParameters { octree, cull, sides, ..EngineParameters::default() };
+        let profile = Profile::named("ideal-fp32").expect("a profile");
+        let mut engine = RayEngine::new(&mesh, profile, ExecutorKind::Batch, parameters).expect("an engine");
+        (engine.trace(&rays).expect("the card works"), engine.counts())
+    };
+    for sides in [Sides::Front, Sides::Both] {
+        let ((plain, drawn), (culled, less)) = (run(false, sides), run(true, sides));
+        assert_eq!(plain, culled);
+        assert_eq!((drawn.culled, drawn.passes), (0, less.passes));
+        let share = less.culled as f64 / less.pass_triangles as f64;
+        println!(
+            "{sides:?}: {:.1} % of {} triangles in {} passes culled",
+            100.0 * share,
+            less.pass_triangles,
+            less.passes
+        );
+        assert!(share > 0.1, "{sides:?}: {share}");
+    }
+}
