@@ -123,9 +123,9 @@ fn the_weights_of_the_corners_give_the_point_that_was_hit() {
             assert!(weights.iter().all(|w| *w >= 0.0), "{weights:?}");
             let sum: f32 = weights.iter().sum();
             assert!((sum - 1.0).abs() < 1e-3, "u + v + w is -n.d: {sum}");
-            let corners = mesh.corners(hit.triangle).expect("a triangle");
+            let [a, b, c] = mesh.corners(hit.triangle).expect("a triangle");
             for axis in 0..3 {
-                let place: f32 = (0..3).map(|i| weights[i] * corners[i][axis]).sum();
+                let place = weights[0] * a[axis] + weights[1] * b[axis] + weights[2] * c[axis];
                 let along = ray.origin()[axis] + hit.t * ray.direction()[axis];
                 assert!((place - along).abs() < 3e-3, "axis {axis}: {place} and {along}");
             }
