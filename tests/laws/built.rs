@@ -11,6 +11,8 @@ fn scene(name: &str) -> Scene {
 fn counts_are_those_of_the_paper_for_every_seed() {
     for seed in 0..3 {
         assert_eq!(built::teapot_room(seed).mesh().len(), 2_650);
+        assert_eq!(built::office(seed).mesh().len(), 34_000);
+        assert_eq!(built::office_floor(seed).mesh().len(), 11_052);
     }
     assert_eq!(built::cornell_box().mesh().len(), 42);
     assert_eq!(built::white_box().mesh().len(), 12);

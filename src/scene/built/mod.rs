@@ -6,9 +6,13 @@
 //! - [`parts`], [`solids`]: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene.
 
-#![allow(dead_code, reason = "the office uses the rest")]
-
+mod chance;
 mod cornell_box;
+mod desktop;
+mod furniture;
+mod office;
+mod office_floor;
+mod palette;
 mod parts;
 mod solids;
 mod teapot_room;
@@ -17,6 +21,8 @@ mod white_box;
 use super::Scene;
 
 pub use cornell_box::cornell_box;
+pub use office::office;
+pub use office_floor::office_floor;
 pub use teapot_room::teapot_room;
 pub use white_box::white_box;
 
@@ -32,6 +38,16 @@ struct Entry {
 
 const SCENES: &[Entry] = &[
     Entry { name: "cornell-box", what: "the Cornell box with its two blocks", build: cornell_box },
+    Entry {
+        name: "office",
+        what: "an office with eight desks and much on them: Figure 6 c of the Ray Engine",
+        build: || office(SEED),
+    },
+    Entry {
+        name: "office-floor",
+        what: "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",
+        build: || office_floor(SEED),
+    },
     Entry {
         name: "teapot-room",
         what: "a small room with a metal teapot, a glass sphere and two blocks: Figure 6 a and b of the Ray Engine",

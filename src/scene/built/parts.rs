@@ -83,11 +83,6 @@ impl Parts {
         self.material(Material::diffuse(name, albedo))
     }
 
-    /// Triangles so far.
-    pub(super) fn len(&self) -> usize {
-        self.triangles.len()
-    }
-
     /// One triangle of the room, counter-clockwise from the front; with normals at its corners if it is part of something round.
     pub(super) fn triangle(&mut self, corners: [Vec3; 3], normals: Option<[Vec3; 3]>, stuff: Stuff) {
         // Zero is added to turn -0 into 0: both are one place.

@@ -1,0 +1,27 @@
+//! Chance in a scene: numbers drawn one after the other, for places and angles only.
+
+use crate::geom::random::Keyed;
+
+/// Numbers of a seed, in the order in which a generator asks for them.
+pub(super) struct Chance {
+    random: Keyed,
+    drawn: u64,
+}
+
+impl Chance {
+    pub(super) const fn new(seed: u64) -> Self {
+        Self { random: Keyed::new(seed), drawn: 0 }
+    }
+
+    /// A number from `low` up to `high`.
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.drawn += 1;
+        low + (high - low) * self.random.unit(self.drawn, 0, 0)
+    }
+
+    /// One of several things.
+    pub(super) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
+        let place = self.between(0.0, things.len() as f64) as usize;
+        things[place.min(things.len() - 1)]
+    }
+}
