@@ -38,8 +38,9 @@ impl std::ops::AddAssign for HostCounts {
 pub(crate) struct Best(Option<(f32, u32)>);
 
 impl Best {
+    /// An infinite t is none: it fails the depth test of a card.
     pub(crate) fn offer(&mut self, t: f32, triangle: u32) {
-        if self.0.is_none_or(|(best, first)| t < best || (t == best && triangle < first)) {
+        if t < f32::INFINITY && self.0.is_none_or(|(best, first)| t < best || (t == best && triangle < first)) {
             self.0 = Some((t, triangle));
         }
     }
@@ -50,7 +51,8 @@ impl Best {
     }
 
     pub(crate) fn hit(&self, power: f64) -> Option<Hit> {
-        self.0.map(|(t, triangle)| Hit { triangle, t: (f64::from(t) * power) as f32 })
+        // A depth buffer knows one zero.
+        self.0.map(|(t, triangle)| Hit { triangle, t: (f64::from(t) * power) as f32 + 0.0 })
     }
 }
 
@@ -91,6 +93,18 @@ impl HostTracer {
             if best.settles(cell.t[1], host.power) { Flow::Stop } else { Flow::Continue }
         });
         (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
+    }
+
+    /// The first hit of a ray among all triangles, each one tested: what the octree must not change.
+    pub fn nearest_of_all(&self, ray: &Ray) -> Option<Hit> {
+        let host = HostRay::new(ray);
+        let mut best = Best::default();
+        for (id, triangle) in (0..).zip(&self.triangles) {
+            if let Some(t) = triangle.hit(&host, self.sides) {
+                best.offer(t, id);
+            }
+        }
+        best.hit(host.power)
     }
 
     /// The first hits of rays in any number, on all worker threads: the same for any number of them.

@@ -20,6 +20,8 @@ pub(super) struct Units {
 
 /// The largest component that s3.12 is sure to hold.
 const REGISTER_RANGE: f64 = 7.999;
+/// Depth 1 means no hit, so that the largest t must stay below it, rounded as it may be.
+const ROOM: f64 = 1.0 + 1e-3;
 /// What `any_origin_*.psa` divides t by.
 const ANY_ORIGIN_T_MAX: f64 = 4.0;
 
@@ -103,7 +105,7 @@ impl Reach {
             // t <= 2 r; along its own length, at t <= r / |d|.
             let (d, _) = normalise_range(ray.direction());
             let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-            reach.t = reach.t.max(square.sqrt() / length);
+            reach.t = reach.t.max(square.sqrt() / length * ROOM);
         }
         reach
     }

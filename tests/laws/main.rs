@@ -16,3 +16,4 @@ mod oracle;
 mod outputs;
 mod ray_tree;
 mod timing;
+mod tiny_scenes;

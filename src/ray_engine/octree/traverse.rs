@@ -10,6 +10,10 @@ use crate::geom::Ray;
 /// two such parameters still tells which half of a cell the ray is in.
 const STILL: f64 = 1e-200;
 
+/// Margins from which a ray can be told where it goes: the parameter of a plane is a difference and a quotient, each rounded to 53 bits, and
+/// those of inner planes are means of such, a level deeper each.
+const SIGHT: f64 = (1u64 << 48) as f64;
+
 /// What to do after a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
@@ -87,6 +91,9 @@ impl Octree {
         from: f64,
         visit: impl FnMut(&Visit<'a>) -> Flow,
     ) -> TraversalCounts {
+        if self.is_out_of_sight(ray) {
+            return self.everything(visit);
+        }
         let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
         for axis in 0..3 {
             let (mut origin, mut speed) = (f64::from(ray.origin()[axis]), f64::from(ray.direction()[axis]));
@@ -108,6 +115,29 @@ impl Octree {
             let _: ControlFlow<()> = walk.enter(0, [low, high]);
         }
         walk.counts
+    }
+
+    /// Whether a ray starts so far away that f64 does not tell the parameters of the cells' planes apart as well as margins do.
+    pub(super) fn is_out_of_sight(&self, ray: &Ray) -> bool {
+        let sight = self.margin * SIGHT;
+        (0..3).any(|axis| (f64::from(ray.origin()[axis]) - self.corner[axis]).abs() > sight)
+    }
+
+    /// All leaves, for a ray of which nothing is known. No hit settles what the others hold, so each has t of minus infinity. No GPU cell:
+    /// nobody could go on behind one.
+    fn everything<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
+        let mut counts = TraversalCounts::default();
+        for node in 0..self.nodes.len() as u32 {
+            let (triangles, t) = (self.list(node), [f64::NEG_INFINITY; 2]);
+            if triangles.is_empty() {
+                continue;
+            }
+            (counts.cells, counts.leaves) = (counts.cells + 1, counts.leaves + 1);
+            if visit(&Visit { cell: CellId(node), triangles, gpu: false, t }) == Flow::Stop {
+                break;
+            }
+        }
+        counts
     }
 }
 

@@ -1,0 +1,161 @@
+//! Why fp32 answers differently than exact arithmetic: the operation that rounding turned.
+
+use crossbar::geom::exact;
+use crossbar::geom::{Hit, Mesh, Ray, Sides};
+use crossbar::oracle::{Disagreement, Kind};
+
+/// What rounding did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Cause {
+    /// A sign of u, v or w: on which side of an edge the ray passes.
+    Edge,
+    /// The sign of n.d, or the normal itself: a triangle or a ray so nearly in a plane that fp32 sees another side, or none.
+    Plane,
+    /// The sign of t: the origin lies on the surface, or next to it.
+    Start,
+    /// t by more than the tolerance, or the order of two t.
+    Depth,
+    /// An infinity, or NaN from one, on the way.
+    Overflow,
+    /// A number below the normal range on the way.
+    Underflow,
+}
+
+impl Cause {
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Edge, Self::Plane, Self::Start, Self::Depth, Self::Overflow, Self::Underflow];
+}
+
+/// Equations (1) to (8) in one number format, the direction scaled by a power of two.
+macro_rules! equations {
+    ($name:ident, $real:ty) => {
+        pub(crate) struct $name {
+            n: [$real; 3],
+            n_ao: $real,
+            n_d: $real,
+            inside: [$real; 3],
+            products: Vec<$real>,
+        }
+
+        impl $name {
+            pub(crate) fn new(ray: &Ray, corners: [[f32; 3]; 3]) -> Self {
+                let largest = ray.direction().iter().fold(0.0f32, |m, x| m.max(x.abs()));
+                let d = ray.direction().map(|x| half_to_one(x, largest) as $real);
+                let o = ray.origin().map(|x| x as $real);
+                let [a, b, c] = corners.map(|p| p.map(|x| x as $real));
+                let mut products = Vec::new();
+                let sub = |p: [$real; 3], q: [$real; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+                let mut dot = |p: [$real; 3], q: [$real; 3]| {
+                    products.extend([p[0] * q[0], p[1] * q[1], p[2] * q[2]]);
+                    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+                };
+                let cross = |p: [$real; 3], q: [$real; 3]| {
+                    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+                };
+                let (ab, ac, bc, ao, bo) = (sub(b, a), sub(c, a), sub(c, b), sub(o, a), sub(o, b));
+                let n = cross(ab, ac);
+                let (aod, bod) = (cross(ao, d), cross(bo, d));
+                let inside = [dot(ac, aod), dot(ab.map(|x| -x), aod), dot(bc.map(|x| -x), bod)];
+                let (n_ao, n_d) = (dot(n, ao), dot(n, d));
+                products.extend(n.into_iter().chain(aod).chain(bod));
+                Self { n, n_ao, n_d, inside, products }
+            }
+
+            pub(crate) fn t(&self) -> $real {
+                self.n_ao * -self.n_d.recip()
+            }
+
+            fn faces(&self, sides: Sides) -> bool {
+                self.n_d < 0.0 || (sides == Sides::Both && self.n_d > 0.0)
+            }
+
+            fn outside(&self) -> bool {
+                let sign = if self.n_d < 0.0 { 1.0 } else { -1.0 };
+                self.inside.iter().any(|x| x * sign < 0.0)
+            }
+        }
+    };
+}
+
+equations!(Single, f32);
+equations!(Double, f64);
+
+/// A component of a direction, scaled by the power of two that brings the largest into [1/2, 1).
+fn half_to_one(x: f32, largest: f32) -> f64 {
+    let mut scaled = (f64::from(x), f64::from(largest));
+    while scaled.1 >= 1.0 {
+        scaled = (scaled.0 / 2.0, scaled.1 / 2.0);
+    }
+    while scaled.1 < 0.5 {
+        scaled = (scaled.0 * 2.0, scaled.1 * 2.0);
+    }
+    scaled.0
+}
+
+impl Single {
+    fn overflows(&self) -> bool {
+        !self.products.iter().chain(&[self.n_ao, self.n_d, self.t()]).all(|x| x.is_finite()) && self.n_d != 0.0
+    }
+
+    /// A product that is no normal number though its factors are not zero: seen against f64.
+    fn underflows(&self, double: &Double) -> bool {
+        let lost = |(single, double): (&f32, &f64)| {
+            double.abs() > 0.0 && single.abs() < f32::MIN_POSITIVE && double.abs() < f64::from(f32::MIN_POSITIVE)
+        };
+        self.products.iter().zip(&double.products).any(lost)
+    }
+
+    /// Which of the three tests lets a ray past, or through.
+    fn turned(&self, sides: Sides) -> Cause {
+        if self.n == [0.0; 3] || !self.faces(sides) {
+            Cause::Plane
+        } else if self.outside() {
+            Cause::Edge
+        } else {
+            Cause::Start
+        }
+    }
+}
+
+impl Double {
+    /// Which test a triangle that the ray does not meet fails, as well as f64 can tell.
+    fn fails(&self, sides: Sides) -> Cause {
+        if self.outside() && self.n_d != 0.0 {
+            Cause::Edge
+        } else if self.n_d != 0.0 && self.t() < 0.0 {
+            Cause::Start
+        } else if self.n == [0.0; 3] || !self.faces(sides) {
+            Cause::Plane
+        } else {
+            Cause::Edge
+        }
+    }
+}
+
+/// The f32 test of one triangle, said once more: t along the ray's direction in range.
+pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides) -> bool {
+    let single = Single::new(ray, corners);
+    let t = single.t();
+    single.faces(sides) && !single.outside() && t >= 0.0 && t < f32::INFINITY
+}
+
+/// The cause of one disagreement of the f32 test among all pairs.
+pub(crate) fn of(mesh: &Mesh, ray: &Ray, sides: Sides, wrong: &Disagreement) -> Cause {
+    let corners = |triangle| mesh.corners(triangle).expect("a triangle of the mesh");
+    let limits = |triangle| {
+        let (single, double) = (Single::new(ray, corners(triangle)), Double::new(ray, corners(triangle)));
+        if single.overflows() { Some(Cause::Overflow) } else { single.underflows(&double).then_some(Cause::Underflow) }
+    };
+    let first = wrong.expected.as_ref().map(|truth| truth.triangles[0]);
+    let found = wrong.found.map(|Hit { triangle, .. }| triangle);
+    let missed = first.filter(|&first| wrong.kind != Kind::TOff && !meets(ray, corners(first), sides));
+    if let Some(first) = missed {
+        return limits(first).unwrap_or_else(|| Single::new(ray, corners(first)).turned(sides));
+    }
+    let Some(found) = found else { return Cause::Depth };
+    if let Some(limit) = limits(found) {
+        return limit;
+    }
+    let truly = exact::intersect(ray, &corners(found), sides).is_some();
+    if truly { Cause::Depth } else { Double::new(ray, corners(found)).fails(sides) }
+}
