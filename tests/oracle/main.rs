@@ -1,4 +1,5 @@
 //! Stored bits: they fail when they change.
 
+mod foreign;
 mod leaky_teapot;
 mod timing;

@@ -1,0 +1,43 @@
+//! docs/examples/foreign_intersector.md says what other people's intersectors get wrong: its numbers, asked again.
+
+#[expect(dead_code, reason = "as an example it prints what the test compares")]
+#[path = "../../docs/examples/foreign_intersector.rs"]
+mod foreign_intersector;
+
+use crossbar::geom::{Mesh, Ray, Sides};
+use crossbar::oracle::{Oracle, Tolerance, hits_equal};
+use foreign_intersector::{intersector, teapot_table, wall_rays, walls, walls_table};
+
+fn page() -> String {
+    include_str!("../../docs/examples/foreign_intersector.md").replace('\r', "")
+}
+
+// Their last bits come from SSE here, and from other instructions elsewhere.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn the_page_says_what_is_measured() {
+    for table in [teapot_table(), walls_table()] {
+        assert!(page().contains(&table), "docs/examples/foreign_intersector.md has another table than\n{table}");
+    }
+}
+
+/// Rays in the planes of walls and cells: of zeros, all signs give the same hits, and none is lost.
+#[test]
+fn the_signs_of_zeros_do_not_show_in_ours() {
+    let mesh: Mesh = walls();
+    let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ulps(0));
+    let mut ours = intersector("crossbar", &mesh);
+    for free in [[true, true], [false, true], [true, false], [false, false]] {
+        let mut hits = |minus| {
+            let rays: Vec<Ray> = wall_rays(free, minus);
+            let hits: Vec<_> = rays.iter().map(&mut ours).collect();
+            let report = oracle.judge(&rays, &hits).expect("one answer a ray");
+            assert!(report.agrees(), "{free:?} {minus:?}: {report}");
+            hits
+        };
+        let plus = hits([false, false]);
+        for minus in [[false, true], [true, false], [true, true]] {
+            hits_equal(&plus, &hits(minus)).expect("both zeros are one direction");
+        }
+    }
+}
