@@ -1,5 +1,6 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
+mod bad_geometry;
 mod built;
 mod cases;
 mod comparing;
