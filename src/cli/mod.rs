@@ -18,6 +18,7 @@ mod progress;
 mod render;
 mod reproduce;
 mod run;
+mod scene;
 mod size;
 mod switch;
 mod timeline;
@@ -93,6 +94,7 @@ enum Command {
     Render(render::Args),
     Reproduce(reproduce::Args),
     Run(run::Args),
+    Scene(scene::Args),
     Timeline(timeline::Args),
 }
 
@@ -141,6 +143,7 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
         Command::Render(args) => render::run(&args, out),
         Command::Reproduce(args) => reproduce::run(&args, out),
         Command::Run(args) => run::run(&args, out),
+        Command::Scene(args) => scene::run(&args, out),
         Command::Timeline(args) => timeline::run(&args, out),
     }
 }

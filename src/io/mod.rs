@@ -1,12 +1,16 @@
-//! Files in and out: models, rays and hits, and the writing that never leaves half a file.
+//! Files in and out: models, scenes, rays and hits, and the writing that never leaves half a file.
 
 pub mod atomic;
 pub mod obj;
 pub mod rays;
+pub mod scene_file;
+pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
 pub use obj::{ObjError, load_obj, parse_obj, write_obj};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
+pub use scene_file::{SceneFileError, scene_files, write_scene_file};
+pub use scene_obj::{MtlError, SceneObjError, load_scene, parse_mtl, parse_scene, write_mtl, write_scene};
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -101,13 +101,15 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ObjError> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ObjError::TooLong { path: name.into() });
     }
-    // Some editors mark UTF-8 with three bytes; left there, they would hide the first vertex.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut pass = Pass { name, clean: String::new(), vertices: 0, faces: 0, forward: Vec::new() };
+    let mut pass = Pass::new(name);
     for (line, text) in logical_lines(bytes) {
-        pass.line(line, &text)?;
+        pass.line(line, &words(&text), &text)?;
     }
-    let clean = pass.finish()?;
+    pass.mesh()
+}
+
+/// What tobj makes of checked lines.
+fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
     let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)
@@ -135,7 +137,9 @@ pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Lines with their numbers, without comments; a line that ends in `\` goes on in the next.
-fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
+pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
+    // Some editors mark UTF-8 with three bytes; left there, they would hide the first vertex.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
     std::iter::from_fn(move || {
         let (number, first) = lines.next()?;
@@ -156,8 +160,13 @@ fn strip(line: &[u8]) -> &[u8] {
     line[..end].trim_ascii()
 }
 
+/// The words of a line.
+pub(super) fn words(text: &[u8]) -> Vec<&[u8]> {
+    text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect()
+}
+
 /// The first pass: what it has seen, and the checked lines for tobj.
-struct Pass<'a> {
+pub(super) struct Pass<'a> {
     name: &'a Path,
     clean: String,
     vertices: usize,
@@ -166,9 +175,13 @@ struct Pass<'a> {
     forward: Vec<(usize, i64)>,
 }
 
-impl Pass<'_> {
-    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), ObjError> {
-        let words: Vec<&[u8]> = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+impl<'a> Pass<'a> {
+    pub(super) fn new(name: &'a Path) -> Self {
+        Self { name, clean: String::new(), vertices: 0, faces: 0, forward: Vec::new() }
+    }
+
+    /// Checks one line, given as words and as it stands.
+    pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ObjError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
             Some((&b"f", corners)) => self.face(line, text, corners),
@@ -234,8 +247,8 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// The checked lines, once it is known how many vertices there are.
-    fn finish(self) -> Result<String, ObjError> {
+    /// The mesh of the checked lines, once it is known how many vertices there are.
+    pub(super) fn mesh(self) -> Result<Mesh, ObjError> {
         let beyond = |&&(_, index): &&(usize, i64)| usize::try_from(index).map_or(true, |index| index > self.vertices);
         if let Some(&(line, index)) = self.forward.iter().find(beyond) {
             return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, index, vertices: self.vertices });
@@ -243,10 +256,10 @@ impl Pass<'_> {
         if self.faces == 0 {
             return Err(ObjError::NoFaces { path: self.name.into() });
         }
-        Ok(self.clean)
+        load_clean(&self.clean, self.name)
     }
 
-    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ObjError {
+    pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ObjError {
         ObjError::Syntax { path: self.name.into(), line, expected, found: quoted(found) }
     }
 }

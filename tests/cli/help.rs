@@ -2,8 +2,19 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] =
-    &["alu", "check", "compare", "devices", "intersect", "leaky-teapot", "render", "reproduce", "run", "timeline"];
+const COMMANDS: &[&str] = &[
+    "alu",
+    "check",
+    "compare",
+    "devices",
+    "intersect",
+    "leaky-teapot",
+    "render",
+    "reproduce",
+    "run",
+    "scene",
+    "timeline",
+];
 
 #[test]
 fn program() {

@@ -8,6 +8,7 @@ mod compare;
 mod devices;
 mod help;
 mod reproduce;
+mod scene;
 mod timeline;
 mod trace_format;
 mod tracing;

@@ -16,5 +16,6 @@ mod octree;
 mod oracle;
 mod outputs;
 mod ray_tree;
+mod scene_files;
 mod timing;
 mod tiny_scenes;

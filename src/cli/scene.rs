@@ -1,0 +1,108 @@
+//! `crossbar scene`: the scenes that the project builds, and their files.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::{Out, Problem, Verdict, view};
+use crate::io::atomic::FileSet;
+use crate::io::scene_files;
+use crate::report::Table;
+use crate::scene::{Scene, built};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar scene
+      all scenes
+  crossbar scene office
+      what is in one: triangles, materials, emitters, views
+  crossbar scene teapot-room --out scenes
+      scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
+
+/// List the scenes that the program builds itself, count what is in one, write its files
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The scene [default: list all]
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
+
+    /// Folder for the scene's files
+    #[arg(long, value_name = "DIR", requires = "name")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.name {
+        None => all(out)?,
+        Some(name) => one(name, args.out.as_ref(), out)?,
+    }
+    Ok(Verdict::Done)
+}
+
+/// All scenes, a line each.
+fn all(out: &mut Out) -> miette::Result<()> {
+    let scenes = || built::names().filter_map(|name| Some((name, built::description(name)?, built::build(name)?)));
+    if out.json() {
+        let rows: Vec<Value> = scenes().map(|(name, what, scene)| summary(name, what, &scene)).collect();
+        return Ok(out.document(&rows)?);
+    }
+    let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
+    for (name, what, scene) in scenes() {
+        table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
+    }
+    out.line(out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns)))?;
+    Ok(())
+}
+
+/// One scene, and its files if a folder is named.
+fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()> {
+    let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
+        let names: Vec<&str> = built::names().collect();
+        let what = format!("expected the name of a scene, found `{name}`");
+        return Err(Problem::usage(what, format!("there are {}", names.join(", "))).into());
+    };
+    let mut written = Vec::new();
+    if let Some(folder) = folder {
+        let files = scene_files(&scene, &name.replace('-', "_")).map_err(miette::Report::msg)?;
+        view::write_folder(FileSet::new(folder).map_err(Problem::from)?, &files)?;
+        written = files.iter().map(|(file, _)| folder.join(file)).collect();
+    }
+    if out.json() {
+        let mut row = summary(name, what, &scene);
+        row["files"] = json!(written);
+        return Ok(out.document(&row)?);
+    }
+    out.line(format_args!("{name}: {what}"))?;
+    let [vertices, triangles] = [scene.mesh().positions().len(), scene.mesh().len()];
+    out.line(format_args!("triangles     {triangles}, on {vertices} vertices"))?;
+    out.line(format_args!("materials     {}", materials(&scene)))?;
+    out.line(format_args!("emitters      {} triangles", scene.emitters().len()))?;
+    out.line(format_args!("point lights  {}", scene.point_lights.len()))?;
+    out.line(format_args!("views         {}", views(&scene)))?;
+    for file in written {
+        out.line(format_args!("written       {}", file.display()))?;
+    }
+    Ok(())
+}
+
+fn views(scene: &Scene) -> String {
+    scene.views.iter().map(|view| view.name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+fn materials(scene: &Scene) -> String {
+    scene.materials().iter().map(|material| material.name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+fn summary(name: &str, what: &str, scene: &Scene) -> Value {
+    json!({
+        "name": name,
+        "what": what,
+        "triangles": scene.mesh().len(),
+        "vertices": scene.mesh().positions().len(),
+        "materials": scene.materials().iter().map(|material| &material.name).collect::<Vec<_>>(),
+        "emitters": scene.emitters().len(),
+        "point_lights": scene.point_lights.len(),
+        "views": scene.views.iter().map(|view| &view.name).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,201 @@
+//! Scene files: a mesh with its materials, views and point lights.
+//!
+//! ```toml
+//! mesh = "room.obj"
+//!
+//! [[view]]
+//! name = "front"
+//! eye = [0.0, -3.0, 1.5]
+//! target = [0.0, 0.0, 1.0]
+//! up = [0.0, 0.0, 1.0]
+//! tan_half_height = 0.5
+//!
+//! [[point_light]]
+//! position = [0.0, 0.0, 2.5]
+//! intensity = [10.0, 10.0, 9.0]
+//! ```
+//!
+//! The mesh is an OBJ beside the scene file, read by [`super::scene_obj`]. An OBJ alone is a scene without views and point lights.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use thiserror::Error;
+
+use super::read_limited;
+use super::scene_obj::{SceneObjError, load_scene, write_mtl, write_scene};
+use crate::scene::{CameraError, PointLight, Scene, View};
+
+/// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
+const LONGEST: u64 = 1 << 20;
+
+/// Why a file is no scene.
+#[derive(Debug, Error, miette::Diagnostic)]
+pub enum SceneFileError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the scene {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file is longer than 1 MiB, or not UTF-8.
+    #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
+    NoText {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is no TOML, or does not say what a scene file says.
+    #[error("{}:{line}: {message}", path.display())]
+    Toml {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What the reader says.
+        message: String,
+    },
+    /// A view makes no picture.
+    #[error("{}: view {view:?}: {source}", path.display())]
+    View {
+        /// The file.
+        path: PathBuf,
+        /// The view.
+        view: String,
+        /// Why.
+        source: CameraError,
+    },
+    /// Two views of one name.
+    #[error("{}: expected views of different names, found {view:?} twice", path.display())]
+    SameName {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        view: String,
+    },
+    /// A light's figures are not finite, or its intensity is negative.
+    #[error(
+        "{}: point light {light} (counted from 1): expected a finite position, and an intensity of at least 0",
+        path.display()
+    )]
+    Light {
+        /// The file.
+        path: PathBuf,
+        /// The light.
+        light: usize,
+    },
+    /// Something about the mesh or its materials.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Mesh(#[from] SceneObjError),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    mesh: PathBuf,
+    #[serde(default)]
+    view: Vec<ViewEntry>,
+    #[serde(default)]
+    point_light: Vec<LightEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ViewEntry {
+    name: String,
+    eye: [f32; 3],
+    target: [f32; 3],
+    up: [f32; 3],
+    tan_half_height: f32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightEntry {
+    position: [f32; 3],
+    intensity: [f32; 3],
+}
+
+/// Reads a scene: a scene file, or an OBJ (by the name's ending).
+///
+/// # Errors
+/// [`SceneFileError`].
+pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+        return Ok(load_scene(path)?);
+    }
+    let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;
+    let text = read.and_then(|bytes| String::from_utf8(bytes).ok());
+    let text = text.ok_or_else(|| SceneFileError::NoText { path: path.into() })?;
+    let (mesh, views, point_lights) = parse(&text, path)?;
+    let mut scene = load_scene(&path.parent().unwrap_or(Path::new("")).join(mesh))?;
+    scene.views = views;
+    scene.point_lights = point_lights;
+    Ok(scene)
+}
+
+/// The mesh's path, the views and the lights of a scene file's text.
+///
+/// # Errors
+/// [`SceneFileError`], without those of the mesh.
+pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), SceneFileError> {
+    let file: File = toml::from_str(text).map_err(|error| {
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        SceneFileError::Toml { path: name.into(), line, message: error.message().to_owned() }
+    })?;
+    let mut views: Vec<View> = Vec::with_capacity(file.view.len());
+    for ViewEntry { name: view, eye, target, up, tan_half_height } in file.view {
+        if views.iter().any(|known| known.name == view) {
+            return Err(SceneFileError::SameName { path: name.into(), view });
+        }
+        let view = View { name: view, eye, target, up, tan_half_height };
+        if let Err(source) = view.camera(1, 1) {
+            return Err(SceneFileError::View { path: name.into(), view: view.name, source });
+        }
+        views.push(view);
+    }
+    let lights =
+        file.point_light.iter().map(|light| PointLight { position: light.position, intensity: light.intensity });
+    let lights: Vec<PointLight> = lights.collect();
+    let sound = |light: &PointLight| {
+        light.position.iter().all(|value| value.is_finite())
+            && light.intensity.iter().all(|value| value.is_finite() && *value >= 0.0)
+    };
+    if let Some(place) = lights.iter().position(|light| !sound(light)) {
+        return Err(SceneFileError::Light { path: name.into(), light: place + 1 });
+    }
+    Ok((file.mesh, views, lights))
+}
+
+/// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] where a material's name can't stand in a file (see [`super::write_scene`]).
+pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>)>> {
+    let (mesh, library) = (format!("{stem}.obj"), format!("{stem}.mtl"));
+    let [mut file, mut obj, mut mtl] = [Vec::new(), Vec::new(), Vec::new()];
+    write_scene_file(scene, &mesh, &mut file)?;
+    write_scene(scene, &library, &mut obj)?;
+    write_mtl(scene.materials(), &mut mtl)?;
+    Ok(vec![(format!("{stem}.toml"), file), (mesh, obj), (library, mtl)])
+}
+
+/// Writes a scene file that names `mesh`; views and point lights read back with the same bits.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_scene_file(scene: &Scene, mesh: &str, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "mesh = {}", toml::Value::from(mesh))?;
+    for View { name, eye, target, up, tan_half_height } in &scene.views {
+        writeln!(out, "\n[[view]]\nname = {}", toml::Value::from(name.as_str()))?;
+        writeln!(out, "eye = {eye:?}\ntarget = {target:?}\nup = {up:?}\ntan_half_height = {tan_half_height:?}")?;
+    }
+    for PointLight { position, intensity } in &scene.point_lights {
+        writeln!(out, "\n[[point_light]]\nposition = {position:?}\nintensity = {intensity:?}")?;
+    }
+    Ok(())
+}

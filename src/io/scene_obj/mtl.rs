@@ -1,0 +1,239 @@
+//! Material libraries (MTL).
+//!
+//! A first pass of ours checks every statement that is used; tobj then reads the checked lines. Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr
+//! illum`; all others (ambient colours, textures) are passed over.
+//!
+//! | `illum` | surface |
+//! |---|---|
+//! | 0, 1, 2, 10, none | diffuse `Kd`; glossy with `Ks` and `Ns` where `Ks` is not zero |
+//! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
+//! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (where there is none, 1 - `d`; where that is missing too, 1) |
+//!
+//! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above 0) needs glass.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::super::obj::{logical_lines, words};
+use super::super::quoted;
+use crate::scene::{Color, Material, Surface};
+
+/// Exponent of a glossy material that names none.
+const EXPONENT: f32 = 10.0;
+/// Index of refraction of glass that names none.
+const INDEX: f32 = 1.5;
+/// How far `Kd` + `Ks` may lie above 1: what rounding makes of figures that sum to 1.
+const ROUNDING: f32 = 1e-6;
+
+/// Why a file is no material library. Lines count from 1.
+#[derive(Debug, Error, miette::Diagnostic)]
+pub enum MtlError {
+    /// A line is not what its first word says.
+    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: usize,
+        /// What belongs there.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// A name is given twice.
+    #[error("{}:{line}: expected each material once, found a second `newmtl {name}`; rename one of the two", path.display())]
+    Twice {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: usize,
+        /// The name.
+        name: String,
+    },
+    /// A material's figures do not go together.
+    #[error("{}:{line}: material {name}: expected {expected}, found {found}", path.display())]
+    Material {
+        /// The file.
+        path: PathBuf,
+        /// The line of its `newmtl`.
+        line: usize,
+        /// The material.
+        name: String,
+        /// What belongs there, and what to do.
+        expected: &'static str,
+        /// What stands there.
+        found: String,
+    },
+    /// tobj refuses what our pass has accepted.
+    #[error("{}: {source}", path.display())]
+    Loader {
+        /// The file.
+        path: PathBuf,
+        /// What tobj says.
+        source: tobj::LoadError,
+    },
+}
+
+/// Reads the materials of a library in their order; `name` stands for the file in messages. No input makes it panic.
+///
+/// # Errors
+/// [`MtlError`], with the line where there is one.
+pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, MtlError> {
+    let mut pass = Pass { name, clean: String::new(), materials: Vec::new(), seen: BTreeSet::new() };
+    for (line, text) in logical_lines(bytes) {
+        pass.line(line, &text)?;
+    }
+    let (read, _) = tobj::load_mtl_buf(&mut pass.clean.as_bytes())
+        .map_err(|source| MtlError::Loader { path: name.into(), source })?;
+    let pairs = pass.materials.iter().zip(read);
+    pairs.map(|((line, material), read)| assemble(&read, name, *line, material)).collect()
+}
+
+/// The first pass: the checked lines for tobj, and each material's line and name.
+struct Pass<'a> {
+    name: &'a Path,
+    clean: String,
+    materials: Vec<(usize, String)>,
+    seen: BTreeSet<String>,
+}
+
+impl Pass<'_> {
+    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), MtlError> {
+        let words = words(text);
+        let Some((&key, values)) = words.split_first() else { return Ok(()) };
+        match key {
+            b"newmtl" => self.material(line, text[6..].trim_ascii()),
+            b"Kd" | b"Ks" | b"Tf" => self.color(line, key, values, text, "three numbers from 0 to 1", |v| v <= 1.0),
+            b"Ke" => self.color(line, key, values, text, "three numbers of at least 0", |_| true),
+            b"Ns" => self.number(line, key, values, text, "`Ns` with a number of at least 0", |_| true),
+            b"Ni" => self.number(line, key, values, text, "`Ni` with a number above 0", |v| v > 0.0),
+            b"d" => self.number(line, key, values, text, "`d` with a number from 0 to 1", |v| v <= 1.0),
+            b"Tr" => self.number(line, key, values, text, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
+            b"illum" => {
+                let model = |v: f32| v <= 10.0 && v.fract() == 0.0;
+                self.number(line, key, values, text, "`illum` with a whole number from 0 to 10", model)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn material(&mut self, line: usize, name: &[u8]) -> Result<(), MtlError> {
+        let text = std::str::from_utf8(name).ok().filter(|name| !name.is_empty());
+        let Some(text) = text else {
+            return Err(self.syntax(line, "the name of a material `newmtl name`", name));
+        };
+        if !self.seen.insert(text.into()) {
+            return Err(MtlError::Twice { path: self.name.into(), line, name: text.into() });
+        }
+        // tobj gets a number for the name: it need not cope with all that a name may hold.
+        self.clean.push_str(&format!("newmtl {}\n", self.materials.len()));
+        self.materials.push((line, text.into()));
+        Ok(())
+    }
+
+    fn color(
+        &mut self,
+        line: usize,
+        key: &[u8],
+        values: &[&[u8]],
+        text: &[u8],
+        expected: &'static str,
+        allowed: impl Fn(f32) -> bool,
+    ) -> Result<(), MtlError> {
+        let channels: Vec<f32> = values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
+        // One number stands for three.
+        let channels = match (values.len(), channels[..].len()) {
+            (3, 3) => [channels[0], channels[1], channels[2]],
+            (1, 1) => [channels[0]; 3],
+            _ => return Err(self.syntax(line, expected, text)),
+        };
+        self.keep(line, key, &channels, text)
+    }
+
+    fn number(
+        &mut self,
+        line: usize,
+        key: &[u8],
+        values: &[&[u8]],
+        text: &[u8],
+        expected: &'static str,
+        allowed: impl Fn(f32) -> bool,
+    ) -> Result<(), MtlError> {
+        match values {
+            &[word] => match number(word).filter(|&v| allowed(v)) {
+                Some(value) => self.keep(line, key, &[value], text),
+                None => Err(self.syntax(line, expected, text)),
+            },
+            _ => Err(self.syntax(line, expected, text)),
+        }
+    }
+
+    fn keep(&mut self, line: usize, key: &[u8], values: &[f32], text: &[u8]) -> Result<(), MtlError> {
+        if self.materials.is_empty() {
+            return Err(self.syntax(line, "`newmtl name` before the first figure of a material", text));
+        }
+        self.clean.push_str(&String::from_utf8_lossy(key));
+        for value in values {
+            self.clean.push_str(&format!(" {value}"));
+        }
+        self.clean.push('\n');
+        Ok(())
+    }
+
+    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> MtlError {
+        MtlError::Syntax { path: self.name.into(), line, expected, found: quoted(found) }
+    }
+}
+
+/// A finite number that is not negative.
+fn number(word: &[u8]) -> Option<f32> {
+    let value: f32 = std::str::from_utf8(word).ok()?.parse().ok()?;
+    (value.is_finite() && value >= 0.0).then_some(value)
+}
+
+/// A material of what tobj has read.
+fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Result<Material, MtlError> {
+    let wrong =
+        |expected, found: String| MtlError::Material { path: path.into(), line, name: name.into(), expected, found };
+    let unknown = |key: &str| -> Option<Vec<f32>> {
+        let text = read.unknown_param.get(key)?;
+        text.split_whitespace().map(|word| word.parse().ok()).collect()
+    };
+    let albedo = read.diffuse.unwrap_or([0.0; 3]);
+    let model = read.illumination_model.unwrap_or(2);
+    let passes = match (read.dissolve, unknown("Tr").as_deref()) {
+        (Some(opaque), _) => Some(1.0 - opaque),
+        (None, Some(&[clear])) => Some(clear),
+        _ => None,
+    };
+    let surface = match model {
+        4 | 6 | 7 | 9 => {
+            let filter = unknown("Tf").and_then(|channels| Color::try_from(channels).ok());
+            let transmittance = filter.unwrap_or([passes.unwrap_or(1.0); 3]);
+            Surface::Glass { index: read.optical_density.unwrap_or(INDEX), transmittance }
+        }
+        _ if passes.is_some_and(|share| share > 0.0) => {
+            let expected = "`illum 6` where `d` is below 1 or `Tr` above 0: only glass lets light pass";
+            return Err(wrong(expected, format!("illum {model}")));
+        }
+        3 | 5 | 8 => Surface::Mirror { reflectance: read.specular.unwrap_or([1.0; 3]) },
+        _ => match read.specular.filter(|specular| specular.iter().any(|&channel| channel > 0.0)) {
+            None => Surface::Diffuse { albedo },
+            Some(specular) => {
+                let exponent = read.shininess.unwrap_or(EXPONENT);
+                if exponent <= 0.0 {
+                    return Err(wrong("`Ns` above 0 where `Ks` is", exponent.to_string()));
+                }
+                if let Some(channel) = (0..3).find(|&c| albedo[c] + specular[c] > 1.0 + ROUNDING) {
+                    let sum = albedo[channel] + specular[channel];
+                    return Err(wrong("`Kd` + `Ks` of at most 1 a channel: lower one of the two", sum.to_string()));
+                }
+                Surface::Glossy { albedo, specular, exponent }
+            }
+        },
+    };
+    let emission = read.emissive.unwrap_or([0.0; 3]);
+    Ok(Material { name: name.into(), surface, emission })
+}

@@ -1,0 +1,177 @@
+//! Scene files: what is written reads back to the same bits, the fixtures are the scenes, and no bytes cause a panic.
+
+use std::io;
+use std::path::Path;
+
+use crossbar::geom::Mesh;
+use crossbar::io::{parse_mtl, parse_scene, scene_file, scene_files, write_mtl, write_scene};
+use crossbar::scene::{Material, Scene, Surface, built};
+use proptest::prelude::*;
+
+const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
+                   usemtl glass\nf 1 2 3 4\nusemtl nowhere\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";
+const MTL: &str = "newmtl red\nKd 0.5 0.1 .1\nKs .25 .25 .25\nNs 20\nillum 2\nd 1\nmap_Kd a.png\n\nnewmtl glass\nillum 6\n\
+                   Ni 1.33\nTf .9 1 .9\nKe 0 1 2\n# end\nnewmtl mirror\nKs .5\nillum 3\n";
+const TOML: &str = "mesh = \"a.obj\"\n[[view]]\nname = \"v\"\neye = [0.0, 0, 1]\ntarget = [1.0, 0, 0]\nup = [0.0, 0, 1]\n\
+                    tan_half_height = 0.5\n[[point_light]]\nposition = [0.0, 0, 0]\nintensity = [1.0, 1, 1]\n";
+
+fn parse(obj: &[u8], mtl: &[u8]) -> Option<Scene> {
+    let library = &mut |name: &Path| match name.to_str() {
+        Some("a.mtl") => Ok(mtl.to_vec()),
+        _ => Err(io::Error::from(io::ErrorKind::NotFound)),
+    };
+    parse_scene(obj, Path::new("a.obj"), library).ok()
+}
+
+fn round_trip(scene: &Scene) -> Scene {
+    let (mut obj, mut mtl) = (Vec::new(), Vec::new());
+    write_scene(scene, "a.mtl", &mut obj).expect("written");
+    write_mtl(scene.materials(), &mut mtl).expect("written");
+    parse(&obj, &mtl).expect("a scene")
+}
+
+/// Everything that has to come back, as bits: corners, normals and materials of all triangles.
+fn bits(scene: &Scene) -> Vec<([[u32; 3]; 3], Option<[[u32; 3]; 3]>, String)> {
+    let bits = |corners: [[f32; 3]; 3]| corners.map(|corner| corner.map(f32::to_bits));
+    let triangle =
+        |(id, corners)| (bits(corners), scene.corner_normals(id).map(bits), format!("{:?}", scene.material(id)));
+    (0..).zip(scene.mesh().iter_corners()).map(triangle).collect()
+}
+
+#[test]
+fn the_good_scene_is_good() {
+    let scene = parse(OBJ.as_bytes(), MTL.as_bytes()).expect("a scene");
+    assert_eq!(scene.mesh().len(), 4);
+    assert_eq!(scene.material_of(), [0, 1, 1, 3]);
+    let names: Vec<&str> = scene.materials().iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["red", "glass", "mirror", "nowhere"]);
+    let red = Surface::Glossy { albedo: [0.5, 0.1, 0.1], specular: [0.25; 3], exponent: 20.0 };
+    assert_eq!(scene.materials()[0].surface, red);
+    assert_eq!(scene.materials()[1].surface, Surface::Glass { index: 1.33, transmittance: [0.9, 1.0, 0.9] });
+    assert_eq!(scene.materials()[1].emission, [0.0, 1.0, 2.0]);
+    assert_eq!(scene.materials()[2].surface, Surface::Mirror { reflectance: [0.5; 3] });
+    assert_eq!(scene.materials()[3], Material::diffuse("nowhere", [0.5; 3]));
+    assert_eq!(scene.corner_normals(0), Some([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.6, 0.0, 0.8]]));
+    assert_eq!(scene.corner_normals(1), None);
+    assert_eq!(scene.emitters(), [1, 2]);
+    assert!(scene_file::parse(TOML, Path::new("a.toml")).is_ok());
+}
+
+#[test]
+fn built_scenes_read_back_whole() {
+    for name in built::names() {
+        let scene = built::build(name).expect("a scene");
+        let mut back = round_trip(&scene);
+        let files = scene_files(&scene, "a").expect("files");
+        let text = std::str::from_utf8(&files[0].1).expect("text");
+        (_, back.views, back.point_lights) = scene_file::parse(text, Path::new("a.toml")).expect("a scene file");
+        assert_eq!(back, scene, "{name}");
+    }
+}
+
+/// The scenes stand as files beside the models, byte for byte: no change of a generator goes unseen, on any machine.
+#[test]
+fn fixtures_are_the_scenes() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
+    for name in ["cornell-box", "office", "office-floor", "teapot-room"] {
+        let scene = built::build(name).expect("a scene");
+        for (file, bytes) in scene_files(&scene, &name.replace('-', "_")).expect("files") {
+            let path = folder.join(file);
+            if std::env::var_os("CROSSBAR_BLESS").is_some() {
+                std::fs::create_dir_all(&folder).expect("a folder");
+                std::fs::write(&path, &bytes).expect("written");
+            }
+            assert!(bytes.len() < 2_500_000, "{} has {} bytes", path.display(), bytes.len());
+            let fixture = std::fs::read(&path).expect("the fixture");
+            assert!(
+                fixture == bytes,
+                "run with CROSSBAR_BLESS=1 to write {}, if the scene is to change",
+                path.display()
+            );
+        }
+        let path = folder.join(name.replace('-', "_")).with_extension("toml");
+        assert_eq!(scene_file::load(&path).expect("the scene"), scene, "{name}");
+    }
+}
+
+/// A good text with some bytes replaced, put in or left out.
+fn mutated(good: &'static str) -> impl Strategy<Value = Vec<u8>> {
+    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), 0..8);
+    edits.prop_map(move |edits| {
+        let mut bytes = good.as_bytes().to_vec();
+        for (place, kind, byte) in edits {
+            let at = place.index(bytes.len());
+            match kind {
+                0 => bytes[at] = byte,
+                1 => bytes.insert(at, byte),
+                _ => drop(bytes.remove(at)),
+            }
+        }
+        bytes
+    })
+}
+
+fn word() -> impl Strategy<Value = String> {
+    let known = "v vn f usemtl mtllib newmtl Kd Ks Ke Ns Ni Tf d Tr illum a.mtl red 0 1 0.5 -1 2 6 3 7 11 1e39 nan -0 1//1 1//-1 \
+                 2//2 3//9 2/1/1 1e-45 # \\ [[view]] name = \" é";
+    let mut known: Vec<&str> = known.split(' ').collect();
+    known.extend(["\n"; 12]);
+    prop::sample::select(known).prop_map(str::to_owned)
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    let share = || (0_u32..=0x3f00_0000).prop_map(f32::from_bits);
+    let color = move || [share(), share(), share()];
+    let above = || (1_u32..0x7f80_0000).prop_map(f32::from_bits);
+    prop_oneof![
+        color().prop_map(|albedo| Surface::Diffuse { albedo }),
+        (color(), color(), above())
+            .prop_filter("a lobe that is not black", |(_, specular, _)| specular != &[0.0; 3])
+            .prop_map(|(albedo, specular, exponent)| Surface::Glossy { albedo, specular, exponent }),
+        color().prop_map(|reflectance| Surface::Mirror { reflectance }),
+        (above(), color()).prop_map(|(index, transmittance)| Surface::Glass { index, transmittance }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1500))]
+
+    #[test]
+    fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let _ = parse(&bytes, MTL.as_bytes());
+        let _ = parse(OBJ.as_bytes(), &bytes);
+        let _ = scene_file::parse(&String::from_utf8_lossy(&bytes), Path::new("a.toml"));
+    }
+
+    #[test]
+    fn mutated_files_do_no_harm(obj in mutated(OBJ), mtl in mutated(MTL), toml in mutated(TOML)) {
+        if let Some(scene) = parse(&obj, &mtl) {
+            let plain = |material: &Material| !material.name.contains(|c: char| c.is_whitespace() || c == '\\');
+            if scene.materials().iter().all(plain) {
+                prop_assert_eq!(bits(&round_trip(&scene)), bits(&scene));
+            }
+        }
+        let _ = scene_file::parse(&String::from_utf8_lossy(&toml), Path::new("a.toml"));
+    }
+
+    #[test]
+    fn known_words_in_any_order_do_no_harm(words in prop::collection::vec(word(), 0..60)) {
+        let text = words.join(" ");
+        let _ = parse(text.as_bytes(), MTL.as_bytes());
+        let _ = parse_mtl(text.as_bytes(), Path::new("a.mtl"));
+        let _ = scene_file::parse(&text, Path::new("a.toml"));
+    }
+
+    #[test]
+    fn materials_read_back_to_the_same_bits(
+        surfaces in prop::collection::vec((surface(), any::<bool>(), (0_u32..0x7f80_0000).prop_map(f32::from_bits)), 1..8),
+    ) {
+        let materials: Vec<Material> = (0..).zip(surfaces).map(|(number, (surface, emits, emission))| {
+            let emission = if emits { [emission, 0.0, 1.0] } else { [0.0; 3] };
+            Material { name: format!("m{number}"), surface, emission }
+        }).collect();
+        let triangle = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a triangle");
+        let scene = Scene::new(triangle, materials, vec![0], Vec::new()).expect("a scene");
+        prop_assert_eq!(round_trip(&scene), scene);
+    }
+}
