@@ -7,7 +7,7 @@ use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine, Readback};
 use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::ray_engine::ray_tree::RayTreeParameters;
-use crossbar::ray_engine::{Hit, HostTracer};
+use crossbar::ray_engine::{Hit, HostTracer, Outputs};
 use crossbar::scene::Camera;
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -59,6 +59,8 @@ fn schedules_change_counts_and_never_a_hit() {
             EngineParameters { triangles: 1..=40, rays: 64, ..base.clone() },
             EngineParameters { rays: 16, waiting: 500, readback: Readback::Asynchronous { passes: 3 }, ..base.clone() },
             EngineParameters { readback: Readback::InfinitelyFast, ..base.clone() },
+            EngineParameters { cull: false, beams: false, shuffle: None, ..base.clone() },
+            EngineParameters { shuffle: Some(99), outputs: Outputs::Id, small_ids: true, rays: 16, ..base.clone() },
         ];
         for (i, parameters) in variants.into_iter().enumerate() {
             let (hits, engine) = trace(&mesh, &rays, parameters.clone());
@@ -92,6 +94,34 @@ fn order_and_bundles_do_not_show() {
 }
 
 #[test]
+fn threads_do_not_show() {
+    let (mesh, rays) = (teapot(3).expect("a teapot"), rays(1500));
+    let parameters = EngineParameters { octree: SMALL, rays: 32, record: true, ..EngineParameters::default() };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let (hits, mut engine) = pool.install(|| trace(&mesh, &rays, parameters.clone()));
+        (hits, engine.counts(), engine.take_log())
+    };
+    assert!(run(1) == run(3), "hits, counts and log");
+}
+
+#[test]
+fn rays_wait_until_the_cache_is_full_or_a_result_is_needed() {
+    let (mesh, rays) = (teapot(3).expect("a teapot"), rays(2000));
+    let parameters = EngineParameters { octree: SMALL, waiting: 1500, ..EngineParameters::default() };
+    let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
+    engine.submit(&rays[..1499]).expect("the card works");
+    assert!(engine.take_answers().is_empty() && engine.counts().passes == 0, "there is room for one more");
+    engine.submit(&rays[1499..1600]).expect("the card works");
+    let early = engine.take_answers().len();
+    assert!(early > 0, "the fullest bucket has left");
+    assert!(early < 1000, "and no more than had to: {early} answers");
+    engine.finish().expect("the card works");
+    assert_eq!(early + engine.take_answers().len(), 1600, "whatever waits is answered when results are needed");
+    assert_eq!(engine.counts().rays, 1600);
+}
+
+#[test]
 fn every_pass_is_in_the_log_with_the_work_around_it() {
     let (mesh, rays) = (teapot(3).expect("a teapot"), rays(2000));
     let parameters = EngineParameters { octree: SMALL, rays: 32, record: true, ..EngineParameters::default() };
@@ -107,7 +137,7 @@ fn every_pass_is_in_the_log_with_the_work_around_it() {
         log.iter().map(of).sum()
     };
     assert_eq!(host("ray-triangle-test"), counts.host_tests);
-    assert_eq!(host("octree-cell"), counts.traversal.cells);
+    assert_eq!(host("octree-cell"), counts.traversal.cells + counts.beam_cells);
     assert_eq!(host("result-read"), counts.pass_rays);
     assert!(counts.pass_rays >= 32 * counts.passes / 2 && counts.passes > 0);
 }

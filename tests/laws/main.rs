@@ -1,11 +1,13 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
 mod bad_geometry;
+mod beams;
 mod built;
 mod cases;
 mod comparing;
 mod culling;
 mod engine;
+mod engine_devices;
 mod engine_modes;
 mod geometry;
 mod ground_truth;

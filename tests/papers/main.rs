@@ -1,4 +1,5 @@
 //! What the papers print, and what follows from it.
 
+mod ray_cache;
 mod ray_engine;
 mod reproduce;

@@ -24,6 +24,10 @@ pub struct EngineCounts {
     pub forced_rays: u64,
     /// Ray-triangle tests on the host.
     pub host_tests: u64,
+    /// Cells tested against whole buckets of rays.
+    pub beam_cells: u64,
+    /// Rays of buckets that meet no cell with triangles: answered at once.
+    pub beam_rays: u64,
     /// The octree's.
     pub traversal: TraversalCounts,
     /// The ray tree's.

@@ -50,6 +50,8 @@ pub struct EngineParameters {
     pub small_ids: bool,
     /// Whether the vertex program culls triangles that no ray of a pass can hit.
     pub cull: bool,
+    /// Whether a bucket that leaves the tree is tested against the octree's cells first, as one beam.
+    pub beams: bool,
     /// Rays of a bundle enter the tree in random order (section 5.3), keyed by this seed; `None`: as they come.
     pub shuffle: Option<u64>,
     /// Whether the log of the run is kept.
@@ -69,8 +71,9 @@ impl Default for EngineParameters {
             readback: Readback::default(),
             outputs: Outputs::default(),
             small_ids: false,
-            cull: false,
-            shuffle: None,
+            cull: true,
+            beams: true,
+            shuffle: Some(1),
             record: false,
         }
     }

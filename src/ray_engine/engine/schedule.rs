@@ -9,7 +9,7 @@ use crate::geom::Ray;
 use crate::ray_engine::EngineError;
 use crate::ray_engine::barycentrics::plane_point;
 use crate::ray_engine::card::CardHit;
-use crate::ray_engine::octree::{CellId, Flow, Visit};
+use crate::ray_engine::octree::{Beam, CellId, Flow, Visit};
 
 impl RayEngine<'_> {
     /// A ray enters the tree; buckets leave it when it is full.
@@ -27,8 +27,25 @@ impl RayEngine<'_> {
 
     /// A bucket leaves the tree, and its rays start through the octree.
     pub(super) fn release_bucket(&mut self) -> Result<(), EngineError> {
-        self.ready.extend(self.tree.take().rays.into_iter().map(|flight| (flight, f64::NEG_INFINITY)));
+        let bucket = self.tree.take().rays;
+        if self.parameters.beams && self.misses_all(&bucket) {
+            self.counts.beam_rays += bucket.len() as u64;
+            bucket.into_iter().for_each(|flight| self.answer(flight));
+            return Ok(());
+        }
+        self.ready.extend(bucket.into_iter().map(|flight| (flight, f64::NEG_INFINITY)));
         self.drive()
+    }
+
+    /// Whether no ray of a bucket can meet a cell with triangles.
+    fn misses_all(&mut self, bucket: &[u32]) -> bool {
+        let rays: Vec<Ray> = bucket.iter().map(|flight| self.flights.at(*flight).ray).collect();
+        let octree = self.tracer.octree();
+        let Some(beam) = Beam::of(&rays).filter(|_| octree.sees(&rays)) else { return false };
+        let reached = octree.reached(&beam, Some(&self.cells), false);
+        self.counts.beam_cells += reached.tested;
+        self.note(Operation::OctreeCell, reached.tested);
+        reached.cells.is_empty()
     }
 
     /// Until nothing can go on but what is in flight: rays first, then caches that are full, in the order in which they came.

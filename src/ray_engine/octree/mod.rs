@@ -5,11 +5,13 @@
 //! what rounding can do to a plane's parameter; so whichever of two neighbours a ray on their common plane, edge or corner is
 //! said to go through, that one lists what is hit there. Both zeros are one direction.
 
+mod beam;
 mod build;
 mod cells;
 mod overlap;
 mod traverse;
 
+pub use beam::{Beam, Reached};
 pub use cells::{CellId, GpuCells};
 pub use traverse::{Flow, TraversalCounts, Visit};
 

@@ -1,0 +1,93 @@
+//! The engine on every kind of card and on every executor.
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::random::Keyed;
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::ray_engine::{Crossbar, Hit};
+use crossbar::scene::Camera;
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::{Executor, ExecutorKind};
+
+fn profile(name: &str) -> Profile {
+    Profile::named(name).expect("a profile")
+}
+
+/// Part of the teapot, and rays of more than one origin at its triangles.
+fn scene() -> (Mesh, Vec<Ray>) {
+    let whole = teapot(2).expect("a teapot");
+    let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..96].to_vec()).expect("a part of it");
+    let (random, eye) = (Keyed::new(3), Camera::teapot(1, 1).expect("a camera").rays()[0].origin());
+    let ray = |i: u64| {
+        let [a, b, c] = mesh.corners((i / 4) as u32).expect("a triangle");
+        let [p, q] = [0, 1].map(|k| 0.5 * random.unit(i, 0, k) as f32);
+        let from = [0, 1, 2].map(|k| eye[k] + 0.01 * random.unit(i, 1, k as u64) as f32);
+        let to = [0, 1, 2].map(|k| a[k] + p * (b[k] - a[k]) + q * (c[k] - a[k]));
+        Ray::new(from, [0, 1, 2].map(|k| to[k] - from[k])).expect("a ray")
+    };
+    let rays = (0..384).map(ray).collect();
+    (mesh, rays)
+}
+
+fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
+    hits.iter().map(|hit| hit.map(|h| (h.triangle, h.t.to_bits()))).collect()
+}
+
+/// One GPU cell, the whole scene, and one pass of as many rays as the list has: then program, rays and units are those of the crossbar.
+#[test]
+fn a_pass_of_the_engine_finds_what_the_crossbar_finds() {
+    let (mesh, rays) = scene();
+    for device in ["r200", "r300", "r350", "nv30", "nv35", "ideal-fp32", "ideal-fp24", "ideal-fp16", "ideal-s3.12"] {
+        for sides in [Sides::Front, Sides::Both] {
+            let crossbar = Crossbar::new(profile(device), ExecutorKind::Batch).all_pairs(true);
+            let mut seen = 0;
+            for bundle in rays.chunks(64) {
+                let parameters =
+                    EngineParameters { triangles: 1..=1000, rays: 64, sides, ..EngineParameters::default() };
+                let mut engine =
+                    RayEngine::new(&mesh, profile(device), ExecutorKind::Batch, parameters).expect("an engine");
+                let found = engine.trace(bundle).expect("the card works");
+                assert_eq!(engine.counts().pass_rays, 64, "{device}: one pass of all");
+                let wanted = crossbar.intersect_list(&mesh, bundle, sides).expect("the card works");
+                assert_eq!(bits(&found), bits(&wanted), "{device} {sides:?}");
+                seen += found.iter().flatten().count();
+            }
+            assert!(seen > 100, "{device} {sides:?}: {seen} hits");
+        }
+    }
+}
+
+fn executors() -> Vec<Executor> {
+    let hosts = [ExecutorKind::Scalar, ExecutorKind::Batch].map(Executor::from);
+    #[cfg(feature = "wgpu")]
+    if let Some(gpu) = refsim::exec::gpu::testing::shared().unwrap_or_else(|e| panic!("{e}")) {
+        let gpu = Executor::Gpu { gpu, mode: refsim::exec::NumberMode::Integer };
+        return hosts.into_iter().chain([gpu]).collect();
+    }
+    hosts.into()
+}
+
+type Run = (Vec<Option<(u32, u32)>>, EngineCounts, Vec<Event>);
+
+#[test]
+fn executors_do_not_show() {
+    let (mesh, rays) = scene();
+    for device in ["r200", "r300", "nv35", "ideal-fp32"] {
+        let octree = OctreeParameters { most_triangles: 4, most_depth: 4 };
+        let parameters = EngineParameters { octree, rays: 8, record: true, ..EngineParameters::default() };
+        let run = |executor: &Executor| -> Run {
+            let mut engine = RayEngine::new(&mesh, profile(device), executor, parameters.clone()).expect("an engine");
+            let hits = engine.trace(&rays).expect("the card works");
+            (bits(&hits), engine.counts(), engine.take_log())
+        };
+        let all = executors();
+        let first = run(&all[0]);
+        assert!(first.1.passes > 3, "{device}: {:?}", first.1);
+        for executor in &all[1..] {
+            assert!(run(executor) == first, "{device} on {:?}", executor.kind());
+        }
+    }
+}
