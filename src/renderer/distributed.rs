@@ -11,7 +11,8 @@ use super::{RenderError, Settings};
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
 
-/// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters and by each point light; a glossy
+/// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the point lights if
+/// the scene has no emitters); a glossy
 /// lobe sends one ray into a direction drawn from it, which sees emitters and other surfaces; a mirror sends one ray, glass one of its two, by
 /// chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
 ///
@@ -25,7 +26,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::new(scene);
+    let lamps = Lamps::areas_of(scene);
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lamps })
 }

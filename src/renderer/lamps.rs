@@ -1,8 +1,10 @@
 //! Lights: the triangles that shine, and the points.
 
-use super::sampling::{Table, triangle};
+use std::f64::consts::PI;
+
+use super::sampling::{Table, cosine, sphere, triangle};
 use super::surfel::{Place, Surfel};
-use super::vector::{Vec3, cross, dot, length, mean, scale, sub, wide};
+use super::vector::{Vec3, cross, dot, length, mean, narrow, scale, sub, wide};
 use super::wave::Dice;
 use crate::geom::Ray;
 use crate::scene::Scene;
@@ -19,7 +21,16 @@ pub(super) struct Arriving {
     pub(super) density: f64,
 }
 
-/// The lights of a scene.
+/// Light that leaves a lamp.
+pub(super) struct Leaving {
+    /// Where it starts and where it goes.
+    pub(super) ray: Ray,
+    /// Flux over the density of the choice: the mean over all choices is the flux of all lamps.
+    pub(super) power: Vec3,
+}
+
+/// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters that they stand for; a renderer that
+/// used both would light everything twice.
 pub(super) struct Lamps<'a> {
     scene: &'a Scene,
     emitters: Vec<u32>,
@@ -31,9 +42,19 @@ pub(super) struct Lamps<'a> {
 }
 
 impl<'a> Lamps<'a> {
-    /// Collects what shines.
-    pub(super) fn new(scene: &'a Scene) -> Self {
+    /// The points alone.
+    pub(super) fn points_of(scene: &'a Scene) -> Self {
+        Self::new(scene, Vec::new())
+    }
+
+    /// The emitters; the points only if there are no emitters.
+    pub(super) fn areas_of(scene: &'a Scene) -> Self {
         let emitters = scene.emitters();
+        let points = if emitters.is_empty() { Self::new(scene, Vec::new()).points } else { Vec::new() };
+        Self { points, ..Self::new(scene, emitters) }
+    }
+
+    fn new(scene: &'a Scene, emitters: Vec<u32>) -> Self {
         let area = |id: u32| {
             let [a, b, c] = scene.mesh().corners(id).unwrap_or([[0.0; 3]; 3]).map(wide);
             length(cross(sub(b, a), sub(c, a))) / 2.0
@@ -52,9 +73,18 @@ impl<'a> Lamps<'a> {
         self.points.len()
     }
 
-    /// Flux of all emitters: pi times radiance times area, the channels' mean.
-    pub(super) fn power(&self) -> f64 {
-        std::f64::consts::PI * self.table.total()
+    /// Light that leaves a lamp: from an emitter by the cosine to its front, from a point in all directions. Takes six numbers in [0, 1).
+    pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<Leaving> {
+        if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
+            let towards = cosine(place.normal, [number(3), number(4)]);
+            let ray = Ray::new(place.lifted(towards, 0.0), narrow(towards)).ok()?;
+            return Some(Leaving { ray, power: scale(radiance, PI / density) });
+        }
+        let table = Table::new(self.points.iter().map(|point| mean(point.1)));
+        let (light, chance) = table.draw(number(0))?;
+        let (position, intensity) = self.points[light];
+        let ray = Ray::new(narrow(position), narrow(sphere([number(3), number(4)]))).ok()?;
+        Some(Leaving { ray, power: scale(intensity, 4.0 * PI / chance) })
     }
 
     /// Radiance that a surfel sends towards the viewer: its material's, from front faces alone.

@@ -46,11 +46,6 @@ impl Lobes {
         Self { specular: [0.0; 3], ..self }
     }
 
-    /// The share of light that both lobes send on, about.
-    pub(super) fn total(&self) -> Vec3 {
-        add(self.albedo, self.specular)
-    }
-
     /// The chance of the glossy lobe when a direction is chosen.
     fn chance_of_gloss(&self) -> f64 {
         let (matt, gloss) = (mean(self.albedo), mean(self.specular));

@@ -4,6 +4,7 @@
 //! - [`whitted`]: point lights with hard shadows, mirrors, glass (Whitted 1980);
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
+//! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
 //! - [`visibility`] and [`form_factor`]: rays as questions, without a picture.
 //!
 //! All work breadth first: they make a bundle of rays, have it cast by whoever is behind [`crate::geom::Caster`], shade, and make the next bundle.
@@ -19,6 +20,8 @@ pub mod fresnel;
 mod lamps;
 mod lobes;
 pub mod path;
+pub mod photon;
+mod photon_map;
 pub mod sampling;
 mod settings;
 mod surfel;

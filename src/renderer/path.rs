@@ -42,7 +42,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::new(scene);
+    let lamps = Lamps::areas_of(scene);
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lamps, direct })
 }

@@ -22,6 +22,14 @@ pub fn cosine(normal: Vec3, u: [f64; 2]) -> Vec3 {
     turned([x, y, (1.0 - x * x - y * y).max(0.0).sqrt()], normal)
 }
 
+/// A direction, uniform over the sphere.
+pub fn sphere(u: [f64; 2]) -> Vec3 {
+    let z = 1.0 - 2.0 * u[0];
+    let across = (1.0 - z * z).max(0.0).sqrt();
+    let [x, y] = on_circle(u[1]);
+    [across * x, across * y, z]
+}
+
 /// A direction about a unit axis with density `(n + 1) / (2 pi) * cos^n`, for Phong's lobe of exponent n.
 pub fn lobe(axis: Vec3, exponent: f64, u: [f64; 2]) -> Vec3 {
     // 1 - u is never 0.

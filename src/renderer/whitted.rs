@@ -27,7 +27,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::new(scene);
+    let lamps = Lamps::points_of(scene);
     // A ray may become two at each glass surface on its way; few do.
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lamps })

@@ -1,0 +1,125 @@
+//! Photons from the lamps to where they land.
+
+use rayon::prelude::*;
+
+use crate::geom::Hit;
+use crate::renderer::lamps::Lamps;
+use crate::renderer::lobes::{Lobes, one_way};
+use crate::renderer::photon_map::Photon;
+use crate::renderer::surfel::Surfel;
+use crate::renderer::tracer::{Kind, Tracer};
+use crate::renderer::vector::{Vec3, dot, largest, mul, scale};
+use crate::renderer::wave::{Dice, Flight};
+use crate::renderer::{RenderError, Settings};
+use crate::scene::Scene;
+
+/// Photons count from here in the random numbers, so that they share none with pixels.
+const FIRST: u64 = 1 << 40;
+/// Caustic photons' random numbers are not those of the global map.
+const CAUSTIC: u64 = 1 << 41;
+
+/// Photons of one map.
+pub(super) struct Shot<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) settings: &'a Settings,
+    pub(super) lamps: &'a Lamps<'a>,
+    /// How many.
+    pub(super) count: u32,
+    /// Whether only light counts that came by mirrors and glass alone, and by at least one.
+    pub(super) caustic: bool,
+}
+
+/// What becomes of a photon at a hit.
+#[derive(Default)]
+struct Landing {
+    stored: Option<Photon>,
+    next: Option<Flight>,
+}
+
+impl Shot<'_> {
+    /// Shoots them, and returns those that landed, by their number and then by their hits.
+    pub(super) fn landed(&self, tracer: &mut Tracer<'_>) -> Result<Vec<Photon>, RenderError> {
+        tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
+        let chunk = self.settings.bundle.clamp(1, 1 << 24) as u32;
+        let mut landed = Vec::new();
+        let mut start = 0;
+        while start < self.count {
+            let end = self.count.min(start.saturating_add(chunk));
+            let flights = (start..end).into_par_iter().filter_map(|photon| self.leaving(photon, start)).collect();
+            let mut part = self.follow(tracer, flights)?;
+            // A wave brings first hits before second ones; the map must not know where chunks end.
+            part.sort_by_key(|(number, _)| *number);
+            landed.extend(part.into_iter().map(|(_, photon)| photon));
+            tracer.advance(u64::from(end - start));
+            start = end;
+        }
+        Ok(landed)
+    }
+
+    fn leaving(&self, photon: u32, start: u32) -> Option<Flight> {
+        let first = FIRST + if self.caustic { CAUSTIC } else { 0 };
+        let dice = Dice::new(self.settings.seed, first + u64::from(photon), 0);
+        let leaving = self.lamps.leaving(|n| dice.before(n))?;
+        let weight = scale(leaving.power, 1.0 / f64::from(self.count));
+        Some(Flight { kind: Kind::Photon, weight, ..Flight::eye(leaving.ray, photon - start, dice) })
+    }
+
+    fn follow(&self, tracer: &mut Tracer<'_>, mut flights: Vec<Flight>) -> Result<Vec<(u32, Photon)>, RenderError> {
+        let mut landed = Vec::new();
+        while !flights.is_empty() {
+            let rays: Vec<_> = flights.iter().map(|flight| flight.ray).collect();
+            let hits = tracer.cast(&rays, |_| Kind::Photon)?;
+            let landings: Vec<Landing> =
+                flights.par_iter().zip(&hits).map(|(flight, hit)| self.land(flight, *hit)).collect();
+            let numbers = flights.iter().map(|flight| flight.slot);
+            landed.extend(numbers.zip(&landings).filter_map(|(slot, landing)| Some((slot, landing.stored?))));
+            flights = landings.into_iter().filter_map(|landing| landing.next).collect();
+        }
+        Ok(landed)
+    }
+
+    fn land(&self, flight: &Flight, hit: Option<Hit>) -> Landing {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+            return Landing::default();
+        };
+        let more = flight.depth + 1 < self.settings.depth;
+        let dice = flight.dice;
+        let Some(lobes) = Lobes::of(&surfel.material.surface) else {
+            let way = one_way(&surfel, dice.at(flight.depth, 3)).filter(|_| more);
+            let next = way.and_then(|way| go_on(flight, &surfel, way.towards, way.weight));
+            return Landing { stored: None, next };
+        };
+        let stored = (self.settings.depth > 0 && (!self.caustic || flight.depth > 0)).then_some(Photon {
+            at: surfel.place.at,
+            normal: surfel.normal,
+            from: surfel.view,
+            power: flight.weight,
+        });
+        if self.caustic || !more {
+            return Landing { stored, next: None };
+        }
+        let chosen = lobes.choose(&surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4));
+        let next = chosen.and_then(|chosen| {
+            let turned = adjoint(&surfel, chosen.towards);
+            go_on(flight, &surfel, chosen.towards, scale(chosen.weight, turned))
+        });
+        Landing { stored, next }
+    }
+}
+
+/// What light weighs more than importance at a shading normal (Veach 1997, equation 5.19).
+fn adjoint(surfel: &Surfel<'_>, towards: Vec3) -> f64 {
+    let smooth = dot(surfel.view, surfel.shading) * dot(towards, surfel.normal);
+    let flat = dot(surfel.view, surfel.normal) * dot(towards, surfel.shading);
+    if flat > 0.0 { smooth / flat } else { 0.0 }
+}
+
+/// Goes on with a chance of the weight, so that power stays about what it was.
+fn go_on(flight: &Flight, surfel: &Surfel<'_>, towards: Vec3, weight: Vec3) -> Option<Flight> {
+    let chance = largest(weight).min(1.0);
+    if chance <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
+        return None;
+    }
+    let power = mul(flight.weight, scale(weight, 1.0 / chance));
+    Some(flight.on(surfel.ray(towards)?, Kind::Photon, power))
+}

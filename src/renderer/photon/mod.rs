@@ -1,0 +1,173 @@
+//! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
+//!
+//! Two maps are filled from the lamps. The *global* map holds every landing on a diffuse or glossy surface; the *caustic* map those of light that
+//! met nothing but mirrors and glass before. What the eye sees of a diffuse part is then the sum of three that share no path: light straight from
+//! the lamps (a shadow ray), caustics (the caustic map's density), and light by other diffuse and glossy surfaces (gather rays, which end at
+//! the next such surface in the global map's density, and see no lamp themselves). Glossy lobes, mirrors and glass send rays on as in
+//! [`super::distributed`].
+//!
+//! Densities are taken over disks of finite size, so this is the one renderer whose mean is not the rendering equation's: it blurs within
+//! [`Photons::radius`], and darkens where a disk hangs over an edge.
+
+mod emit;
+
+use super::film::{Picture, expose};
+use super::lamps::Lamps;
+use super::lobes::{Lobes, one_way};
+use super::photon_map::{Photon, PhotonMap};
+use super::sampling::cosine;
+use super::surfel::Surfel;
+use super::tracer::{Kind, Tracer, Watch};
+use super::vector::{add, dot, largest, mul, scale, wide};
+use super::wave::{Flight, Scatter, Shade};
+use super::{RenderError, Settings, Vec3, distributed};
+use crate::geom::{Caster, Hit};
+use crate::scene::{Camera, Scene};
+
+/// The least cosine by which a photon's flux is turned back into what a shading normal makes of it.
+const LEAST_COSINE: f64 = 0.01;
+
+/// How photons are shot and counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Photons {
+    /// Photons shot for the global map.
+    pub global: u32,
+    /// Photons shot for the caustic map.
+    pub caustic: u32,
+    /// Nearest photons that an estimate takes.
+    pub nearest: u32,
+    /// How far an estimate looks at most, in units of the scene.
+    pub radius: f64,
+    /// Gather rays of each diffuse hit of a sample; 0 shows the global map itself.
+    pub gather: u32,
+}
+
+impl Photons {
+    /// 100,000 photons for each map, 60 nearest within 1/20 of the scene's diagonal, 16 gather rays.
+    pub fn for_scene(scene: &Scene) -> Self {
+        let diagonal = scene.mesh().bounds().map_or(1.0, |[low, high]| {
+            let way = super::vector::sub(wide(high), wide(low));
+            dot(way, way).sqrt()
+        });
+        Self { global: 100_000, caustic: 100_000, nearest: 60, radius: diagonal / 20.0, gather: 16 }
+    }
+
+    fn checked(&self) -> Result<(), RenderError> {
+        if self.radius > 0.0 && self.radius.is_finite() {
+            return Ok(());
+        }
+        let found = self.radius.to_string();
+        Err(RenderError::Settings { what: "the radius of photon estimates", expected: "a number above 0", found })
+    }
+}
+
+/// Renders with photon maps. `settings.depth` is the most surfaces that a photon meets, and the most rays that follow each other from the eye.
+///
+/// # Errors
+/// [`RenderError`] if the settings make no sense or the caster fails.
+pub fn render<'a>(
+    scene: &Scene,
+    camera: &Camera,
+    settings: &Settings,
+    photons: &Photons,
+    caster: &'a mut dyn Caster,
+    watch: &'a mut Watch<'a>,
+) -> Result<Picture, RenderError> {
+    settings.checked()?;
+    photons.checked()?;
+    let mut tracer = Tracer::new(caster, watch);
+    let lamps = Lamps::areas_of(scene);
+    let shot = |count, caustic| emit::Shot { scene, settings, lamps: &lamps, count, caustic };
+    let global = PhotonMap::new(shot(photons.global, false).landed(&mut tracer)?);
+    let caustic = PhotonMap::new(shot(photons.caustic, true).landed(&mut tracer)?);
+    let fan = 2 + photons.gather as usize + lamps.points();
+    let shader = Gathering { scene, settings, photons, global: &global, caustic: &caustic, lamps: &lamps };
+    expose(&mut tracer, camera, settings, fan, &shader)
+}
+
+struct Gathering<'a> {
+    scene: &'a Scene,
+    settings: &'a Settings,
+    photons: &'a Photons,
+    global: &'a PhotonMap,
+    caustic: &'a PhotonMap,
+    lamps: &'a Lamps<'a>,
+}
+
+impl Shade for Gathering<'_> {
+    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+        };
+        // Gather rays carry a density. They see no lamps: shadow rays and the caustic map have counted those.
+        let gathers = flight.density.is_some();
+        let seen = if gathers { [0.0; 3] } else { Lamps::seen(&surfel) };
+        let mut scatter = Scatter::of(mul(flight.weight, seen));
+        let more = flight.depth < self.settings.depth;
+        match Lobes::of(&surfel.material.surface) {
+            Some(lobes) if gathers => {
+                let light = self.estimate(self.global, &surfel, &lobes);
+                scatter.light = add(scatter.light, mul(flight.weight, light));
+            }
+            Some(lobes) => self.scatter(flight, &surfel, lobes, more, &mut scatter),
+            None if more => pass(flight, &surfel, &mut scatter),
+            None => {}
+        }
+        scatter
+    }
+}
+
+impl Gathering<'_> {
+    fn scatter(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
+        let diffuse = lobes.diffuse();
+        if largest(lobes.albedo) > 0.0 {
+            let landed = if self.photons.gather == 0 {
+                self.estimate(self.global, surfel, &diffuse)
+            } else {
+                distributed::direct(self.lamps, flight, surfel, &lobes, scatter);
+                self.gather(flight, surfel, &lobes, scatter);
+                self.estimate(self.caustic, surfel, &diffuse)
+            };
+            scatter.light = add(scatter.light, mul(flight.weight, landed));
+        }
+        if more && largest(lobes.specular) > 0.0 {
+            distributed::gloss(flight, surfel, lobes, scatter);
+        }
+    }
+
+    /// Rays by the cosine, so that each weighs the albedo over their number.
+    fn gather(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+        let rays = self.photons.gather;
+        let weight = scale(mul(flight.weight, lobes.albedo), 1.0 / f64::from(rays));
+        for ray in 0..u64::from(rays) {
+            let dice = flight.dice.branch(1 + ray);
+            let towards = cosine(surfel.shading, dice.pair(flight.depth, 4));
+            if dot(towards, surfel.normal) <= 0.0 {
+                continue;
+            }
+            let density = Some(dot(towards, surfel.shading).max(0.0));
+            let next = surfel.ray(towards).map(|ray| flight.on(ray, Kind::Gather, weight));
+            scatter.next.extend(next.map(|next| Flight { density, dice, ..next }));
+        }
+    }
+
+    /// Radiance by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading normal.
+    fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> Vec3 {
+        let Photons { nearest, radius, .. } = *self.photons;
+        map.density(surfel.place.at, surfel.normal, nearest as usize, radius, |photon: &Photon| {
+            let (value, _) = lobes.evaluate(surfel, photon.from);
+            let cosine = dot(photon.from, surfel.normal).max(LEAST_COSINE);
+            mul(photon.power, scale(value, 1.0 / cosine))
+        })
+    }
+}
+
+/// A mirror's ray, or one of glass; a gather ray stays one.
+fn pass(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
+    let weight = mul(flight.weight, way.weight);
+    if largest(weight) > 0.0 {
+        let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
+        scatter.next.extend(next.map(|next| Flight { density: flight.density, ..next }));
+    }
+}

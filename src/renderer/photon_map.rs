@@ -1,0 +1,229 @@
+//! Photons where they landed, and how dense they lie: a balanced kd-tree in one array (Jensen 1996; Bentley 1975).
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::PI;
+
+use super::vector::{Vec3, dot, sub};
+
+/// Photons count for a surface only if they landed on one that looks about the same way: within 45 degrees.
+const SAME_WAY: f64 = 0.707;
+
+/// Light that has landed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Photon {
+    /// Where.
+    pub(super) at: Vec3,
+    /// The normal of the triangle there, on the side that was hit.
+    pub(super) normal: Vec3,
+    /// Back to where it came from, length 1.
+    pub(super) from: Vec3,
+    /// Flux.
+    pub(super) power: Vec3,
+}
+
+/// A photon and the square of its distance; ordered by distance, then by place in the map, so that sums have one order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Near {
+    square: f64,
+    photon: u32,
+}
+
+impl Eq for Near {}
+
+impl Ord for Near {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.square.total_cmp(&other.square).then(self.photon.cmp(&other.photon))
+    }
+}
+
+impl PartialOrd for Near {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// A kd-tree: the middle of each range is its node, on the axis in `axes`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PhotonMap {
+    photons: Vec<Photon>,
+    axes: Vec<u8>,
+}
+
+impl PhotonMap {
+    /// A map of photons; the same photons in the same order make the same map.
+    pub(super) fn new(mut photons: Vec<Photon>) -> Self {
+        let mut axes = vec![0; photons.len()];
+        build(&mut photons, &mut axes);
+        Self { photons, axes }
+    }
+
+    /// The sum of `value` over the photons about a point, an area. Takes the `nearest` photons within `radius` that landed on a surface
+    /// that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the other k - 1 the sum: on an even spread that has
+    /// the right mean. Where fewer than `nearest` lie within the radius, all of them count and its own area does.
+    pub(super) fn density(
+        &self,
+        at: Vec3,
+        normal: Vec3,
+        nearest: usize,
+        radius: f64,
+        value: impl Fn(&Photon) -> Vec3,
+    ) -> Vec3 {
+        let mut search = Search {
+            map: self,
+            at,
+            normal,
+            nearest: nearest.max(2),
+            square: radius * radius,
+            found: BinaryHeap::new(),
+        };
+        search.range(0, self.photons.len());
+        let full = search.found.len() == search.nearest;
+        let mut found = search.found.into_sorted_vec();
+        let square = if full { found.pop().map_or(0.0, |last| last.square) } else { radius * radius };
+        if square <= 0.0 {
+            return [0.0; 3];
+        }
+        let mut sum = [0.0; 3];
+        for near in found {
+            sum = super::vector::add(sum, value(&self.photons[near.photon as usize]));
+        }
+        super::vector::scale(sum, 1.0 / (PI * square))
+    }
+}
+
+/// Puts the median of the widest axis in the middle, and does the same to both halves.
+fn build(photons: &mut [Photon], axes: &mut [u8]) {
+    if photons.len() < 2 {
+        return;
+    }
+    let axis = widest(photons);
+    let middle = photons.len() / 2;
+    // `select_nth_unstable` is deterministic; equal keys may swap, in the same way each time.
+    photons.select_nth_unstable_by(middle, |a, b| a.at[axis].total_cmp(&b.at[axis]));
+    axes[middle] = axis as u8;
+    let (left, right) = photons.split_at_mut(middle);
+    let (axes_left, axes_right) = axes.split_at_mut(middle);
+    build(left, axes_left);
+    build(&mut right[1..], &mut axes_right[1..]);
+}
+
+fn widest(photons: &[Photon]) -> usize {
+    let width = |axis: usize| {
+        let bounds = photons.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], photon| {
+            [low.min(photon.at[axis]), high.max(photon.at[axis])]
+        });
+        bounds[1] - bounds[0]
+    };
+    let widths = [width(0), width(1), width(2)];
+    (0..3).fold(0, |best, axis| if widths[axis] > widths[best] { axis } else { best })
+}
+
+struct Search<'a> {
+    map: &'a PhotonMap,
+    at: Vec3,
+    normal: Vec3,
+    nearest: usize,
+    /// Square of the distance within which photons are looked for; shrinks once enough are found.
+    square: f64,
+    found: BinaryHeap<Near>,
+}
+
+impl Search<'_> {
+    fn range(&mut self, start: usize, end: usize) {
+        if start >= end {
+            return;
+        }
+        let middle = start + (end - start) / 2;
+        let photon = &self.map.photons[middle];
+        let axis = usize::from(self.map.axes[middle]);
+        let beside = self.at[axis] - photon.at[axis];
+        let (near, far) = ((start, middle), (middle + 1, end));
+        let (near, far) = if beside <= 0.0 { (near, far) } else { (far, near) };
+        self.range(near.0, near.1);
+        self.offer(middle);
+        if beside * beside <= self.square {
+            self.range(far.0, far.1);
+        }
+    }
+
+    fn offer(&mut self, index: usize) {
+        let photon = &self.map.photons[index];
+        let way = sub(photon.at, self.at);
+        let near = Near { square: dot(way, way), photon: index as u32 };
+        if near.square > self.square || dot(photon.normal, self.normal) < SAME_WAY {
+            return;
+        }
+        self.found.push(near);
+        if self.found.len() > self.nearest {
+            self.found.pop();
+        }
+        if self.found.len() == self.nearest
+            && let Some(last) = self.found.peek()
+        {
+            self.square = last.square;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::Keyed;
+
+    fn scattered(count: u64) -> Vec<Photon> {
+        let random = Keyed::new(3);
+        let photon = |i| Photon {
+            at: [random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }],
+            normal: [0.0, 0.0, if i % 7 == 0 { -1.0 } else { 1.0 }],
+            from: [0.0, 0.0, 1.0],
+            power: [1.0; 3],
+        };
+        (0..count).map(photon).collect()
+    }
+
+    /// The same by looking at all photons.
+    fn slowly(photons: &[Photon], at: Vec3, nearest: usize, radius: f64) -> f64 {
+        let up = photons.iter().filter(|photon| photon.normal[2] > 0.0);
+        let mut squares: Vec<f64> = up.map(|photon| dot(sub(photon.at, at), sub(photon.at, at))).collect();
+        squares.sort_by(f64::total_cmp);
+        squares.retain(|&square| square <= radius * radius);
+        squares.truncate(nearest);
+        let full = squares.len() == nearest;
+        let count = squares.len() - usize::from(full);
+        let square = if full { squares[nearest - 1] } else { radius * radius };
+        count as f64 / (PI * square)
+    }
+
+    #[test]
+    fn the_nearest_are_those_that_a_plain_search_finds() {
+        let photons = scattered(500);
+        let map = PhotonMap::new(photons.clone());
+        let random = Keyed::new(4);
+        for i in 0..100 {
+            let at = [0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1);
+            for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
+                let found = map.density(at, [0.0, 0.0, 1.0], nearest, radius, |photon| photon.power)[0];
+                let expected = slowly(&photons, at, nearest, radius);
+                assert!((found - expected).abs() <= 1e-9 * expected, "{found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_even_spread_has_its_density() {
+        // 4000 photons on a square of side 1, seen from its middle.
+        let random = Keyed::new(9);
+        let photon = |i| Photon {
+            at: [random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0],
+            normal: [0.0, 0.0, 1.0],
+            from: [0.0, 0.0, 1.0],
+            power: [1.0 / 4000.0; 3],
+        };
+        let map = PhotonMap::new((0..4000).map(photon).collect());
+        let mean = (0..25).map(|i| [0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0]);
+        let mean = mean.map(|at| map.density(at, [0.0, 0.0, 1.0], 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
+        assert!((mean - 1.0).abs() < 0.05, "{mean}");
+        assert_eq!(PhotonMap::default().density([0.0; 3], [0.0, 0.0, 1.0], 10, 1.0, |p| p.power), [0.0; 3]);
+    }
+}
