@@ -20,6 +20,13 @@ impl Progress {
         Self(bar)
     }
 
+    /// `done` of `total` steps are done, of what `what` says now.
+    pub fn show(&self, what: String, done: u64, total: u64) {
+        self.0.set_length(total);
+        self.0.set_position(done);
+        self.0.set_message(what);
+    }
+
     /// `steps` more are done.
     pub fn advance(&self, steps: u64) {
         self.0.inc(steps);

@@ -21,7 +21,7 @@ pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     (across * across + along * along) / 2.0
 }
 
-/// Where light goes that crosses the boundary (Snell's law): `away` points from the surface to where it comes from, `normal` to the same
+/// Where a ray goes that crosses the boundary (Snell's law): `away` points from the surface back along the ray, `normal` to the same
 /// side. `None` under total internal reflection.
 pub fn refracted(away: Vec3, normal: Vec3, ratio: f64) -> Option<Vec3> {
     let cosine = dot(away, normal);
@@ -58,7 +58,7 @@ mod tests {
         let away = unit([0.6, 0.0, 0.8]).expect("a direction");
         let inside = refracted(away, normal, 1.0 / 1.5).expect("it enters");
         assert!((inside[0] + 0.4).abs() < 1e-15 && inside[2] < 0.0, "{inside:?}");
-        let back = refracted(scale(inside, -1.0), [0.0, 0.0, -1.0], 1.5).expect("it leaves as it came");
+        let back = refracted(inside, [0.0, 0.0, -1.0], 1.5).expect("it leaves as it came");
         assert!(length(sub(back, away)) < 1e-15);
         assert_eq!(refracted([0.8, 0.0, 0.6], normal, 1.5), None);
         assert_eq!(reflected([0.6, 0.0, 0.8], normal), [-0.6, 0.0, 0.8]);

@@ -1,4 +1,7 @@
-//! `crossbar render`: an OBJ by eye rays.
+//! `crossbar render`: an OBJ by eye rays on a card, and scenes by the host renderers.
+
+mod light;
+mod scene;
 
 use std::path::PathBuf;
 
@@ -23,15 +26,25 @@ Examples:
   crossbar render bunny.obj --out bunny
       bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
   crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
-      the same on a Radeon 8500";
+      the same on a Radeon 8500
+  crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out room
+      a scene of the project by path tracing: also colour in layers.exr
+  crossbar render teapot-room --caster engine --device r300 --executor batch
+      after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
 
-/// Trace the eye rays of a mesh: shaded picture, t and triangle
+/// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
+///
+/// An OBJ file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name, or anything with `--renderer`, is lit:
+/// first hits come from the host's octree or from the Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The mesh, a Wavefront OBJ file
-    #[arg(value_name = "SCENE.obj")]
+    /// A Wavefront OBJ file, or a scene of the project: cornell-box, office, office-floor, teapot-room, white-box
+    #[arg(value_name = "SCENE")]
     scene: PathBuf,
+
+    #[command(flatten)]
+    light: light::LightArgs,
 
     /// Pixels of the picture
     #[arg(long, value_name = "WxH", default_value = "512x512")]
@@ -49,7 +62,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
     up: [f32; 3],
 
-    /// Tangent of half the vertical field of view
+    /// Tangent of half the vertical field of view, where no view of the scene says it
     #[arg(long, value_name = "TAN", default_value_t = 0.375)]
     tan_half_height: f32,
 
@@ -57,7 +70,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "both")]
     sides: view::SidesArg,
 
-    /// The card; `exact` arithmetic needs none [default: ideal-fp32]
+    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -74,6 +87,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    if let Some(asked) = scene::lit(args)? {
+        return light::run(args, &asked, out);
+    }
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = load_obj(&args.scene)?;
     let camera = camera(args, &mesh)?;

@@ -1,0 +1,277 @@
+//! `crossbar render` with a host renderer.
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use clap::ValueEnum;
+use miette::IntoDiagnostic as _;
+use refsim::device::Profile;
+use serde_json::json;
+
+use super::scene::{Asked, camera};
+use super::{Args, Out, Problem, Verdict, view};
+use crate::cli::Progress;
+use crate::cli::executor::Decider;
+use crate::geom::Caster;
+use crate::geom::exact::Sides;
+use crate::io::atomic::FileSet;
+use crate::ray_engine::HostTracer;
+use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::ray_engine::octree::OctreeParameters;
+use crate::renderer::photon::{self, Photons};
+use crate::renderer::{Lens, Picture, Settings, Watch, distributed, eye, path, tone, whitted};
+use crate::report::picture::rgb8;
+use crate::report::{Channel, exr};
+use crate::scene::{Camera, Scene};
+
+/// How light is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Renderer {
+    /// Eye rays alone, with a lamp at the eye
+    Eye,
+    /// Point lights, hard shadows, mirrors, glass
+    Whitted,
+    /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
+    Distributed,
+    /// All light, by random walks, unbiased
+    Path,
+    /// All light, by photon maps and final gather
+    Photon,
+}
+
+/// Who finds first hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum CasterArg {
+    /// The host's octree, in single precision
+    Host,
+    /// The Ray Engine on `--device`, by `--executor`
+    Engine,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Light")]
+pub(super) struct LightArgs {
+    /// How light is found [default for scenes by name: whitted]
+    #[arg(long, value_enum, value_name = "R")]
+    renderer: Option<Renderer>,
+
+    /// Samples a pixel [default: 1 for eye, 4 for whitted, else 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    samples: Option<u32>,
+
+    /// The most surfaces that light meets between lamp and eye
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
+
+    /// Which random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// A view of the scene, by its name [default: its first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) view: Option<String>,
+
+    /// What radiance is multiplied by for picture.png; 1 is white
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
+    exposure: f64,
+
+    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
+    ambient: f64,
+
+    /// A lens: its radius, and the distance at which all is sharp
+    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens)]
+    lens: Option<Lens>,
+
+    /// Photons for each map [default: 100000]
+    #[arg(long, value_name = "N")]
+    photons: Option<u32>,
+
+    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
+    gather: Option<u32>,
+
+    /// Who finds first hits [default: host]
+    #[arg(long, value_enum, value_name = "C")]
+    caster: Option<CasterArg>,
+
+    /// Say on standard error how long it took, and how many rays a second that is
+    #[arg(long)]
+    time: bool,
+}
+
+impl LightArgs {
+    /// Whether anything was said that only makes sense of a lit scene.
+    pub(super) fn asked(&self) -> bool {
+        self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|x| x.is_finite())
+        .ok_or_else(|| format!("expected a number, found `{text}`"))
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err(format!("expected a number above 0, found `{text}`")) })
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    number(text)
+        .and_then(|x| if x >= 0.0 { Ok(x) } else { Err(format!("expected a number not below 0, found `{text}`")) })
+}
+
+fn parse_lens(text: &str) -> Result<Lens, String> {
+    let wrong = || format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`");
+    let (radius, focus) = text.split_once(',').ok_or_else(wrong)?;
+    Ok(Lens { radius: not_negative(radius).map_err(|_| wrong())?, focus: positive(focus).map_err(|_| wrong())? })
+}
+
+pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<Verdict> {
+    let renderer = args.light.renderer.unwrap_or(if asked.built { Renderer::Whitted } else { Renderer::Eye });
+    check_lights(renderer, args, &asked.scene)?;
+    let caster = args.light.caster.unwrap_or(CasterArg::Host);
+    if caster == CasterArg::Host && (args.device.is_some() || args.executor.is_some()) {
+        let help = "add `--caster engine`, or leave them out";
+        return Err(Problem::usage("`--device` and `--executor` are for the Ray Engine here", help).into());
+    }
+    let camera = camera(args, &asked.scene)?;
+    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    let sides = Sides::from(args.sides);
+    let mesh = asked.scene.mesh();
+    let (picture, engine) = match caster {
+        CasterArg::Host => {
+            let mut host = HostTracer::new(mesh, OctreeParameters::default(), sides);
+            (trace(renderer, args, &asked.scene, &camera, &mut host)?, None)
+        }
+        CasterArg::Engine => {
+            let decider = args.executor.unwrap_or(Decider::Batch);
+            let Some(executor) = decider.open(&args.gpu)? else {
+                let help = "name `--executor scalar`, `batch` or `wgpu`";
+                return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());
+            };
+            let parameters = EngineParameters { sides, ..EngineParameters::default() };
+            let mut engine = RayEngine::new(mesh, profile, executor, parameters)?;
+            (trace(renderer, args, &asked.scene, &camera, &mut engine)?, Some(engine.counts()))
+        }
+    };
+    view::write_folder(folder, &files(&picture, args.light.exposure)?)?;
+    tell(args, &picture, engine.as_ref(), out)?;
+    Ok(Verdict::Done)
+}
+
+/// A picture without any light is not what anybody asks for.
+fn check_lights(renderer: Renderer, args: &Args, scene: &Scene) -> Result<(), Problem> {
+    let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
+    let dark = match renderer {
+        Renderer::Eye => false,
+        Renderer::Whitted => !points && args.light.ambient <= 0.0,
+        _ => !points && !emitters,
+    };
+    let help = match emitters {
+        true => "use `--renderer distributed`, `path` or `photon`, which its emitters light; or `--ambient`",
+        false => "use `--renderer eye`, which brings its own lamp",
+    };
+    if dark { Err(Problem::usage("the scene has no lights that this renderer knows", help)) } else { Ok(()) }
+}
+
+fn trace(
+    renderer: Renderer,
+    args: &Args,
+    scene: &Scene,
+    camera: &Camera,
+    caster: &mut dyn Caster,
+) -> miette::Result<Picture> {
+    let light = &args.light;
+    let usual = match renderer {
+        Renderer::Eye => 1,
+        Renderer::Whitted => 4,
+        _ => 16,
+    };
+    let settings = Settings {
+        samples: light.samples.unwrap_or(usual),
+        depth: light.depth,
+        seed: light.seed,
+        lens: light.lens,
+        ambient: [light.ambient as f32; 3],
+        ..Settings::default()
+    };
+    let mut photons = Photons::for_scene(scene);
+    photons.global = light.photons.unwrap_or(photons.global);
+    photons.caustic = light.photons.unwrap_or(photons.caustic);
+    photons.gather = light.gather.unwrap_or(photons.gather);
+    let (start, bar) = (Instant::now(), Progress::new("rendering", 1));
+    let mut watch = |progress: crate::renderer::Progress| {
+        let rate = progress.rays as f64 / start.elapsed().as_secs_f64().max(1e-3) / 1e6;
+        bar.show(format!("{}, {rate:.2} M rays/s", progress.what), progress.done, progress.total);
+    };
+    let watch: &mut Watch<'_> = &mut watch;
+    let picture = match renderer {
+        Renderer::Eye => eye::render(scene, camera, &settings, caster, watch),
+        Renderer::Whitted => whitted::render(scene, camera, &settings, caster, watch),
+        Renderer::Distributed => distributed::render(scene, camera, &settings, caster, watch),
+        Renderer::Path => path::render(scene, camera, &settings, path::Direct::Both, caster, watch),
+        Renderer::Photon => photon::render(scene, camera, &settings, &photons, caster, watch),
+    };
+    let picture = picture.into_diagnostic()?;
+    if light.time {
+        let seconds = start.elapsed().as_secs_f64();
+        let rate = picture.counts.rays() as f64 / seconds.max(1e-9) / 1e6;
+        // Nothing is to be done if nobody reads this.
+        writeln!(std::io::stderr().lock(), "time: {seconds:.2} s, {rate:.3} M rays/s").ok();
+    }
+    Ok(picture)
+}
+
+fn files(picture: &Picture, exposure: f64) -> miette::Result<Vec<(String, Vec<u8>)>> {
+    let (w, h) = (picture.width as usize, picture.height as usize);
+    let [red, green, blue] = [0, 1, 2].map(|channel| picture.channel(channel));
+    let (t, triangles) = (picture.t(), picture.triangles());
+    let layers = [
+        ("R", Channel::Float(&red)),
+        ("G", Channel::Float(&green)),
+        ("B", Channel::Float(&blue)),
+        ("t", Channel::Float(&t)),
+        ("triangle", Channel::Uint(&triangles)),
+    ];
+    Ok(vec![
+        ("picture.png".to_owned(), rgb8(w, h, &tone::bytes(&picture.color, exposure))?),
+        ("layers.exr".to_owned(), exr(w, h, &layers)?),
+    ])
+}
+
+fn tell(args: &Args, picture: &Picture, engine: Option<&EngineCounts>, out: &mut Out) -> miette::Result<()> {
+    let (pixels, found) = (picture.first.len(), picture.first.iter().flatten().count());
+    let counts = picture.counts;
+    if out.json() {
+        let kinds: serde_json::Map<_, _> =
+            counts.kinds().into_iter().map(|(kind, n)| (kind.to_owned(), n.into())).collect();
+        let engine = engine.map(|engine| {
+            json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
+                    "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests })
+        });
+        let rays = json!({ "total": counts.rays(), "kinds": kinds, "bundles": counts.bundles });
+        out.document(&json!({ "pixels": pixels, "hits": found, "not_finite": picture.not_finite, "rays": rays,
+                              "engine": engine, "out": args.out }))?;
+        return Ok(());
+    }
+    let kinds: Vec<String> =
+        counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{n} {kind}")).collect();
+    out.line(format_args!("{} rays in {} bundles: {}", counts.rays(), counts.bundles, kinds.join(", ")))?;
+    if let Some(engine) = engine {
+        let share = 100.0 * engine.share_on_card();
+        out.line(format_args!(
+            "engine: {share:.1} % of rays met the card, in {} passes with {} tests; {} tests on the host",
+            engine.passes, engine.pass_tests, engine.host_tests
+        ))?;
+    }
+    if picture.not_finite > 0 {
+        out.line(format_args!("{} samples were not finite and count as black", picture.not_finite))?;
+    }
+    out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
+    Ok(())
+}
