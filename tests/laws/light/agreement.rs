@@ -1,0 +1,109 @@
+//! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
+
+use crossbar::renderer::path::Direct;
+use crossbar::renderer::{Picture, Settings, distributed, path};
+use crossbar::scene::{Scene, Surface};
+
+use super::{host, of, room, room_camera, settings, white};
+
+/// At most so many standard deviations between two pixels: by a normal law one of 1.7 million channels lies further off, so a right
+/// picture of 16 x 16 fails once in 2,000 seeds.
+const PIXEL_FAR: f64 = 5.0;
+
+fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> Picture {
+    of_size(16, scene, settings, direct)
+}
+
+fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> Picture {
+    let picture = path::render(scene, &room_camera(size, size), settings, direct, &mut host(scene), &mut |_| {});
+    picture.expect("a picture")
+}
+
+/// Walks find the lamp seldom: it takes many samples of few pixels before a normal law holds for each.
+const FEW: u32 = 4;
+/// As many samples as 96 of each of 16 x 16 pixels.
+const MANY: u32 = 96 * 16;
+
+/// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2), wider for long tails.
+fn agree(a: &Picture, b: &Picture) {
+    let (mut squares, mut count, mut sum, mut spread) = (0.0, 0.0, 0.0, 0.0);
+    for pixel in 0..a.color.len() {
+        for channel in 0..3 {
+            let variance = a.variance[pixel][channel] + b.variance[pixel][channel];
+            let off = a.color[pixel][channel] - b.color[pixel][channel];
+            if variance == 0.0 {
+                assert!(off.abs() < 1e-9, "pixel {pixel}: no chance, and {off} off");
+                continue;
+            }
+            assert!(
+                off * off < PIXEL_FAR * PIXEL_FAR * variance,
+                "pixel {pixel}: {off} off, spread {}",
+                variance.sqrt()
+            );
+            squares += off * off / variance;
+            count += 1.0;
+            sum += off;
+            spread += variance;
+        }
+    }
+    // Channels of a pixel go together: a third of the channels is independent.
+    let wide = 5.0 * (2.0 / (count / 3.0_f64)).sqrt();
+    assert!(count > 0.0, "something was left to chance");
+    assert!((squares / count - 1.0).abs() < wide, "mean square {} of {count}", squares / count);
+    assert!(sum * sum < 16.0 * 3.0 * spread, "together {sum} off, spread {}", spread.sqrt());
+}
+
+#[test]
+fn three_ways_to_the_lamp() {
+    let scene = room(1.6, &white(0.5));
+    let settings = |seed, samples| Settings { samples, depth: 4, seed, ..settings() };
+    agree(&paths(&scene, &settings(1, 96), Direct::Both), &paths(&scene, &settings(3, 96), Direct::Emitters));
+    let few = |seed, direct| of_size(FEW, &scene, &settings(seed, MANY), direct);
+    agree(&few(1, Direct::Both), &few(2, Direct::Walk));
+}
+
+#[test]
+fn roulette_does_not_show() {
+    // Paths of up to 3 hits meet no roulette; those of 12 do.
+    let gloss = of(Surface::Glossy { albedo: [0.3; 3], specular: [0.6, 0.5, 0.4], exponent: 20.0 });
+    let scene = room(1.6, &gloss);
+    let settings = |seed| Settings { samples: MANY, depth: 12, seed, ..settings() };
+    let few = |seed, direct| of_size(FEW, &scene, &settings(seed), direct);
+    let both = few(4, Direct::Both);
+    agree(&both, &few(5, Direct::Walk));
+    agree(&both, &few(6, Direct::Emitters));
+}
+
+#[test]
+fn distributed_rays_are_paths_with_one_diffuse_hit() {
+    let scene = room(1.0, &white(0.5));
+    let once = |seed| Settings { samples: 64, depth: 1, seed, ..settings() };
+    let camera = room_camera(16, 16);
+    let rays = distributed::render(&scene, &camera, &once(6), &mut host(&scene), &mut |_| {}).expect("a picture");
+    agree(&rays, &paths(&scene, &once(7), Direct::Both));
+    // A mirror between: one hit more for both, and no light between diffuse surfaces that only the walk would find.
+    let mirror = room(1.0, &of(Surface::Mirror { reflectance: [0.9; 3] }));
+    let picture = distributed::render(&mirror, &camera, &once(8), &mut host(&mirror), &mut |_| {}).expect("a picture");
+    assert!(picture.counts.reflection > 0);
+}
+
+#[test]
+fn a_lens_is_sharp_at_its_focus() {
+    use crossbar::renderer::{Lens, eye};
+    use crossbar::scene::Camera;
+    // A wall of two shades seen head on; with the wall at the focus the edge stays where it is, elsewhere it blurs.
+    let mut builder = super::Builder::default();
+    builder.quad([-4.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(0.25));
+    builder.quad([0.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(1.0));
+    let scene = builder.scene();
+    let camera = Camera::new([0.0, 0.0, 5.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, 16, 1).expect("a camera");
+    let shades = |focus| {
+        let lens = Some(Lens { radius: 0.5, focus });
+        let settings = Settings { samples: 64, lens, ..settings() };
+        let picture = eye::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {}).expect("a picture");
+        // Pixels that show neither shade alone.
+        picture.variance.iter().filter(|variance| variance[0] > 1e-4).count()
+    };
+    assert_eq!(shades(5.0), 0);
+    assert!(shades(2.5) >= 2);
+}

@@ -1,0 +1,97 @@
+//! The same picture, to the bit, for every number of threads, size of bundles and caster.
+
+use crossbar::geom::Caster;
+use crossbar::geom::exact::Sides;
+use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
+use crossbar::renderer::photon::Photons;
+use crossbar::renderer::{Lens, Picture, Settings, distributed, eye, path, photon, whitted};
+use crossbar::scene::{Camera, PointLight, Scene, Surface};
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::{host, of, room, room_camera, settings};
+
+type Render = fn(&Scene, &Camera, &Settings, &mut dyn Caster) -> Picture;
+
+const RENDERERS: [(&str, Render); 5] = [
+    ("eye", |scene, camera, settings, caster| {
+        eye::render(scene, camera, settings, caster, &mut |_| {}).expect("a picture")
+    }),
+    ("whitted", |scene, camera, settings, caster| {
+        whitted::render(scene, camera, settings, caster, &mut |_| {}).expect("a picture")
+    }),
+    ("distributed", |scene, camera, settings, caster| {
+        distributed::render(scene, camera, settings, caster, &mut |_| {}).expect("a picture")
+    }),
+    ("path", |scene, camera, settings, caster| {
+        path::render(scene, camera, settings, path::Direct::Both, caster, &mut |_| {}).expect("a picture")
+    }),
+    ("photon", |scene, camera, settings, caster| {
+        let photons = Photons { global: 500, caustic: 500, nearest: 10, radius: 0.4, gather: 3 };
+        photon::render(scene, camera, settings, &photons, caster, &mut |_| {}).expect("a picture")
+    }),
+];
+
+fn scene() -> Scene {
+    let mut scene = room(0.5, &of(Surface::Glass { index: 1.5, transmittance: [0.9, 1.0, 0.9] }));
+    scene.point_lights.push(PointLight { position: [0.3, -0.2, 1.8], intensity: [1.0; 3] });
+    scene
+}
+
+fn usual() -> Settings {
+    Settings { samples: 3, lens: Some(Lens { radius: 0.02, focus: 1.2 }), ..settings() }
+}
+
+/// All of a picture that may not change; the number of bundles may.
+fn essence(mut picture: Picture) -> Picture {
+    picture.counts.bundles = 0;
+    picture
+}
+
+#[test]
+fn bundles_and_threads_do_not_show() {
+    let (scene, camera) = (scene(), room_camera(9, 7));
+    for (name, render) in RENDERERS {
+        let expected = essence(render(&scene, &camera, &usual(), &mut host(&scene)));
+        assert!(expected.color.iter().any(|color| color[0] > 0.0), "{name} sees something");
+        for bundle in [1, 13, 200] {
+            let settings = Settings { bundle, ..usual() };
+            assert!(
+                essence(render(&scene, &camera, &settings, &mut host(&scene))) == expected,
+                "{name}, bundles of {bundle}"
+            );
+        }
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let found = pool.install(|| essence(render(&scene, &camera, &usual(), &mut host(&scene))));
+            assert!(found == expected, "{name}, {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn the_engine_makes_the_same_picture() {
+    let (scene, camera) = (scene(), room_camera(9, 7));
+    let profile = Profile::named("ideal-fp32").expect("a profile");
+    for (name, render) in RENDERERS {
+        let expected = essence(render(&scene, &camera, &usual(), &mut host(&scene)));
+        let parameters = EngineParameters { sides: Sides::Both, rays: 16, ..EngineParameters::default() };
+        let mut engine =
+            RayEngine::new(scene.mesh(), profile.clone(), ExecutorKind::Batch, parameters).expect("an engine");
+        let found = essence(render(&scene, &camera, &usual(), &mut engine));
+        assert!(found == expected, "{name}");
+        assert_eq!(engine.counts().rays, found.counts.rays());
+        assert!(engine.counts().rays_on_card > 0, "{name}: {:?}", engine.counts());
+    }
+}
+
+#[test]
+fn another_seed_is_another_picture() {
+    let (scene, camera) = (scene(), room_camera(9, 7));
+    for (name, render) in &RENDERERS[2..] {
+        let one = render(&scene, &camera, &usual(), &mut host(&scene));
+        let two = render(&scene, &camera, &Settings { seed: 2, ..usual() }, &mut host(&scene));
+        assert!(one.color != two.color, "{name}");
+        assert_eq!(one.first, two.first, "{name}: what the middles of pixels meet is no matter of chance");
+    }
+}

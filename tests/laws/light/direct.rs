@@ -1,0 +1,87 @@
+//! Light straight from a square, against Lambert's closed form of 1760.
+
+use std::f64::consts::PI;
+
+use crossbar::renderer::path::Direct;
+use crossbar::renderer::{Picture, Settings, distributed, path};
+use crossbar::scene::Scene;
+
+use super::{Builder, host, lamp, needle, settings, white, within_chance};
+
+type Vec3 = [f64; 3];
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Vec3, b: Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(a: Vec3) -> Vec3 {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}
+
+/// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle at which it is
+/// seen times the cosine between z and the normal of the plane through it and the origin.
+fn lambert(corners: &[Vec3]) -> f64 {
+    let side = |i: usize| {
+        let (a, b) = (unit(corners[i]), unit(corners[(i + 1) % corners.len()]));
+        libm::acos(dot(a, b)) * unit(cross(a, b))[2]
+    };
+    ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
+}
+
+/// The same for a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of its height.
+fn parallel_corner(a: f64, b: f64) -> f64 {
+    let (x, y) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
+    (a / x * libm::atan(b / x) + b / y * libm::atan(a / y)) / (2.0 * PI)
+}
+
+/// A floor, and a lamp from a corner along two sides.
+fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
+    let mut builder = Builder::default();
+    builder.quad([-3.0, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], white(0.75));
+    builder.quad(corner, u, v, lamp([2.0, 1.0, 0.5]));
+    let at = |a: f32, b: f32| [0, 1, 2].map(|k| f64::from(corner[k] + a * u[k] + b * v[k]));
+    let factor = lambert(&[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]);
+    (builder.scene(), factor)
+}
+
+fn pictures(scene: &Scene, samples: u32) -> Vec<Picture> {
+    let camera = needle([-2.0, 0.1, 0.3], [0.0; 3]);
+    let settings = Settings { samples, depth: 1, ..settings() };
+    let path =
+        |direct| path::render(scene, &camera, &settings, direct, &mut host(scene), &mut |_| {}).expect("a picture");
+    let distributed = distributed::render(scene, &camera, &settings, &mut host(scene), &mut |_| {}).expect("a picture");
+    vec![distributed, path(Direct::Emitters), path(Direct::Both), path(Direct::Walk)]
+}
+
+fn check(scene: &Scene, factor: f64) {
+    for picture in pictures(scene, 6000) {
+        within_chance(&picture, 0, [2.0, 1.0, 0.5].map(|radiance| 0.75 * radiance * factor));
+    }
+}
+
+#[test]
+fn a_square_straight_above() {
+    let (scene, factor) = lit([-1.0, -1.0, 1.5], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0]);
+    assert!((factor - 4.0 * parallel_corner(1.0 / 1.5, 1.0 / 1.5)).abs() < 1e-12, "two closed forms agree: {factor}");
+    check(&scene, factor);
+}
+
+#[test]
+fn a_square_that_stands_beside() {
+    let (scene, factor) = lit([0.8, -0.5, 0.25], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]);
+    assert!(factor > 0.05, "{factor}");
+    check(&scene, factor);
+}
+
+#[test]
+fn the_back_of_an_emitter_is_dark() {
+    let (scene, _) = lit([-1.0, -1.0, 1.5], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
+    for picture in pictures(&scene, 16) {
+        assert_eq!(picture.color[0], [0.0; 3]);
+    }
+}
