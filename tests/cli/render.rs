@@ -1,0 +1,83 @@
+//! `crossbar render` with the host renderers.
+
+use crate::{Ran, crossbar_in};
+
+fn render(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let mut all = vec!["render"];
+    all.extend(arguments);
+    (crossbar_in(folder.path(), &all, ""), folder)
+}
+
+/// A square, seen head on by the default camera well enough.
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
+
+#[test]
+fn every_renderer_makes_the_same_picture_twice() {
+    for renderer in ["eye", "whitted", "distributed", "path", "photon"] {
+        let arguments = ["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2", "--photons", "200"];
+        let (first, one) = render(&arguments);
+        assert_eq!((first.code, first.stderr.as_str()), (Some(0), ""), "{renderer}");
+        let mut again = arguments.to_vec();
+        again.extend(["--threads", "1"]);
+        let (second, two) = render(&again);
+        assert_eq!(first.stdout, second.stdout, "{renderer}");
+        for file in ["picture.png", "layers.exr"] {
+            let read = |folder: &tempfile::TempDir| {
+                std::fs::read(folder.path().join("out/render").join(file)).expect("written")
+            };
+            assert!(read(&one) == read(&two), "{renderer}: {file}");
+        }
+    }
+}
+
+#[test]
+fn what_it_says() {
+    let (ran, _folder) = render(&["cornell-box", "--size", "8x8", "--samples", "1"]);
+    insta::assert_snapshot!("render_cornell_box", ran.transcript());
+    let engine = ["cornell-box", "--size", "16x16", "--samples", "1", "--caster", "engine", "--json"];
+    let (ran, _folder) = render(&engine);
+    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(found["pixels"], 256);
+    assert_eq!(found["not_finite"], 0);
+    assert_eq!(found["rays"]["total"], found["engine"]["rays"]);
+}
+
+#[test]
+fn bad_input() {
+    let cases: [(&str, &[&str]); 10] = [
+        ("unknown_scene", &["teapot-rooms"]),
+        ("unknown_view", &["cornell-box", "--view", "behind"]),
+        ("view_and_eye", &["cornell-box", "--view", "front", "--eye", "0,0,0"]),
+        ("no_samples", &["cornell-box", "--samples", "0"]),
+        ("bad_lens", &["cornell-box", "--lens", "0.1"]),
+        ("bad_exposure", &["cornell-box", "--exposure", "-1"]),
+        ("device_of_the_host", &["cornell-box", "--device", "r300"]),
+        ("engine_in_exact_arithmetic", &["cornell-box", "--caster", "engine", "--executor", "exact"]),
+        ("no_lights", &["square.obj", "--renderer", "path"]),
+        ("missing_file", &["square2.obj", "--renderer", "eye"]),
+    ];
+    for (name, arguments) in cases {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        std::fs::write(folder.path().join("square.obj"), SQUARE).expect("written");
+        let mut all = vec!["render"];
+        all.extend(arguments);
+        let ran = crossbar_in(folder.path(), &all, "");
+        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{name} left something behind");
+        insta::assert_snapshot!(format!("render_{name}"), ran.stderr);
+    }
+}
+
+#[test]
+fn a_mesh_without_lights_is_seen_by_its_eye_rays() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("square.obj"), SQUARE).expect("written");
+    for more in [&["--samples", "4"][..], &["--renderer", "eye"], &["--caster", "engine"], &[]] {
+        let mut all = vec!["render", "square.obj", "--size", "8x8"];
+        all.extend(more);
+        let ran = crossbar_in(folder.path(), &all, "");
+        assert_eq!(ran.code, Some(0), "{more:?}: {}", ran.stderr);
+        assert!(ran.stdout.contains("pixels hit"), "{more:?}");
+    }
+}
