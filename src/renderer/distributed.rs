@@ -2,7 +2,7 @@
 
 use super::film::{Picture, expose};
 use super::lamps::Lamps;
-use super::lobes::{Lobes, one_way};
+use super::lobes::{Lobes, one_way, ways};
 use super::surfel::Surfel;
 use super::tracer::{Kind, Tracer, Watch};
 use super::vector::{largest, mul, wide};
@@ -13,8 +13,8 @@ use crate::scene::{Camera, Scene};
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the point lights if
 /// the scene has no emitters); a glossy
-/// lobe sends one ray into a direction drawn from it, which sees emitters and other surfaces; a mirror sends one ray, glass one of its two, by
-/// chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
+/// lobe sends one ray into a direction drawn from it, which sees emitters and other surfaces; a mirror sends one ray, glass both of its
+/// rays where the eye sees it first, else one by chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.
@@ -79,11 +79,16 @@ pub(super) fn gloss(flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, scatter:
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, Kind::Reflection, weight)));
 }
 
-/// A mirror's ray, or one of glass.
+/// A mirror's ray, or those of glass: both where the eye sees it first, since a choice there is seen as grain, afterwards one.
 pub(super) fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
-    let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
-    let weight = mul(flight.weight, way.weight);
-    if largest(weight) > 0.0 {
-        scatter.next.extend(surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight)));
+    let chosen =
+        if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };
+    for way in chosen.into_iter().flatten() {
+        let weight = mul(flight.weight, way.weight);
+        if largest(weight) > 0.0 {
+            let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
+            // A gather ray stays one.
+            scatter.next.extend(next.map(|next| Flight { density: flight.density, ..next }));
+        }
     }
 }

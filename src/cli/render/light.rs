@@ -75,8 +75,8 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
     exposure: f64,
 
-    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo
-    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
+    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
+    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = not_negative)]
     ambient: f64,
 
     /// A lens: its radius, and the distance at which all is sharp
@@ -169,11 +169,11 @@ fn check_lights(renderer: Renderer, args: &Args, scene: &Scene) -> Result<(), Pr
     let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
     let dark = match renderer {
         Renderer::Eye => false,
-        Renderer::Whitted => !points && args.light.ambient <= 0.0,
+        Renderer::Whitted => !points,
         _ => !points && !emitters,
     };
     let help = match emitters {
-        true => "use `--renderer distributed`, `path` or `photon`, which its emitters light; or `--ambient`",
+        true => "use `--renderer distributed`, `path` or `photon`, which its emitters light",
         false => "use `--renderer eye`, which brings its own lamp",
     };
     if dark { Err(Problem::usage("the scene has no lights that this renderer knows", help)) } else { Ok(()) }

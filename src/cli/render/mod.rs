@@ -43,9 +43,6 @@ pub(super) struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
 
-    #[command(flatten)]
-    light: light::LightArgs,
-
     /// Pixels of the picture
     #[arg(long, value_name = "WxH", default_value = "512x512")]
     size: Size,
@@ -74,7 +71,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
-    /// Who decides [default: batch where a device is named, else exact]
+    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
@@ -84,6 +81,10 @@ pub(super) struct Args {
     /// Folder for picture.png and layers.exr
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     out: PathBuf,
+
+    // Last, because its heading goes on to what follows.
+    #[command(flatten)]
+    light: light::LightArgs,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {

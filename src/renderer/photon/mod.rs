@@ -13,7 +13,7 @@ mod emit;
 
 use super::film::{Picture, expose};
 use super::lamps::Lamps;
-use super::lobes::{Lobes, one_way};
+use super::lobes::Lobes;
 use super::photon_map::{Photon, PhotonMap};
 use super::sampling::cosine;
 use super::surfel::Surfel;
@@ -110,7 +110,7 @@ impl Shade for Gathering<'_> {
                 scatter.light = add(scatter.light, mul(flight.weight, light));
             }
             Some(lobes) => self.scatter(flight, &surfel, lobes, more, &mut scatter),
-            None if more => pass(flight, &surfel, &mut scatter),
+            None if more => distributed::go_on(flight, &surfel, &mut scatter),
             None => {}
         }
         scatter
@@ -159,15 +159,5 @@ impl Gathering<'_> {
             let cosine = dot(photon.from, surfel.normal).max(LEAST_COSINE);
             mul(photon.power, scale(value, 1.0 / cosine))
         })
-    }
-}
-
-/// A mirror's ray, or one of glass; a gather ray stays one.
-fn pass(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
-    let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
-    let weight = mul(flight.weight, way.weight);
-    if largest(weight) > 0.0 {
-        let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
-        scatter.next.extend(next.map(|next| Flight { density: flight.density, ..next }));
     }
 }
