@@ -132,7 +132,7 @@ fn parse_lens(text: &str) -> Result<Lens, String> {
 
 pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.built { Renderer::Whitted } else { Renderer::Eye });
-    check_lights(renderer, args, &asked.scene)?;
+    check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     if caster == CasterArg::Host && (args.device.is_some() || args.executor.is_some()) {
         let help = "add `--caster engine`, or leave them out";
@@ -165,7 +165,7 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
 }
 
 /// A picture without any light is not what anybody asks for.
-fn check_lights(renderer: Renderer, args: &Args, scene: &Scene) -> Result<(), Problem> {
+fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
     let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
     let dark = match renderer {
         Renderer::Eye => false,

@@ -29,7 +29,7 @@ fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let camera = room_camera(12, 12);
     // Long form: so many samples that hardly more than the bias is left.
     let full = if std::env::var_os("CROSSBAR_FULL").is_some() { 20 } else { 1 };
-    let settings = |samples| Settings { samples: samples * full, depth: 30, ..settings() };
+    let settings = |samples: u32| Settings { samples: samples * full, depth: 30, ..settings() };
     let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };
     let mapped = photon::render(&scene, &camera, &settings(16), &photons, &mut host(&scene), &mut |_| {});
     let mapped = mapped.expect("a picture");
