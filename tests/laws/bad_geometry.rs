@@ -136,3 +136,51 @@ fn the_signs_of_zeros_do_not_show_on_any_path() {
         }
     }
 }
+
+/// The paths that compute in fp32, against exact arithmetic; all of them the same bits.
+fn right_everywhere(mesh: &Mesh, rays: &[Ray], sides: Sides) {
+    let oracle = Oracle::new(mesh, sides, Tolerance::ulps(1));
+    let found = paths(mesh, rays, sides);
+    for (name, hits) in found.iter().filter(|(name, _)| !["r200", "r300"].contains(name)) {
+        let report = oracle.judge(rays, hits).expect("one answer a ray");
+        assert!(report.agrees(), "{name}: {report}");
+        assert_hits_eq(&found[0].1, hits);
+    }
+}
+
+/// Depth 1 means no hit: the farthest corner that a batch can meet must not lie there.
+#[test]
+fn the_farthest_corner_is_hit() {
+    for size in [1.0f32, 8.0, 0.75, 5.0, 1024.0] {
+        let corners = vec![[size; 3], [0.0, size, size], [size, 0.0, size]];
+        let mesh = Mesh::new(corners, vec![[0, 1, 2]]).expect("a mesh");
+        for length in [1.0f32, 0.75, 3.0, size] {
+            right_everywhere(&mesh, &[ray([0.0; 3], [length; 3])], Sides::Both);
+        }
+    }
+}
+
+/// From 2^80 sizes of the mesh away, f64 tells no cells apart.
+#[test]
+fn a_ray_from_far_away_finds_the_first_of_many() {
+    let unit = 1.0 / (1u64 << 42) as f32;
+    let far = (1u64 << 40) as f32;
+    let mut corners = Vec::new();
+    for sheet in 0..6 {
+        let corner = |x: f32, y: f32, z: f32| [x, y, z].map(|x| unit * (x - 4.0 * sheet as f32));
+        corners.extend([corner(3.0, 0.0, 0.0), corner(0.0, 3.0, 0.0), corner(0.0, 0.0, 3.0)]);
+    }
+    let triangles = (0..6).map(|sheet| [3 * sheet, 3 * sheet + 1, 3 * sheet + 2]).collect();
+    let mesh = Mesh::new(corners, triangles).expect("a mesh");
+    right_everywhere(&mesh, &[ray([far; 3], [-far; 3]), ray([far; 3], [-1.0; 3])], Sides::Front);
+}
+
+/// t = -0 on the host would be +0 from a depth buffer.
+#[test]
+fn a_ray_that_starts_on_a_back_face_starts_at_plus_zero() {
+    let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");
+    let rays = [ray([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]), ray([0.25, 0.25, 0.0], [0.0, 0.0, -1.0])];
+    right_everywhere(&mesh, &rays, Sides::Both);
+    let hits = HostTracer::new(&mesh, FINE, Sides::Both).nearest_all(&rays).0;
+    assert!(hits.iter().flatten().all(|hit| hit.t.to_bits() == 0), "{hits:?}");
+}

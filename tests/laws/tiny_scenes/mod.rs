@@ -2,8 +2,8 @@
 //! surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same bits.
 //!
 //! **What is held.** The yardstick is the f32 test of the card among all pairs. Where its triangle is the right one in exact arithmetic,
-//! or rightly none, every path gives its bits. Where it is not, a path may differ, but only in leaving out what fp32 sees where nothing
-//! is: whatever a path finds, the f32 test grants. How often fp32 is wrong, and by which rounding, is the table of docs/papers/ray_engine.md.
+//! or rightly none, every path gives its bits. Where it is not, or t is off by a hundredth or more, a path may differ, but only in leaving out
+//! what fp32 sees where nothing is: whatever a path finds, the f32 test grants. How often fp32 is wrong, and by which rounding, is the table of docs/papers/ray_engine.md.
 
 mod cause;
 mod scene;
@@ -25,7 +25,9 @@ use scene::Scene;
 
 const SCENES: u64 = 10_000;
 /// Scenes of which one goes to the card; all with `CROSSBAR_FULL=1`.
-const ON_CARD: u64 = 10;
+const ON_CARD: u64 = 4;
+/// A t so many ULPs off, a hundredth of it or more, lies elsewhere.
+const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
 
 const OCTREES: [OctreeParameters; 4] = [
@@ -66,7 +68,9 @@ impl Yardstick {
             let ray = &self.scene.rays[place];
             let told = || format!("scene {number}, {name}, ray {place}: {ray:?}: {all_pairs:?} became {path:?}");
             let wrong = self.wrong.get(&place).unwrap_or_else(|| panic!("{}, but fp32 was right", told()));
-            assert!(!matches!(wrong.kind, Kind::Leak | Kind::TOff), "{}, but fp32 had no wrong triangle", told());
+            let astray = wrong.kind == Kind::TOff && wrong.t_ulps.is_none_or(|ulps| ulps > ASTRAY);
+            let wrong_triangle = !matches!(wrong.kind, Kind::Leak | Kind::TOff);
+            assert!(astray || wrong_triangle, "{}, but fp32 was right but for {:?} ULPs", told(), wrong.t_ulps);
             if let Some(hit) = path {
                 assert_eq!(bits(&self.alone(ray, hit.triangle)), Some((0, hit.t.to_bits())), "{}: not granted", told());
             }
