@@ -11,14 +11,14 @@ use crate::geom::{Mesh, Ray};
 type Vector = [f32; 3];
 
 /// A triangle as the vertex program hands it on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct HostTriangle {
-    a: Vector,
-    b: Vector,
-    n: Vector,
-    ab: Vector,
-    ac: Vector,
-    bc: Vector,
+    pub(super) a: Vector,
+    pub(super) b: Vector,
+    pub(super) n: Vector,
+    pub(super) ab: Vector,
+    pub(super) ac: Vector,
+    pub(super) bc: Vector,
 }
 
 /// A ray as the textures hold it: its direction brought into range by a power of two.
@@ -44,17 +44,28 @@ impl HostTriangle {
     /// The t of a hit along the ray's direction in range: not behind the origin, inside or on the edges, and from the front
     /// unless `sides` says either.
     pub(crate) fn hit(&self, ray: &HostRay, sides: Sides) -> Option<f32> {
+        let (t, hit) = match sides {
+            Sides::Front => self.test::<false>(ray),
+            Sides::Both => self.test::<true>(ray),
+        };
+        hit.then_some(t)
+    }
+
+    /// t, and whether there is a hit there. Without branches: packets run it on lanes.
+    #[inline(always)]
+    pub(super) fn test<const BOTH: bool>(&self, ray: &HostRay) -> (f32, bool) {
         let (ao, bo) = (sub(ray.origin, self.a), sub(ray.origin, self.b)); // (1), (2)
         let n_dot_d = dot(self.n, ray.direction);
         let t = dot(self.n, ao) * -n_dot_d.recip(); // (3)
         let (aod, bod) = (cross(ao, ray.direction), cross(bo, ray.direction)); // (4), (5)
         let inside = [dot(self.ac, aod), dot(neg(self.ab), aod), dot(neg(self.bc), bod)]; // (6), (7), (8)
-        let killed = |x: f32| x < 0.0;
-        let (faces, inside) = match sides {
-            Sides::Front => (n_dot_d < 0.0, inside),
-            Sides::Both => (n_dot_d != 0.0, if n_dot_d >= 0.0 { neg(inside) } else { inside }),
+        let (faces, inside) = if BOTH {
+            (n_dot_d != 0.0, inside.map(|x| if n_dot_d >= 0.0 { -x } else { x }))
+        } else {
+            (n_dot_d < 0.0, inside)
         };
-        (faces && !inside.into_iter().any(killed) && t >= 0.0).then_some(t)
+        let killed = (inside[0] < 0.0) | (inside[1] < 0.0) | (inside[2] < 0.0);
+        (t, faces & !killed & (t >= 0.0))
     }
 }
 
@@ -65,20 +76,24 @@ impl HostRay {
     }
 }
 
+#[inline(always)]
 fn sub(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
+#[inline(always)]
 fn neg(a: Vector) -> Vector {
     a.map(|x| -x)
 }
 
 /// Sums from the left, as `dp3` of the fp32 profiles.
+#[inline(always)]
 fn dot(a: Vector, b: Vector) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The first product is rounded, then the second, then their difference, as `mul` and `mad`, or `crs`, of the fp32 profiles.
+#[inline(always)]
 fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 
 use super::Hit;
+use super::host_packet::Packets;
 use super::host_test::{HostRay, HostTriangle};
-use super::octree::{Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit};
+use super::octree::{Compact, Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit, Waiting};
 use crate::geom::exact::Sides;
 use crate::geom::{CastError, Caster, Mesh, Ray};
+use refsim::exec::batch::SimdLevel;
 
 /// A ray goes on a little beyond its best hit, in shares of t: an fp32 t is no better than that, and the next cell may hold a
 /// triangle whose rounded t is smaller.
@@ -62,12 +64,19 @@ pub struct HostTracer {
     octree: Octree,
     triangles: Vec<HostTriangle>,
     sides: Sides,
+    /// The octree and its lists once more, laid out for rays that the host traces alone.
+    compact: Compact,
+    packets: Packets,
+    level: SimdLevel,
 }
 
 impl HostTracer {
     /// A mesh with its octree.
     pub fn new(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
-        Self { octree: Octree::new(mesh, parameters), triangles: HostTriangle::all(mesh), sides }
+        let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh));
+        let mut packets = Packets::default();
+        let compact = Compact::new(&octree, |leaf| packets.add(&triangles, leaf));
+        Self { octree, triangles, sides, compact, packets, level: SimdLevel::widest() }
     }
 
     /// The octree.
@@ -77,10 +86,85 @@ impl HostTracer {
 
     /// The first hit of a ray, and what it cost.
     pub fn nearest(&self, ray: &Ray) -> (Option<Hit>, HostCounts) {
-        self.nearest_in(ray, None)
+        let mut hit = [None];
+        let counts = self.nearest_each(std::slice::from_ref(ray), &mut hit);
+        (hit[0], counts)
     }
 
-    /// The same with the cells that `gpu` marks tested as the card tests them: every triangle of the cell.
+    /// Whether anything is hit before `t_max`, in multiples of the ray's direction: whether the t of the first hit is smaller. Cheaper, since
+    /// any hit will do.
+    pub fn occluded(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
+        let mut occluded = [false];
+        let counts = self.occluded_each(std::slice::from_ref(ray), t_max, &mut occluded);
+        (occluded[0], counts)
+    }
+
+    fn nearest_each(&self, rays: &[Ray], hits: &mut [Option<Hit>]) -> HostCounts {
+        self.search::<false>(rays, f32::INFINITY, |i, hit| hits[i] = hit)
+    }
+
+    fn occluded_each(&self, rays: &[Ray], t_max: f32, occluded: &mut [bool]) -> HostCounts {
+        self.search::<true>(rays, t_max, |i, hit| occluded[i] = hit.is_some_and(|hit| hit.t < t_max))
+    }
+
+    fn search<const ANY: bool>(&self, rays: &[Ray], t_max: f32, answer: impl FnMut(usize, Option<Hit>)) -> HostCounts {
+        match self.sides {
+            Sides::Front => self.level.run(
+                #[inline(always)]
+                || self.search_sides::<false, ANY>(rays, t_max, answer),
+            ),
+            Sides::Both => self.level.run(
+                #[inline(always)]
+                || self.search_sides::<true, ANY>(rays, t_max, answer),
+            ),
+        }
+    }
+
+    #[inline(always)]
+    fn search_sides<const BOTH: bool, const ANY: bool>(
+        &self,
+        rays: &[Ray],
+        t_max: f32,
+        mut answer: impl FnMut(usize, Option<Hit>),
+    ) -> HostCounts {
+        let (mut waiting, mut counts) = (Waiting::default(), HostCounts::default());
+        for (i, ray) in rays.iter().enumerate() {
+            let (hit, cost) = self.walk::<BOTH, ANY>(ray, t_max, &mut waiting);
+            answer(i, hit);
+            counts += cost;
+        }
+        counts
+    }
+
+    /// The nearest hit; with `ANY`, that or any hit before `t_max`, or none if there is none before.
+    #[inline(always)]
+    fn walk<const BOTH: bool, const ANY: bool>(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        waiting: &mut Waiting,
+    ) -> (Option<Hit>, HostCounts) {
+        let host = HostRay::new(ray);
+        let (mut best, mut tests) = (Best::default(), 0);
+        let end = f64::from(t_max) * (1.0 + BEYOND);
+        let traversal = self.compact.walk(
+            ray,
+            waiting,
+            #[inline(always)]
+            |leaf, t| {
+                if best.settles(t[0], host.power) || (ANY && t[0] > end) {
+                    return Flow::Stop;
+                }
+                tests += self.packets.test::<BOTH>(leaf, &host, &mut best);
+                let found = ANY && best.hit(host.power).is_some_and(|hit| hit.t < t_max);
+                if found || best.settles(t[1], host.power) { Flow::Stop } else { Flow::Continue }
+            },
+        );
+        (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
+    }
+
+    /// The first hit with the cells that `gpu` marks tested as the card tests them, every triangle of the cell. It goes the plain way,
+    /// through [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = HostRay::new(ray);
         let (mut best, mut tests) = (Best::default(), 0);
@@ -109,26 +193,12 @@ impl HostTracer {
 
     /// The first hits of rays in any number, on all worker threads: the same for any number of them.
     pub fn nearest_all(&self, rays: &[Ray]) -> (Vec<Option<Hit>>, HostCounts) {
-        let trace = |rays: &[Ray]| {
-            let mut counts = HostCounts::default();
-            let hits: Vec<_> = rays
-                .iter()
-                .map(|ray| {
-                    let (hit, cost) = self.nearest(ray);
-                    counts += cost;
-                    hit
-                })
-                .collect();
-            (hits, counts)
-        };
-        let parts: Vec<_> = rays.par_chunks(CHUNK).map(trace).collect();
-        let mut hits = Vec::with_capacity(rays.len());
-        let mut counts = HostCounts::default();
-        for (part, cost) in parts {
-            hits.extend(part);
-            counts += cost;
-        }
-        (hits, counts)
+        all(rays, |rays, hits| self.nearest_each(rays, hits))
+    }
+
+    /// [`Self::occluded`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose directions end at a light.
+    pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
+        all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }
 
     pub(crate) fn test(&self, triangles: &[u32], ray: &HostRay, best: &mut Best) {
@@ -138,6 +208,22 @@ impl HostTracer {
             }
         }
     }
+}
+
+/// Answers in the order of the rays, and what they cost together.
+fn all<T: Clone + Default + Send>(
+    rays: &[Ray],
+    trace: impl Fn(&[Ray], &mut [T]) -> HostCounts + Sync,
+) -> (Vec<T>, HostCounts) {
+    let mut answers = vec![T::default(); rays.len()];
+    // Sums of integers: the order does not matter.
+    let add = |mut a: HostCounts, b| {
+        a += b;
+        a
+    };
+    let parts = rays.par_chunks(CHUNK).zip(answers.par_chunks_mut(CHUNK));
+    let counts = parts.map(|(rays, answers)| trace(rays, answers)).reduce(HostCounts::default, add);
+    (answers, counts)
 }
 
 impl Caster for HostTracer {

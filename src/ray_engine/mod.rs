@@ -9,6 +9,7 @@ mod card;
 mod crossbar;
 mod cull;
 pub mod engine;
+mod host_packet;
 mod host_test;
 mod host_tracer;
 mod kept;

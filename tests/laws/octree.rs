@@ -49,16 +49,26 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 2_000 } else { 20_000 }, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_hit_of_all_pairs_is_found(mesh in mesh(), origin in point(), d in direction(), both in any::<bool>(), on_surface in any::<bool>()) {
+    fn every_hit_of_all_pairs_is_found(mesh in mesh(), rays in prop::collection::vec((point(), direction()), 4), both in any::<bool>(), end in 0.0f32..4.0) {
         let sides = if both { Sides::Both } else { Sides::Front };
         let [low, high] = mesh.bounds().expect("it has corners");
         let reach = (0..3).map(|i| high[i] - low[i]).fold(f32::MIN_POSITIVE, f32::max);
-        let origin = if on_surface { mesh.positions()[0] } else { origin.map(|x| x * reach) };
-        let ray = Ray::new(origin, d).expect("finite, not 0");
-        let (fine, _) = HostTracer::new(&mesh, FINE, sides).nearest(&ray);
-        let (whole, counts) = HostTracer::new(&mesh, WHOLE, sides).nearest(&ray);
-        prop_assert!(counts.tests <= mesh.len() as u64);
-        prop_assert_eq!(fine, whole);
+        let (fine, whole) = (HostTracer::new(&mesh, FINE, sides), HostTracer::new(&mesh, WHOLE, sides));
+        for (i, (origin, d)) in rays.into_iter().enumerate() {
+            let origin = if i % 2 == 1 { mesh.positions()[0] } else { origin.map(|x| x * reach) };
+            let ray = Ray::new(origin, d).expect("finite, not 0");
+            let (found, counts) = fine.nearest(&ray);
+            let (expected, all) = whole.nearest(&ray);
+            prop_assert!(all.tests <= mesh.len() as u64);
+            prop_assert_eq!(found, expected);
+            prop_assert_eq!((found, counts), fine.nearest_in(&ray, None), "the plain way");
+            let before = found.map_or(1.0, |hit| hit.t);
+            for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
+                let (occluded, cost) = fine.occluded(&ray, end);
+                prop_assert_eq!(occluded, found.is_some_and(|hit| hit.t < end), "before {}", end);
+                prop_assert!(cost.tests <= counts.tests);
+            }
+        }
     }
 
     #[test]

@@ -8,11 +8,13 @@
 mod beam;
 mod build;
 mod cells;
+mod compact;
 mod overlap;
 mod traverse;
 
 pub use beam::{Beam, Reached};
 pub use cells::{CellId, GpuCells};
+pub(super) use compact::{Compact, Waiting};
 pub use traverse::{Flow, TraversalCounts, Visit};
 
 use crate::geom::Mesh;

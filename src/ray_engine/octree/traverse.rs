@@ -6,12 +6,12 @@ use super::cells::{CellId, GpuCells};
 use super::{Node, Octree};
 use crate::geom::Ray;
 
-/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the middle of
-/// two such parameters still tells which half of a cell the ray is in.
+/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the middle
+/// between two such parameters still tells which half of a cell the ray is in.
 const STILL: f64 = 1e-200;
 
 /// Margins from which a ray can be told where it goes: the parameter of a plane is a difference and a quotient, each rounded to 53 bits, and
-/// those of inner planes are means of such, a level deeper each.
+/// those of inner planes are differences of such, one more a level.
 const SIGHT: f64 = (1u64 << 48) as f64;
 
 /// What to do after a cell.
@@ -56,7 +56,7 @@ pub struct Visit<'a> {
 }
 
 /// The parameters at which a ray meets the lower and the upper planes of a cell, after turning it so that it rises.
-type Planes = [[f64; 3]; 2];
+pub(super) type Planes = [[f64; 3]; 2];
 
 /// A traversal on its way.
 struct Walk<'a, F> {
@@ -66,6 +66,8 @@ struct Walk<'a, F> {
     from: f64,
     /// Child numbers are exchanged where the ray falls.
     mirror: u32,
+    /// The parameters from the root's lower planes to its upper ones.
+    span: [f64; 3],
     counts: TraversalCounts,
     visit: F,
 }
@@ -94,33 +96,19 @@ impl Octree {
         if self.is_out_of_sight(ray) {
             return self.everything(visit);
         }
-        let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
-        for axis in 0..3 {
-            let (mut origin, mut speed) = (f64::from(ray.origin()[axis]), f64::from(ray.direction()[axis]));
-            let (near, far) = (self.corner[axis], self.corner[axis] + self.size);
-            if speed < 0.0 {
-                (origin, speed) = (near + far - origin, -speed);
-                mirror |= 4 >> axis;
-            }
-            // Of either sign.
-            if speed == 0.0 {
-                speed = STILL;
-            }
-            low[axis] = (near - origin) / speed;
-            high[axis] = (far - origin) / speed;
-        }
-        let mut walk = Walk { octree: self, gpu, from, mirror, counts: TraversalCounts::default(), visit };
+        let ([low, high], mirror) = root_planes(self.corner, self.size, ray);
+        let span = [0, 1, 2].map(|i| high[i] - low[i]);
+        let mut walk = Walk { octree: self, gpu, from, mirror, span, counts: TraversalCounts::default(), visit };
         if latest(low) <= earliest(high) {
             // Whether it was stopped or ran out of cells is all the same here.
-            let _: ControlFlow<()> = walk.enter(0, [low, high]);
+            let _: ControlFlow<()> = walk.enter(0, 0, [low, high]);
         }
         walk.counts
     }
 
     /// Whether a ray starts so far away that f64 does not tell the parameters of the cells' planes apart as well as margins do.
     pub(super) fn is_out_of_sight(&self, ray: &Ray) -> bool {
-        let sight = self.margin * SIGHT;
-        (0..3).any(|axis| (f64::from(ray.origin()[axis]) - self.corner[axis]).abs() > sight)
+        is_out_of_sight(self.corner, self.margin, ray)
     }
 
     /// All leaves, for a ray of which nothing is known. No hit settles what the others hold, so each has t of minus infinity. No GPU cell:
@@ -141,16 +129,47 @@ impl Octree {
     }
 }
 
-fn latest(t: [f64; 3]) -> f64 {
+/// Whether a ray starts too far from an octree's corner for one with this margin.
+#[inline(always)]
+pub(super) fn is_out_of_sight(corner: [f64; 3], margin: f64, ray: &Ray) -> bool {
+    let far = |axis: usize| (f64::from(ray.origin()[axis]) - corner[axis]).abs() > margin * SIGHT;
+    far(0) | far(1) | far(2)
+}
+
+/// Where the ray, turned so that it rises, meets the planes of a cube, and which bits of a child's number the turning flips.
+#[inline(always)]
+pub(super) fn root_planes(corner: [f64; 3], size: f64, ray: &Ray) -> (Planes, u32) {
+    let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
+    for axis in 0..3 {
+        let (mut origin, mut speed) = (f64::from(ray.origin()[axis]), f64::from(ray.direction()[axis]));
+        let (near, far) = (corner[axis], corner[axis] + size);
+        if speed < 0.0 {
+            (origin, speed) = (near + far - origin, -speed);
+            mirror |= 4 >> axis;
+        }
+        // Of either sign.
+        if speed == 0.0 {
+            speed = STILL;
+        }
+        low[axis] = (near - origin) / speed;
+        high[axis] = (far - origin) / speed;
+    }
+    ([low, high], mirror)
+}
+
+#[inline(always)]
+pub(super) fn latest(t: [f64; 3]) -> f64 {
     t[0].max(t[1]).max(t[2])
 }
 
-fn earliest(t: [f64; 3]) -> f64 {
+#[inline(always)]
+pub(super) fn earliest(t: [f64; 3]) -> f64 {
     t[0].min(t[1]).min(t[2])
 }
 
 impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
-    fn enter(&mut self, node: u32, [low, high]: Planes) -> ControlFlow<()> {
+    /// A cell with so many cuts above it.
+    fn enter(&mut self, node: u32, level: u32, [low, high]: Planes) -> ControlFlow<()> {
         let leave = earliest(high);
         if leave < 0.0 || leave <= self.from {
             return ControlFlow::Continue(());
@@ -170,13 +189,13 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
                     flow((self.visit)(&visit(self.octree.list(node), false)))
                 }
             }
-            Node::Inner(first) => self.children(first, [low, high]),
+            Node::Inner(first) => self.children(first, level, [low, high]),
         }
     }
 
     /// The children that the ray goes through, in its order.
-    fn children(&mut self, first: u32, [low, high]: Planes) -> ControlFlow<()> {
-        let middle = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
+    fn children(&mut self, first: u32, level: u32, [low, high]: Planes) -> ControlFlow<()> {
+        let middle = middle(high, self.span, level);
         let mut child = first_child(low, middle);
         loop {
             let half = |axis: usize| if child >> (2 - axis) & 1 == 1 { (middle, high) } else { (low, middle) };
@@ -185,7 +204,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
                 let (from, to) = half(axis);
                 (near[axis], far[axis]) = (from[axis], to[axis]);
             }
-            self.enter(first + (child ^ self.mirror), [near, far])?;
+            self.enter(first + (child ^ self.mirror), level + 1, [near, far])?;
             // Out through the plane that comes first; from an upper half, out of the parent.
             let axis = first_axis(far);
             let bit = 4 >> axis;
@@ -195,6 +214,14 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
             child |= bit;
         }
     }
+}
+
+/// Where the ray meets the middle planes of a cell with so many cuts above it: half of the cell's share of the root's span before its
+/// upper planes. A power of two makes the share, so that only the difference is rounded.
+#[inline(always)]
+pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
+    let half = f64::from_bits(u64::from(1022 - level) << 52);
+    [high[0] - half * span[0], high[1] - half * span[1], high[2] - half * span[2]]
 }
 
 fn flow(flow: Flow) -> ControlFlow<()> {

@@ -60,7 +60,7 @@ impl SimdLevel {
     /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must be
     /// `#[inline(always)]` to be compiled for the level at all.
     #[inline(always)]
-    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
+    pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
         match self {
             Self::Baseline => work(),
             Self::Avx2 => avx2(work),

@@ -1,0 +1,62 @@
+//! How fast the host traces: the octree path beside other people's trees, in the same run, on the same rays.
+//!
+//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that gives the right answer, with its own ray-triangle
+//! test (once about 5 million rays a second on one thread of such a machine; `obvhs` 8 to 15). Ratios are of one run.
+//!
+//! `cargo bench --bench host_rays` measures with criterion; `cargo bench --bench host_rays -- --table` measures in its own way and
+//! writes docs/performance.md. One element is one ray: a primary ray asks for the nearest hit, a shadow ray whether there is one
+//! before the light. Trees are built before.
+
+mod rooms;
+mod table;
+mod tracers;
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use crossbar::geom::Ray;
+use rooms::Room;
+use std::hint::black_box;
+use std::time::Duration;
+use tracers::Tracer;
+
+/// Threads of the figures.
+const THREADS: [usize; 2] = [1, 2];
+
+/// What rays are called, which they are, and what is asked.
+type Kind = (&'static str, fn(&Room) -> &[Ray], fn(&dyn Tracer, &[Ray]) -> usize);
+const KINDS: [Kind; 2] = [
+    ("primary", |room| &room.primary, |tracer, rays| tracer.nearest(rays)),
+    ("shadow", |room| &room.shadow, |tracer, rays| tracer.occluded(rays)),
+];
+
+fn host_rays(criterion: &mut Criterion, room: &Room) {
+    let tracers = tracers::all(&room.mesh);
+    tracers::compare(&tracers, room);
+    let mut group = criterion.benchmark_group("host_rays");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    for (kind, rays, trace) in KINDS {
+        let rays = rays(room);
+        group.throughput(Throughput::Elements(rays.len() as u64));
+        for threads in THREADS {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads");
+            let what = format!("{}, {kind}, {threads}", room.name);
+            for (who, tracer) in &tracers {
+                group.bench_function(BenchmarkId::new(&what, who), |b| {
+                    pool.install(|| b.iter(|| black_box(trace(tracer.as_ref(), black_box(rays)))));
+                });
+            }
+        }
+    }
+    group.finish();
+}
+
+fn main() -> std::io::Result<()> {
+    if std::env::args().any(|argument| argument == "--table") {
+        return table::write();
+    }
+    let mut criterion = Criterion::default().configure_from_args();
+    for room in rooms::all() {
+        host_rays(&mut criterion, &room);
+    }
+    criterion.final_summary();
+    Ok(())
+}

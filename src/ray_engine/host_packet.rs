@@ -1,0 +1,103 @@
+//! Triangles eight at a time: the test of `host_test.rs` on lanes, for the vector units of the host.
+
+use super::host_test::{HostRay, HostTriangle};
+use super::host_tracer::Best;
+
+/// Triangles of a packet.
+const LANES: usize = 8;
+
+type Lanes = [f32; LANES];
+type Vectors = [Lanes; 3];
+
+/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+struct Packet {
+    a: Vectors,
+    b: Vectors,
+    n: Vectors,
+    ab: Vectors,
+    ac: Vectors,
+    bc: Vectors,
+    triangles: [u32; LANES],
+    /// How many lanes hold a triangle.
+    filled: u32,
+    /// Whether the next packet is of the same leaf.
+    more: bool,
+}
+
+/// The triangles of all leaves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Packets(Vec<Packet>);
+
+impl Packets {
+    /// Adds a leaf's triangles, at least one; gives its number.
+    pub(crate) fn add(&mut self, triangles: &[HostTriangle], leaf: &[u32]) -> u32 {
+        let first = self.0.len() as u32;
+        let parts = leaf.chunks(LANES);
+        let last = parts.len() - 1;
+        self.0.extend(parts.enumerate().map(|(i, ids)| Packet::new(triangles, ids, i < last)));
+        first
+    }
+
+    /// Tests a leaf's triangles and offers the hits. Gives how many there were to test.
+    #[inline(always)]
+    pub(crate) fn test<const BOTH: bool>(&self, leaf: u32, ray: &HostRay, best: &mut Best) -> u64 {
+        let mut tests = 0;
+        for packet in &self.0[leaf as usize..] {
+            packet.test::<BOTH>(ray, best);
+            tests += u64::from(packet.filled);
+            if !packet.more {
+                break;
+            }
+        }
+        tests
+    }
+}
+
+impl Packet {
+    fn new(triangles: &[HostTriangle], ids: &[u32], more: bool) -> Self {
+        let lane = |i: usize| ids.get(i).map_or(HostTriangle::default(), |&id| triangles[id as usize]);
+        let of = |part: fn(&HostTriangle) -> [f32; 3]| {
+            std::array::from_fn(|axis| std::array::from_fn(|i| part(&lane(i))[axis]))
+        };
+        Self {
+            a: of(|t| t.a),
+            b: of(|t| t.b),
+            n: of(|t| t.n),
+            ab: of(|t| t.ab),
+            ac: of(|t| t.ac),
+            bc: of(|t| t.bc),
+            triangles: std::array::from_fn(|i| ids.get(i).copied().unwrap_or_default()),
+            filled: ids.len() as u32,
+            more,
+        }
+    }
+
+    #[inline(always)]
+    fn test<const BOTH: bool>(&self, ray: &HostRay, best: &mut Best) {
+        let (mut t, mut hit, mut any) = ([0.0; LANES], [0u32; LANES], 0);
+        for i in 0..LANES {
+            let at = |v: &Vectors| [v[0][i], v[1][i], v[2][i]];
+            let lane = HostTriangle {
+                a: at(&self.a),
+                b: at(&self.b),
+                n: at(&self.n),
+                ab: at(&self.ab),
+                ac: at(&self.ac),
+                bc: at(&self.bc),
+            };
+            let (parameter, is_hit) = lane.test::<BOTH>(ray);
+            t[i] = parameter;
+            hit[i] = u32::from(is_hit);
+            any |= hit[i];
+        }
+        if any != 0 {
+            for i in 0..LANES {
+                if hit[i] != 0 {
+                    best.offer(t[i], self.triangles[i]);
+                }
+            }
+        }
+    }
+}

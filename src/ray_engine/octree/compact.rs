@@ -1,0 +1,242 @@
+//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with less work.
+//!
+//! - A word a child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is touched.
+//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry, 0). A child's
+//!   half is the upper one if its middle plane lies before that, which is where stepping from the entry would arrive.
+//! - No recursion: a cell with children left to visit waits on a stack; one whose last child is entered does not.
+//!
+//! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
+
+use super::traverse::{earliest, is_out_of_sight, latest, middle, root_planes};
+use super::{Flow, MOST_DEPTH, Node, Octree, TraversalCounts};
+use crate::geom::Ray;
+
+/// A leaf without triangles.
+const EMPTY: u32 = u32::MAX;
+/// Set in the word of a leaf, beside what its owner gave for it; else the word is the place of a cut cell's children.
+const LEAF: u32 = 1 << 31;
+
+/// The words of an octree's cells.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Compact {
+    corner: [f64; 3],
+    size: f64,
+    margin: f64,
+    root: u32,
+    children: Vec<[u32; 8]>,
+}
+
+/// A cut cell on the way.
+#[derive(Clone, Copy, Default)]
+struct Frame {
+    /// Where the ray meets the cell's upper planes.
+    high: Keys,
+    /// And its middle planes.
+    middle: Keys,
+    /// Where its children stand.
+    children: u32,
+    /// The next of them.
+    child: u32,
+    /// Cuts above it.
+    level: u32,
+}
+
+/// Room for cells that wait on the way of a ray. What is in it before does not matter: one serves many rays.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Waiting([Frame; MOST_DEPTH as usize + 1]);
+
+/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them: comparing
+/// and choosing is then the business of the integer units, in which it takes a clock.
+type Keys = [i64; 3];
+
+impl Compact {
+    /// The words of an octree, where `leaf` gives the number of a leaf with these triangles, below 2^31 - 1.
+    pub(crate) fn new(octree: &Octree, mut leaf: impl FnMut(&[u32]) -> u32) -> Self {
+        let mut places = vec![0; octree.nodes.len()];
+        let mut cut = 0;
+        for (place, node) in places.iter_mut().zip(&octree.nodes) {
+            *place = match node {
+                Node::Inner(_) => {
+                    cut += 1;
+                    cut - 1
+                }
+                Node::Leaf(_, 0) => EMPTY,
+                Node::Leaf(first, count) => LEAF | leaf(&octree.triangles[*first as usize..(*first + *count) as usize]),
+            };
+        }
+        let children = octree.nodes.iter().filter_map(|node| match node {
+            Node::Inner(first) => Some(std::array::from_fn(|i| places[*first as usize + i])),
+            Node::Leaf(..) => None,
+        });
+        let Octree { corner, size, margin, .. } = *octree;
+        Self { corner, size, margin, root: places[0], children: children.collect() }
+    }
+
+    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the parameters of its
+    /// entry and exit, front to back, until it says stop.
+    #[inline(always)]
+    pub(crate) fn walk(
+        &self,
+        ray: &Ray,
+        waiting: &mut Waiting,
+        mut visit: impl FnMut(u32, [f64; 2]) -> Flow,
+    ) -> TraversalCounts {
+        if is_out_of_sight(self.corner, self.margin, ray) {
+            return self.everything(visit);
+        }
+        let mut counts = TraversalCounts::default();
+        let ([low, high], mirror) = root_planes(self.corner, self.size, ray);
+        let (enter, leave) = (latest(low), earliest(high));
+        if enter > leave || leave < 0.0 {
+            return counts;
+        }
+        counts.cells = 1;
+        if self.root & LEAF != 0 {
+            counts.leaves = 1;
+            if self.root != EMPTY {
+                visit(self.root & !LEAF, [enter, leave]);
+            }
+            return counts;
+        }
+        let span = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
+        let waiting = &mut waiting.0;
+        let mut depth = 0;
+        // Where the ray is.
+        let mut now = key(if enter > 0.0 { enter } else { 0.0 });
+        let (mut frame, mut far) = Frame::enter(self.root, high.map(key), span, 0, now);
+        loop {
+            let (exit, axis) = first(far);
+            let word = self.children[frame.children as usize][((frame.child ^ mirror) & 7) as usize];
+            let last = frame.child & axis != 0;
+            frame.child |= axis;
+            counts.cells += 1;
+            if word & LEAF == 0 {
+                if !last {
+                    waiting[depth] = frame;
+                    depth += 1;
+                }
+                (frame, far) = Frame::enter(word, far, span, frame.level + 1, now);
+                continue;
+            }
+            counts.leaves += 1;
+            if word != EMPTY && visit(word & !LEAF, [parameter(now), parameter(exit)]) == Flow::Stop {
+                return counts;
+            }
+            now = exit;
+            if last {
+                if depth == 0 {
+                    return counts;
+                }
+                depth -= 1;
+                frame = waiting[depth];
+            }
+            far = frame.far();
+        }
+    }
+
+    /// All leaves with triangles, as the reference gives them for a ray from too far away.
+    fn everything(&self, mut visit: impl FnMut(u32, [f64; 2]) -> Flow) -> TraversalCounts {
+        let mut counts = TraversalCounts::default();
+        let words = self.children.iter().flatten().chain([&self.root]);
+        for word in words.filter(|word| **word & LEAF != 0 && **word != EMPTY) {
+            (counts.cells, counts.leaves) = (counts.cells + 1, counts.leaves + 1);
+            if visit(word & !LEAF, [f64::NEG_INFINITY; 2]) == Flow::Stop {
+                break;
+            }
+        }
+        counts
+    }
+}
+
+impl Frame {
+    /// A cell that the ray is in at `now`, and where it leaves the slabs of the child that it is in.
+    #[inline(always)]
+    fn enter(children: u32, high: Keys, span: [f64; 3], level: u32, now: i64) -> (Self, Keys) {
+        let middle = middle(high.map(parameter), span, level).map(key);
+        let child = (u32::from(middle[0] < now) << 2) | (u32::from(middle[1] < now) << 1) | u32::from(middle[2] < now);
+        let frame = Self { high, middle, children, child, level };
+        (frame, frame.far())
+    }
+
+    /// Where the ray leaves the slabs of the next child.
+    #[inline(always)]
+    fn far(&self) -> Keys {
+        [
+            if self.child & 4 != 0 { self.high[0] } else { self.middle[0] },
+            if self.child & 2 != 0 { self.high[1] } else { self.middle[1] },
+            if self.child & 1 != 0 { self.high[2] } else { self.middle[2] },
+        ]
+    }
+}
+
+#[inline(always)]
+fn key(parameter: f64) -> i64 {
+    parameter.to_bits().cast_signed()
+}
+
+#[inline(always)]
+fn parameter(key: i64) -> f64 {
+    f64::from_bits(key.cast_unsigned())
+}
+
+/// The first of three parameters, and the bit of its axis; of equal ones the first axis.
+#[inline(always)]
+fn first(far: Keys) -> (i64, u32) {
+    let (x_or_y, bit) = if far[0] <= far[1] { (far[0], 4) } else { (far[1], 2) };
+    if x_or_y <= far[2] { (x_or_y, bit) } else { (far[2], 1) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::Keyed;
+    use crate::geom::teapot::teapot;
+    use crate::ray_engine::octree::OctreeParameters;
+
+    /// From anywhere within and around the teapot to anywhere; on a grid that holds the planes of cells and both zeros.
+    fn rays(octree: &Octree, count: u64) -> Vec<Ray> {
+        let random = Keyed::new(17);
+        let middle = octree.corner.map(|x| x + octree.size / 2.0);
+        let ray = |i: u64| {
+            let grid = |sample, k| (16.0 * random.unit(i, sample, k)).floor() - 8.0;
+            let number = |sample, k| match i % 3 {
+                0 => 16.0 * random.unit(i, sample, k) - 8.0,
+                1 => grid(sample, k),
+                _ => grid(sample, k) * f64::from(random.unit(i, sample + 2, k) < 0.5),
+            };
+            let from = [0, 1, 2].map(|k| (middle[k] + octree.size / 8.0 * number(0, k as u64)) as f32);
+            Ray::new(from, [0, 1, 2].map(|k| number(1, k as u64) as f32)).ok()
+        };
+        (0..count).filter_map(ray).collect()
+    }
+
+    #[test]
+    fn it_visits_what_the_reference_visits() {
+        for (most_triangles, most_depth) in [(2, 9), (8, 10), (1000, 3), (usize::MAX, 0)] {
+            let mesh = teapot(3).expect("a teapot");
+            let octree = Octree::new(&mesh, OctreeParameters { most_triangles, most_depth });
+            let mut lists: Vec<Vec<u32>> = Vec::new();
+            let compact = Compact::new(&octree, |list| {
+                lists.push(list.to_vec());
+                lists.len() as u32 - 1
+            });
+            let (mut still, mut waiting) = (0, Waiting::default());
+            for (i, ray) in rays(&octree, 30_000).into_iter().enumerate() {
+                let (mut slow, mut fast) = (Vec::new(), Vec::new());
+                // Some stop on the way.
+                let flow = |visits: usize| if i % 4 == 0 && visits == 2 { Flow::Stop } else { Flow::Continue };
+                let expected = octree.traverse(&ray, None, |cell| {
+                    slow.push((cell.triangles, cell.t.map(|t| t.max(0.0).to_bits())));
+                    flow(slow.len())
+                });
+                let counts = compact.walk(&ray, &mut waiting, |leaf, t| {
+                    fast.push((lists[leaf as usize].as_slice(), t.map(|t| t.max(0.0).to_bits())));
+                    flow(fast.len())
+                });
+                assert_eq!((counts, fast), (expected, slow), "{ray:?}");
+                still += usize::from(ray.direction().contains(&0.0) && counts.leaves > 0);
+            }
+            assert!(still > 3000, "{still} rays in planes");
+        }
+    }
+}
