@@ -28,7 +28,7 @@ fn room(name: &'static str, scene: &Scene) -> Room {
     let mesh = scene.mesh().clone();
     let primary = scene.views[0].camera(SIDE, SIDE).expect("a view of the scene").rays();
     let light = light(scene);
-    let tracer = HostTracer::new(&mesh, OctreeParameters::default(), Sides::Front);
+    let tracer = HostTracer::new(&mesh, OctreeParameters::HOST, Sides::Front);
     let to_the_light = |(ray, hit): (&Ray, Option<crossbar::geom::Hit>)| {
         let t = hit?.t * (1.0 - BEFORE);
         let from = [0, 1, 2].map(|k| ray.origin()[k] + t * ray.direction()[k]);

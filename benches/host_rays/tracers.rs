@@ -27,7 +27,7 @@ pub(crate) trait Tracer: Sync {
 }
 
 pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
-    let ours = HostTracer::new(mesh, OctreeParameters::default(), Sides::Front);
+    let ours = HostTracer::new(mesh, OctreeParameters::HOST, Sides::Front);
     let mut shapes: Vec<Shape> = mesh.iter_corners().map(|c| Shape { corners: c.map(Into::into), node: 0 }).collect();
     let tree = bvh::bvh::Bvh::build(&mut shapes);
     let way = |way| Box::new(Boxes { shapes: shapes.clone(), tree: tree.clone(), flat: tree.flatten(), way });

@@ -2,6 +2,7 @@
 
 use super::host_test::{HostRay, HostTriangle};
 use super::host_tracer::Best;
+use crate::geom::Mesh;
 
 /// Triangles of a packet.
 const LANES: usize = 8;
@@ -9,16 +10,14 @@ const LANES: usize = 8;
 type Lanes = [f32; LANES];
 type Vectors = [Lanes; 3];
 
-/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits.
+/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits. Edges and normal
+/// are computed again each time: that costs less than to fetch them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 struct Packet {
     a: Vectors,
     b: Vectors,
-    n: Vectors,
-    ab: Vectors,
-    ac: Vectors,
-    bc: Vectors,
+    c: Vectors,
     triangles: [u32; LANES],
     /// How many lanes hold a triangle.
     filled: u32,
@@ -32,11 +31,11 @@ pub(crate) struct Packets(Vec<Packet>);
 
 impl Packets {
     /// Adds a leaf's triangles, at least one; gives its number.
-    pub(crate) fn add(&mut self, triangles: &[HostTriangle], leaf: &[u32]) -> u32 {
+    pub(crate) fn add(&mut self, mesh: &Mesh, leaf: &[u32]) -> u32 {
         let first = self.0.len() as u32;
         let parts = leaf.chunks(LANES);
         let last = parts.len() - 1;
-        self.0.extend(parts.enumerate().map(|(i, ids)| Packet::new(triangles, ids, i < last)));
+        self.0.extend(parts.enumerate().map(|(i, ids)| Packet::new(mesh, ids, i < last)));
         first
     }
 
@@ -56,18 +55,13 @@ impl Packets {
 }
 
 impl Packet {
-    fn new(triangles: &[HostTriangle], ids: &[u32], more: bool) -> Self {
-        let lane = |i: usize| ids.get(i).map_or(HostTriangle::default(), |&id| triangles[id as usize]);
-        let of = |part: fn(&HostTriangle) -> [f32; 3]| {
-            std::array::from_fn(|axis| std::array::from_fn(|i| part(&lane(i))[axis]))
-        };
+    fn new(mesh: &Mesh, ids: &[u32], more: bool) -> Self {
+        let lane = |i: usize| ids.get(i).and_then(|&id| mesh.corners(id)).unwrap_or_default();
+        let of = |corner: usize| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[corner][axis]));
         Self {
-            a: of(|t| t.a),
-            b: of(|t| t.b),
-            n: of(|t| t.n),
-            ab: of(|t| t.ab),
-            ac: of(|t| t.ac),
-            bc: of(|t| t.bc),
+            a: of(0),
+            b: of(1),
+            c: of(2),
             triangles: std::array::from_fn(|i| ids.get(i).copied().unwrap_or_default()),
             filled: ids.len() as u32,
             more,
@@ -79,14 +73,7 @@ impl Packet {
         let (mut t, mut hit, mut any) = ([0.0; LANES], [0u32; LANES], 0);
         for i in 0..LANES {
             let at = |v: &Vectors| [v[0][i], v[1][i], v[2][i]];
-            let lane = HostTriangle {
-                a: at(&self.a),
-                b: at(&self.b),
-                n: at(&self.n),
-                ab: at(&self.ab),
-                ac: at(&self.ac),
-                bc: at(&self.bc),
-            };
+            let lane = HostTriangle::new([at(&self.a), at(&self.b), at(&self.c)]);
             let (parameter, is_hit) = lane.test::<BOTH>(ray);
             t[i] = parameter;
             hit[i] = u32::from(is_hit);

@@ -11,14 +11,14 @@ use crate::geom::{Mesh, Ray};
 type Vector = [f32; 3];
 
 /// A triangle as the vertex program hands it on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostTriangle {
-    pub(super) a: Vector,
-    pub(super) b: Vector,
-    pub(super) n: Vector,
-    pub(super) ab: Vector,
-    pub(super) ac: Vector,
-    pub(super) bc: Vector,
+    a: Vector,
+    b: Vector,
+    n: Vector,
+    ab: Vector,
+    ac: Vector,
+    bc: Vector,
 }
 
 /// A ray as the textures hold it: its direction brought into range by a power of two.
@@ -36,7 +36,8 @@ impl HostTriangle {
         mesh.iter_corners().map(Self::new).collect()
     }
 
-    fn new([a, b, c]: [Vector; 3]) -> Self {
+    #[inline(always)]
+    pub(super) fn new([a, b, c]: [Vector; 3]) -> Self {
         let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
         Self { a, b, n: cross(ab, ac), ab, ac, bc }
     }

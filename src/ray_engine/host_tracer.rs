@@ -75,7 +75,7 @@ impl HostTracer {
     pub fn new(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
         let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh));
         let mut packets = Packets::default();
-        let compact = Compact::new(&octree, |leaf| packets.add(&triangles, leaf));
+        let compact = Compact::new(&octree, |leaf| packets.add(mesh, leaf));
         Self { octree, triangles, sides, compact, packets, level: SimdLevel::widest() }
     }
 

@@ -21,9 +21,7 @@ pub(super) fn touches(corners: &[Vector; 3], half: Vector) -> bool {
     }
     for edge in edges {
         for axis in 0..3 {
-            let mut unit = [0.0; 3];
-            unit[axis] = 1.0;
-            if separates(cross(unit, edge), corners, half) {
+            if separates_across(axis, edge, corners, half) {
                 return false;
             }
         }
@@ -33,9 +31,26 @@ pub(super) fn touches(corners: &[Vector; 3], half: Vector) -> bool {
 
 /// Whether a plane across this direction has the box on one side and the triangle on the other. No direction separates nothing.
 fn separates(direction: Vector, corners: &[Vector; 3], half: Vector) -> bool {
-    let reach: f64 = (0..3).map(|i| half[i] * direction[i].abs()).sum();
-    let [p, q, r] = corners.map(|corner| dot(corner, direction));
-    p.min(q).min(r) > reach || p.max(q).max(r) < -reach
+    let [dx, dy, dz] = direction;
+    let reach = half[0] * dx.abs() + half[1] * dy.abs() + half[2] * dz.abs();
+    let [a, b, c] = corners;
+    apart(dot(*a, direction), dot(*b, direction), dot(*c, direction), reach)
+}
+
+/// The same for the direction that is across an edge and an axis: one of its components is 0, the others are the edge's.
+#[inline]
+fn separates_across(axis: usize, edge: Vector, corners: &[Vector; 3], half: Vector) -> bool {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let (du, dv) = (-edge[v], edge[u]);
+    let [a, b, c] = corners;
+    let reach = half[u] * du.abs() + half[v] * dv.abs();
+    apart(a[u] * du + a[v] * dv, b[u] * du + b[v] * dv, c[u] * du + c[v] * dv, reach)
+}
+
+/// Whether three numbers all lie beyond `reach` on one side.
+#[inline]
+fn apart(p: f64, q: f64, r: f64, reach: f64) -> bool {
+    (p > reach && q > reach && r > reach) || (p < -reach && q < -reach && r < -reach)
 }
 
 #[cfg(test)]
