@@ -93,6 +93,9 @@ pub(super) struct Way {
     pub(super) kind: Kind,
     /// The chance with which it is taken where one of several is.
     pub(super) chance: f64,
+    /// What a photon's flux is multiplied by, beside `weight`, so that what it lands as is irradiance over the square of the index too: the
+    /// square of the ratio of indices at a boundary that it passes, else 1.
+    pub(super) squeeze: f64,
 }
 
 /// The ways on from a mirror (one) or glass (one under total internal reflection, else two); none from other surfaces.
@@ -100,7 +103,13 @@ pub(super) struct Way {
 /// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963): so there is no factor here,
 /// and what shines or scatters inside glass does so as in air.
 pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
-    let mirrored = |weight, chance| Way { towards: mirror_direction(surfel), weight, kind: Kind::Reflection, chance };
+    let mirrored = |weight, chance| Way {
+        towards: mirror_direction(surfel),
+        weight,
+        kind: Kind::Reflection,
+        chance,
+        squeeze: 1.0,
+    };
     match surfel.material.surface {
         Surface::Diffuse { .. } | Surface::Glossy { .. } => [None, None],
         Surface::Mirror { reflectance } => [Some(mirrored(wide(reflectance), 1.0)), None],
@@ -110,7 +119,8 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
             let share = reflectance(dot(surfel.view, surfel.shading), ratio);
             let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(splat(1.0), 1.0)), None] };
             let weight = scale(wide(transmittance), 1.0 - share);
-            let refracted = Way { towards, weight, kind: Kind::Refraction, chance: 1.0 - share };
+            let chance = 1.0 - share;
+            let refracted = Way { towards, weight, kind: Kind::Refraction, chance, squeeze: ratio * ratio };
             let reflected = (share > 0.0).then(|| mirrored(splat(share), share));
             [Some(refracted), reflected]
         }

@@ -86,7 +86,11 @@ impl Shot<'_> {
         let dice = flight.dice;
         let Some(lobes) = Lobes::of(&surfel.material.surface) else {
             let way = one_way(&surfel, dice.at(flight.depth, 3)).filter(|_| more);
-            let next = way.and_then(|way| go_on(flight, &surfel, way.towards, way.weight));
+            let next = way.and_then(|way| {
+                let next = go_on(flight, &surfel, way.towards, way.weight)?;
+                // Apart from the weight, so that roulette takes no heed of what comes back at the way out.
+                Some(Flight { weight: scale(next.weight, way.squeeze), ..next })
+            });
             return Landing { stored: None, next };
         };
         let stored = (self.settings.depth > 0 && (!self.caustic || flight.depth > 0)).then_some(Photon {

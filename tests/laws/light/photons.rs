@@ -51,14 +51,15 @@ fn gathered_photons_agree_with_paths() {
     assert_bias_below(0.03, &of(Surface::Mirror { reflectance: [0.9; 3] }), 6);
 }
 
-/// Glass lights the floor by caustics alone, which the caustic map blurs over at most 0.3 of a room of 2.
+/// Glass lights the floor by caustics alone, which the caustic map blurs over at most 0.3 of a room of 2. The floor that it stands on
+/// counts too: there flux and radiance differ by the square of the index.
 #[test]
 fn caustics_keep_their_energy() {
-    assert_bias_below(0.05, &of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] }), 6);
+    assert_bias_below(0.03, &of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] }), 6);
 }
 
 /// The map seen directly loses what of its disks hangs over edges.
 #[test]
 fn the_map_itself_is_near() {
-    assert_bias_below(0.15, &white(0.5), 0);
+    assert_bias_below(0.05, &white(0.5), 0);
 }
