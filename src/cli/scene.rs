@@ -76,10 +76,10 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
     out.line(format_args!("{name}: {what}"))?;
     let [vertices, triangles] = [scene.mesh().positions().len(), scene.mesh().len()];
     out.line(format_args!("triangles     {triangles}, on {vertices} vertices"))?;
-    out.line(format_args!("materials     {}", materials(&scene)))?;
+    out.line(format_args!("materials     {}: {}", scene.materials().len(), materials(&scene)))?;
     out.line(format_args!("emitters      {} triangles", scene.emitters().len()))?;
     out.line(format_args!("point lights  {}", scene.point_lights.len()))?;
-    out.line(format_args!("views         {}", views(&scene)))?;
+    out.line(format_args!("views         {}: {}", scene.views.len(), views(&scene)))?;
     for file in written {
         out.line(format_args!("written       {}", file.display()))?;
     }

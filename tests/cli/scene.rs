@@ -18,3 +18,20 @@ fn files_are_written_together() {
     let scene = crossbar::io::scene_file::load(&folder.path().join("made/cornell_box.toml")).expect("the scene");
     assert_eq!(Some(scene), crossbar::scene::built::build("cornell-box"));
 }
+
+/// What a user reads who hands over a scene with a mistake.
+#[test]
+fn bad_scenes() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes/bad");
+    let entries = std::fs::read_dir(&folder).expect("the folder");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending != "mtl"));
+    files.sort();
+    let mut text = String::new();
+    for path in files {
+        let error = crossbar::io::scene_file::load(&path).expect_err("a mistake");
+        let message = error.to_string().replace(&format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR), "");
+        text.push_str(&format!("{}\n    {message}\n", path.file_name().expect("a name").display()));
+    }
+    insta::assert_snapshot!("bad_scenes", text);
+}

@@ -47,6 +47,14 @@ fn views_see_fronts_only() {
             let front = nearest_all(scene.mesh(), &rays, Sides::Front);
             let both = nearest_all(scene.mesh(), &rays, Sides::Both);
             for (pixel, (front, both)) in front.iter().zip(&both).enumerate() {
+                // Two faces in one place would show as noise in a card's depth buffer.
+                if let Some(hit) = both {
+                    let apart = hit
+                        .ties
+                        .iter()
+                        .find(|&&tie| !scene.mesh().are_adjacent(tie, hit.triangle) && tie != hit.triangle);
+                    assert_eq!(apart, None, "{name}, {}: pixel {pixel} sees two faces in one plane", view.name);
+                }
                 if front == both {
                     continue;
                 }

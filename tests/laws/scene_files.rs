@@ -30,8 +30,11 @@ fn round_trip(scene: &Scene) -> Scene {
     parse(&obj, &mtl).expect("a scene")
 }
 
+/// The bits of three points.
+type Bits = [[u32; 3]; 3];
+
 /// Everything that has to come back, as bits: corners, normals and materials of all triangles.
-fn bits(scene: &Scene) -> Vec<([[u32; 3]; 3], Option<[[u32; 3]; 3]>, String)> {
+fn bits(scene: &Scene) -> Vec<(Bits, Option<Bits>, String)> {
     let bits = |corners: [[f32; 3]; 3]| corners.map(|corner| corner.map(f32::to_bits));
     let triangle =
         |(id, corners)| (bits(corners), scene.corner_normals(id).map(bits), format!("{:?}", scene.material(id)));

@@ -49,8 +49,8 @@ pub fn office(seed: u64) -> Scene {
     parts.scene(
         views(),
         vec![
-            PointLight { position: [2.4, 2.8, 2.6], intensity: [6.0, 6.0, 5.6] },
-            PointLight { position: [7.2, 2.8, 2.6], intensity: [6.0, 6.0, 5.6] },
+            PointLight { position: [2.4, 2.6, 2.2], intensity: [4.2, 4.2, 3.9] },
+            PointLight { position: [7.2, 2.6, 2.2], intensity: [4.2, 4.2, 3.9] },
         ],
     )
 }

@@ -36,11 +36,9 @@ impl Place {
     pub(super) fn turned(self, axis: usize, turns: f64) -> Self {
         let [cos, sin] = on_circle(turns);
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mix = |u: f64, v: f64| [0, 1, 2].map(|i| u * self.axes[a][i] + v * self.axes[b][i]);
         let mut axes = self.axes;
-        for i in 0..3 {
-            axes[a][i] = cos * self.axes[a][i] + sin * self.axes[b][i];
-            axes[b][i] = cos * self.axes[b][i] - sin * self.axes[a][i];
-        }
+        (axes[a], axes[b]) = (mix(cos, sin), mix(-sin, cos));
         Self { axes, ..self }
     }
 

@@ -35,7 +35,7 @@ pub fn teapot_room(seed: u64) -> Scene {
         eye: [0.02, -0.74, 0.7],
         target: [0.01, 0.3, 0.34],
         up: [0.0, 0.0, 1.0],
-        tan_half_height: 0.56,
+        tan_half_height: 0.6,
     };
     let lamp = PointLight { position: [0.0, 0.05, 1.0], intensity: [0.75, 0.7, 0.6] };
     let fill = PointLight { position: [-0.3, -0.65, 0.85], intensity: [0.16, 0.17, 0.2] };
