@@ -136,7 +136,7 @@ impl Double {
 pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides) -> bool {
     let single = Single::new(ray, corners);
     let t = single.t();
-    single.faces(sides) && !single.outside() && t >= 0.0 && t < f32::INFINITY
+    single.faces(sides) && !single.outside() && (0.0..f32::INFINITY).contains(&t)
 }
 
 /// The cause of one disagreement of the f32 test among all pairs.

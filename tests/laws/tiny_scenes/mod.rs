@@ -25,7 +25,7 @@ use scene::Scene;
 
 const SCENES: u64 = 10_000;
 /// Scenes of which one goes to the card; all with `CROSSBAR_FULL=1`.
-const ON_CARD: u64 = 4;
+const ON_CARD: u64 = 8;
 /// A t so many ULPs off, a hundredth of it or more, lies elsewhere.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
