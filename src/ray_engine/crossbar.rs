@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event, TexelObserver};
 use refsim::machine::{Executor, MachineError};
+use refsim::num::{Format, Kind};
 use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
@@ -162,7 +163,7 @@ impl Crossbar {
         sides: Sides,
         cull: bool,
     ) -> Result<Answer, EngineError> {
-        let wish = PassWish { outputs: Outputs::IdAndT, small_ids: false, cull };
+        let wish = PassWish { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
         let mut card = self.pass_card(mesh, sides, wish)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
@@ -176,10 +177,11 @@ impl Crossbar {
     /// # Errors
     /// As [`Crossbar::intersect`].
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassWish) -> Result<PassCard, EngineError> {
-        let weights = wish.outputs == Outputs::IdAndBarycentrics;
+        let weights =
+            wish.outputs == Outputs::IdAndBarycentrics && tells_apart(&self.profile.rules.format, wish.triangles);
         let kernel = Kernel::for_passes(&self.profile, sides, wish.cull, weights)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, sides, wish))
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
     }
 
     /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:
@@ -290,6 +292,14 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
         return Err(EngineError::TooManyTriangles { found: mesh.len() });
     }
     Ok(())
+}
+
+/// Whether a float format holds the whole numbers up to this one.
+fn tells_apart(format: &Format, most: usize) -> bool {
+    match format.kind {
+        Kind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
+        Kind::Fixed { .. } => false,
+    }
 }
 
 /// An id as a colour: red is its lowest byte, alpha 1.

@@ -20,6 +20,8 @@ pub(super) struct PassWish {
     pub(super) outputs: Outputs,
     pub(super) small_ids: bool,
     pub(super) cull: bool,
+    /// Triangles of a pass, at most.
+    pub(super) triangles: usize,
 }
 
 /// A card with several sets of textures and targets, so that one pass can be prepared while others are on their way.
@@ -29,6 +31,8 @@ pub(super) struct PassCard {
     kernel: Kernel,
     sides: Sides,
     wish: PassWish,
+    /// Of the mesh that all passes are about.
+    bounds: [[f32; 3]; 2],
     sheets: BTreeMap<(usize, u32, u32, Format), Sheet>,
 }
 
@@ -46,8 +50,10 @@ pub(super) struct Drawn {
 }
 
 impl PassCard {
-    pub(super) fn new(machine: Machine, kernel: Kernel, sides: Sides, wish: PassWish) -> Self {
-        Self { machine, kernel, sides, wish, sheets: BTreeMap::new() }
+    /// A card for passes over triangles of one mesh.
+    pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides, wish: PassWish) -> Self {
+        let bounds = mesh.bounds().unwrap_or_default();
+        Self { machine, kernel, sides, wish, bounds, sheets: BTreeMap::new() }
     }
 
     /// The pixel program.
@@ -74,7 +80,7 @@ impl PassCard {
         rays: &RayBatch,
     ) -> Result<Drawn, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
-        let units = Units::choose(kernel.form, mesh, rays);
+        let units = Units::within(kernel.form, self.bounds, rays);
         let bucket = match (kernel.takes_bucket(), kernel.culls) {
             (true, true) => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
             (true, false) => cull::nothing(),

@@ -28,7 +28,12 @@ const ANY_ORIGIN_T_MAX: f64 = 4.0;
 impl Units {
     /// The largest scale at which everything fits the registers, textures and depth range of a program.
     pub(super) fn choose(form: Form, mesh: &Mesh, rays: &RayBatch) -> Self {
-        let reach = Reach::of(mesh, rays);
+        Self::within(form, mesh.bounds().unwrap_or_default(), rays)
+    }
+
+    /// The same for a mesh of which these are the lowest and the highest coordinates.
+    pub(super) fn within(form: Form, bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
+        let reach = Reach::of(bounds, rays);
         let scale = match form {
             // Registers hold o - a.
             Form::OneOrigin => scale_into(reach.offset, REGISTER_RANGE),
@@ -86,8 +91,8 @@ struct Reach {
 }
 
 impl Reach {
-    fn of(mesh: &Mesh, rays: &RayBatch) -> Self {
-        let [low, high] = mesh.bounds().unwrap_or_default().map(|p| p.map(f64::from));
+    fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
+        let [low, high] = bounds.map(|p| p.map(f64::from));
         let mut reach = Self { position: 0.0, origin: 0.0, offset: 0.0, t: 0.0 };
         for axis in 0..3 {
             reach.position = reach.position.max(low[axis].abs()).max(high[axis].abs());

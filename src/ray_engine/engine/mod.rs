@@ -85,7 +85,8 @@ impl<'a> RayEngine<'a> {
     ) -> Result<Self, EngineError> {
         let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
-        let wish = PassWish { outputs: parameters.outputs, small_ids: parameters.small_ids, cull: parameters.cull };
+        let EngineParameters { outputs, small_ids, cull, .. } = parameters;
+        let wish = PassWish { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
         let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, wish)?;
         let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {

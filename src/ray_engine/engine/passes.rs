@@ -35,15 +35,15 @@ pub(super) struct Passes {
     flying: VecDeque<Pass>,
     /// Textures and targets that no pass in flight uses, the one not used longest first.
     free: VecDeque<usize>,
+    /// How many there are.
+    sheets: usize,
 }
 
 impl Passes {
-    /// A card with textures and targets for every pass in flight and one more.
+    /// A card; textures and targets are made when a pass finds none free.
     pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
         card.record(record && readback != Readback::InfinitelyFast);
-        let mut passes = Self { card, readback, flying: VecDeque::new(), free: VecDeque::new() };
-        passes.free.extend(0..=passes.ahead());
-        passes
+        Self { card, readback, flying: VecDeque::new(), free: VecDeque::new(), sheets: 0 }
     }
 
     /// Passes that stay in flight while the host goes on.
@@ -74,7 +74,8 @@ impl Passes {
         }
         let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let batch = RayBatch::new(side(width), side(ROWS), rays)?;
-        let sheet = self.free.pop_front().unwrap_or(self.flying.len());
+        let sheet = self.free.pop_front().unwrap_or(self.sheets);
+        self.sheets = self.sheets.max(sheet + 1);
         let drawn = self.card.draw(sheet, mesh, triangles, &batch)?;
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
         let (hits, fence) = self.card.read_back(&drawn, triangles, &batch, wait)?;
