@@ -15,10 +15,10 @@ use crate::{KINDS, THREADS, rooms};
 
 const BEGIN: &str = "<!-- host rays: begin -->";
 const END: &str = "<!-- host rays: end -->";
-/// Rays that are timed together, some milliseconds.
-const PART: usize = 8192;
+/// Rays that are timed together: less than a millisecond, since longer runs are interrupted and slower tracers with them.
+const PART: usize = 1024;
 /// Times that each tracer takes them.
-const ROUNDS: usize = 15;
+const ROUNDS: usize = 9;
 
 /// Measures, and puts the figures into the document.
 pub(crate) fn write() -> io::Result<()> {

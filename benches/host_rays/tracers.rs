@@ -147,8 +147,10 @@ impl Boxes {
     }
 
     fn any(&self, ray: &Ray) -> bool {
+        // The crate makes directions unit vectors.
+        let length = ray.direction().iter().map(|x| x * x).sum::<f32>().sqrt();
         let ray = bvh::ray::Ray::new(ray.origin().into(), ray.direction().into());
-        let before = |shape: &Shape| Self::distance(&ray, shape) < 1.0;
+        let before = |shape: &Shape| Self::distance(&ray, shape) < length;
         match self.way {
             Way::All => self.tree.traverse_iterator(&ray, &self.shapes).any(before),
             Way::Child => self.tree.nearest_child_traverse_iterator(&ray, &self.shapes).any(before),
