@@ -26,7 +26,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene);
+    let lamps = Lamps::areas_of(scene, settings.rounding);
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lamps })
 }
@@ -39,7 +39,7 @@ struct Distributed<'a> {
 
 impl Shade for Distributed<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(mul(flight.weight, wide(self.settings.background)));
         };
         let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));

@@ -32,7 +32,7 @@ struct Eye<'a> {
 
 impl Shade for Eye<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(wide(self.settings.background));
         };
         let color = match surfel.material.surface {

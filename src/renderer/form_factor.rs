@@ -90,6 +90,6 @@ impl<'a> Patch<'a> {
 
     fn place(&self, which: f64, u: [f64; 2]) -> Option<Place> {
         let (entry, _) = self.table.draw(which)?;
-        Place::new(self.scene, self.triangles[entry], triangle(u))
+        Place::new(self.scene, self.triangles[entry], triangle(u), super::settings::SINGLE)
     }
 }

@@ -33,6 +33,7 @@ pub(super) struct Leaving {
 /// used both would light everything twice.
 pub(super) struct Lamps<'a> {
     scene: &'a Scene,
+    rounding: f64,
     emitters: Vec<u32>,
     /// By power.
     table: Table,
@@ -43,18 +44,18 @@ pub(super) struct Lamps<'a> {
 
 impl<'a> Lamps<'a> {
     /// The points alone.
-    pub(super) fn points_of(scene: &'a Scene) -> Self {
-        Self::new(scene, Vec::new())
+    pub(super) fn points_of(scene: &'a Scene, rounding: f64) -> Self {
+        Self::new(scene, rounding, Vec::new())
     }
 
     /// The emitters; the points only if there are no emitters.
-    pub(super) fn areas_of(scene: &'a Scene) -> Self {
+    pub(super) fn areas_of(scene: &'a Scene, rounding: f64) -> Self {
         let emitters = scene.emitters();
-        let points = if emitters.is_empty() { Self::new(scene, Vec::new()).points } else { Vec::new() };
-        Self { points, ..Self::new(scene, emitters) }
+        let points = if emitters.is_empty() { Self::new(scene, rounding, Vec::new()).points } else { Vec::new() };
+        Self { points, ..Self::new(scene, rounding, emitters) }
     }
 
-    fn new(scene: &'a Scene, emitters: Vec<u32>) -> Self {
+    fn new(scene: &'a Scene, rounding: f64, emitters: Vec<u32>) -> Self {
         let area = |id: u32| {
             let [a, b, c] = scene.mesh().corners(id).unwrap_or([[0.0; 3]; 3]).map(wide);
             length(cross(sub(b, a), sub(c, a))) / 2.0
@@ -65,7 +66,7 @@ impl<'a> Lamps<'a> {
         let density = |(entry, &area): (usize, &f64)| if area > 0.0 { table.chance(entry) / area } else { 0.0 };
         let densities = areas.iter().enumerate().map(density).collect();
         let points = scene.point_lights.iter().map(|light| (wide(light.position), wide(light.intensity))).collect();
-        Self { scene, emitters, table, densities, points }
+        Self { scene, rounding, emitters, table, densities, points }
     }
 
     /// Point lights.
@@ -96,7 +97,7 @@ impl<'a> Lamps<'a> {
     pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(Place, Vec3, f64)> {
         let (entry, _) = self.table.draw(which)?;
         let id = self.emitters[entry];
-        let place = Place::new(self.scene, id, triangle(u))?;
+        let place = Place::new(self.scene, id, triangle(u), self.rounding)?;
         let radiance = wide(self.scene.material(id).emission);
         Some((place, radiance, self.densities[entry]))
     }

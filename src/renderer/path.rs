@@ -42,7 +42,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene);
+    let lamps = Lamps::areas_of(scene, settings.rounding);
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lamps, direct })
 }
@@ -56,7 +56,8 @@ struct Paths<'a> {
 
 impl Shade for Paths<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
-        let found = hit.and_then(|hit| Some((Surfel::new(self.scene, &flight.ray, hit)?, hit.triangle)));
+        let found = hit
+            .and_then(|hit| Some((Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)?, hit.triangle)));
         let Some((surfel, triangle)) = found else {
             // Only rays find the background, so it needs no weighing.
             return Scatter::of(mul(flight.weight, wide(self.settings.background)));

@@ -14,6 +14,9 @@ pub struct Lens {
     pub focus: f64,
 }
 
+/// Unit roundoff of single precision.
+pub(super) const SINGLE: f64 = 1.0 / 16_777_216.0;
+
 /// What all renderers are told; each says what it makes of `depth`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -25,6 +28,9 @@ pub struct Settings {
     pub seed: u64,
     /// Rays of a bundle, about: bounds the memory, never shows in the picture.
     pub bundle: usize,
+    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: says how far off a surface rays start. A card of a shorter format, told
+    /// that it has a longer one, sees its surfaces lie in their own shadow.
+    pub rounding: f64,
     /// A lens; else a pinhole.
     pub lens: Option<Lens>,
     /// Radiance from where nothing is.
@@ -35,7 +41,16 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { samples: 1, depth: 8, seed: 1, bundle: 1 << 16, lens: None, background: [0.0; 3], ambient: [0.0; 3] }
+        Self {
+            samples: 1,
+            depth: 8,
+            seed: 1,
+            bundle: 1 << 16,
+            rounding: SINGLE,
+            lens: None,
+            background: [0.0; 3],
+            ambient: [0.0; 3],
+        }
     }
 }
 
@@ -49,6 +64,9 @@ impl Settings {
         }
         if self.depth > 1024 {
             return refuse("a depth", self.depth.to_string(), "at most 1024");
+        }
+        if !(self.rounding >= 0.0 && self.rounding < 1.0) {
+            return refuse("the unit roundoff", self.rounding.to_string(), "a number from 0 to below 1");
         }
         if let Some(Lens { radius, focus }) = self.lens {
             if !(radius.is_finite() && radius >= 0.0) {

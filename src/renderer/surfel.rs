@@ -7,8 +7,6 @@ use super::vector::{Vec3, add, along, cross, dot, length, narrow, neg, scale, su
 use crate::geom::{Hit, Ray};
 use crate::scene::{Material, Scene};
 
-/// Half a unit in the last place of f32, as a share.
-const ROUNDING: f64 = 1.0 / 16_777_216.0;
 /// A triangle thinner than this counts as so thin: then the bound on the plane test stops growing.
 const THINNEST: f64 = 1.0 / 256.0;
 /// The least cosine between a shading normal and the view, to which normals that look away are bent.
@@ -25,34 +23,37 @@ pub(super) struct Place {
     size: f64,
     /// `|ab| |ac| / |ab x ac|`: 1 over the sine of the angle at a.
     thinness: f64,
+    /// The caster's unit roundoff.
+    rounding: f64,
 }
 
 impl Place {
     /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not exist.
-    pub(super) fn new(scene: &Scene, triangle: u32, weights: Vec3) -> Option<Self> {
+    /// `rounding` is the unit roundoff of whoever tests rays.
+    pub(super) fn new(scene: &Scene, triangle: u32, weights: Vec3, rounding: f64) -> Option<Self> {
         let corners = scene.mesh().corners(triangle)?.map(wide);
-        Self::of(corners, weights)
+        Self::of(corners, weights, rounding)
     }
 
-    fn of([a, b, c]: [Vec3; 3], weights: Vec3) -> Option<Self> {
+    fn of([a, b, c]: [Vec3; 3], weights: Vec3, rounding: f64) -> Option<Self> {
         let (ab, ac) = (sub(b, a), sub(c, a));
         let across = cross(ab, ac);
         let normal = unit(across)?;
         let (ab, ac) = (length(ab), length(ac));
         let at = add(add(scale(a, weights[0]), scale(b, weights[1])), scale(c, weights[2]));
         let sine = (length(across) / (ab * ac)).max(THINNEST);
-        Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine })
+        Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })
     }
 
-    /// How far off the triangle a ray must start so that its f32 test misses it, for points up to `reach` from the origin.
+    /// How far off the triangle a ray must start so that its test misses it, for points up to `reach` from the origin.
     ///
-    /// With u = 2^-24: rounding the origin to f32 moves it along the normal by at most u (|x| + |y| + |z|); we take twice that. The test finds
-    /// the side from n . ao in f32. One rounding a component of ao, ab and ac, and three of the cross product and four of the dot product, make
+    /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u (|x| + |y| + |z|); we take twice
+    /// that. The test finds the side from n . ao. One rounding a component of ao, ab and ac, and three of the cross product and four of the dot product, make
     /// at most (1 + 2 + 2 + 4) u of the sum of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|.
     /// Here |ao| is at most the triangle's size plus `reach`.
     pub(super) fn clearance(&self, reach: f64) -> f64 {
         let [x, y, z] = self.at.map(f64::abs);
-        ROUNDING * (2.0 * (x + y + z) + 16.0 * self.thinness * (self.size + reach))
+        self.rounding * (2.0 * (x + y + z) + 16.0 * self.thinness * (self.size + reach))
     }
 
     /// The point lifted off the triangle, to the side of `towards`, clear of the test of rays that start there (or, with a
@@ -82,12 +83,12 @@ pub(super) struct Surfel<'a> {
 
 impl<'a> Surfel<'a> {
     /// What a ray met; `None` for a triangle without area.
-    pub(super) fn new(scene: &'a Scene, ray: &Ray, hit: Hit) -> Option<Self> {
+    pub(super) fn new(scene: &'a Scene, rounding: f64, ray: &Ray, hit: Hit) -> Option<Self> {
         let corners = scene.mesh().corners(hit.triangle)?.map(wide);
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
         let view = neg(unit(direction)?);
         let weights = barycentric(corners, origin, direction, f64::from(hit.t));
-        let place = Place::of(corners, weights)?;
+        let place = Place::of(corners, weights, rounding)?;
         let front = dot(place.normal, view) >= 0.0;
         let normal = if front { place.normal } else { neg(place.normal) };
         let smooth = scene.corner_normals(hit.triangle).and_then(|corners| interpolated(corners, weights));
@@ -172,6 +173,7 @@ mod tests {
     use super::*;
     use crate::geom::Mesh;
     use crate::geom::random::Keyed;
+    use crate::renderer::settings::SINGLE;
 
     fn triangle() -> Scene {
         let corners = vec![[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];
@@ -185,11 +187,15 @@ mod tests {
         let random = Keyed::new(1);
         for i in 0..200 {
             let eye = [0, 1, 2].map(|k| (20.0 * random.unit(i, 0, k)) as f32);
-            let inside =
-                Place::new(&scene, 0, super::super::sampling::triangle([random.unit(i, 1, 0), random.unit(i, 1, 1)]));
+            let inside = Place::new(
+                &scene,
+                0,
+                super::super::sampling::triangle([random.unit(i, 1, 0), random.unit(i, 1, 1)]),
+                SINGLE,
+            );
             let inside = inside.expect("a place");
             let ray = Ray::new(eye, narrow(sub(inside.at, wide(eye)))).expect("a ray");
-            let surfel = Surfel::new(&scene, &ray, Hit { triangle: 0, t: 77.0 }).expect("a surfel");
+            let surfel = Surfel::new(&scene, SINGLE, &ray, Hit { triangle: 0, t: 77.0 }).expect("a surfel");
             let wrong = length(sub(surfel.place.at, inside.at));
             assert!(wrong < 1e-4, "{wrong}");
             assert!(dot(surfel.normal, surfel.view) >= 0.0);
@@ -199,7 +205,7 @@ mod tests {
 
     #[test]
     fn the_clearance_is_a_few_units_in_the_last_place() {
-        let place = Place::new(&triangle(), 0, [1.0 / 3.0; 3]).expect("a place");
+        let place = Place::new(&triangle(), 0, [1.0 / 3.0; 3], SINGLE).expect("a place");
         let clearance = place.clearance(0.0);
         assert!(clearance > 0.0 && clearance < 1e-5, "{clearance}");
         let lifted = wide(place.lifted(place.normal, 0.0));

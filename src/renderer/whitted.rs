@@ -27,7 +27,7 @@ pub fn render<'a>(
     watch: &'a mut Watch<'a>,
 ) -> Result<Picture, RenderError> {
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::points_of(scene);
+    let lamps = Lamps::points_of(scene, settings.rounding);
     // A ray may become two at each glass surface on its way; few do.
     let fan = 2 + lamps.points();
     expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lamps })
@@ -41,7 +41,7 @@ struct Whitted<'a> {
 
 impl Shade for Whitted<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(mul(flight.weight, wide(self.settings.background)));
         };
         let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));

@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
+use refsim::num::{Format, Kind, Rounding};
 use serde_json::json;
 
 use super::scene::{Asked, camera};
@@ -131,7 +132,7 @@ fn parse_lens(text: &str) -> Result<Lens, String> {
 }
 
 pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<Verdict> {
-    let renderer = args.light.renderer.unwrap_or(if asked.built { Renderer::Whitted } else { Renderer::Eye });
+    let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     if caster == CasterArg::Host && (args.device.is_some() || args.executor.is_some()) {
@@ -146,7 +147,7 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
     let (picture, engine) = match caster {
         CasterArg::Host => {
             let mut host = HostTracer::new(mesh, OctreeParameters::default(), sides);
-            (trace(renderer, args, &asked.scene, &camera, &mut host)?, None)
+            (trace(renderer, args, &asked.scene, &camera, SINGLE, &mut host)?, None)
         }
         CasterArg::Engine => {
             let decider = args.executor.unwrap_or(Decider::Batch);
@@ -154,14 +155,29 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
                 let help = "name `--executor scalar`, `batch` or `wgpu`";
                 return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());
             };
+            let rounding = unit_roundoff(profile.rules.format);
             let parameters = EngineParameters { sides, ..EngineParameters::default() };
             let mut engine = RayEngine::new(mesh, profile, executor, parameters)?;
-            (trace(renderer, args, &asked.scene, &camera, &mut engine)?, Some(engine.counts()))
+            (trace(renderer, args, &asked.scene, &camera, rounding, &mut engine)?, Some(engine.counts()))
         }
     };
     view::write_folder(folder, &files(&picture, args.light.exposure)?)?;
     tell(args, &picture, engine.as_ref(), out)?;
     Ok(Verdict::Done)
+}
+
+/// Half a step of single precision, the host's.
+const SINGLE: f64 = 1.0 / 16_777_216.0;
+
+/// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are single precision.
+fn unit_roundoff(format: Format) -> f64 {
+    let bits = match format.kind {
+        Kind::Fixed { frac_bits, .. } => frac_bits,
+        Kind::Float { man_bits, .. } => man_bits,
+    };
+    let nearest = matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway);
+    let step = 1.0 / f64::from(1_u32 << bits.min(31));
+    (if nearest { step / 2.0 } else { step }).max(SINGLE)
 }
 
 /// A picture without any light is not what anybody asks for.
@@ -184,6 +200,7 @@ fn trace(
     args: &Args,
     scene: &Scene,
     camera: &Camera,
+    rounding: f64,
     caster: &mut dyn Caster,
 ) -> miette::Result<Picture> {
     let light = &args.light;
@@ -196,6 +213,7 @@ fn trace(
         samples: light.samples.unwrap_or(usual),
         depth: light.depth,
         seed: light.seed,
+        rounding,
         lens: light.lens,
         ambient: [light.ambient as f32; 3],
         ..Settings::default()

@@ -1,26 +1,24 @@
 //! Which scene `crossbar render` is asked for, and from where it is looked at.
 
-use std::path::Path;
-
 use miette::IntoDiagnostic as _;
 
 use super::Args;
 use crate::cli::{Problem, view};
-use crate::io::obj::load_obj;
-use crate::scene::{Camera, Material, Scene, built};
+use crate::io::scene_file::load;
+use crate::scene::{Camera, Scene, built};
 
 /// A scene to be lit.
 pub(super) struct Asked {
     pub(super) scene: Scene,
-    /// Whether it came with lights and views of its own.
-    pub(super) built: bool,
+    /// Whether it comes with lights and views of its own.
+    pub(super) lit: bool,
 }
 
 /// The scene, if it is to be lit; `None` for an OBJ file by its eye rays on a card.
 pub(super) fn lit(args: &Args) -> miette::Result<Option<Asked>> {
     let name = args.scene.to_str().unwrap_or_default();
     if let Some(scene) = built::build(name) {
-        return Ok(Some(Asked { scene, built: true }));
+        return Ok(Some(Asked { scene, lit: true }));
     }
     // A word without a dot or a folder is a name, not a file.
     if !args.scene.exists() && args.scene.components().count() == 1 && !name.contains('.') {
@@ -28,17 +26,11 @@ pub(super) fn lit(args: &Args) -> miette::Result<Option<Asked>> {
         let help = format!("the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
         return Err(Problem::usage(format!("there is no scene `{name}`"), help).into());
     }
-    if !args.light.asked() {
+    let described = args.scene.extension().is_some_and(|ending| ending == "toml");
+    if !described && !args.light.asked() {
         return Ok(None);
     }
-    Ok(Some(Asked { scene: load(&args.scene)?, built: false }))
-}
-
-/// A file as a scene: grey, without lights.
-fn load(path: &Path) -> miette::Result<Scene> {
-    let mesh = load_obj(path)?;
-    let of = vec![0; mesh.len()];
-    Scene::new(mesh, vec![Material::diffuse("grey", [0.7; 3])], of, Vec::new()).into_diagnostic()
+    Ok(Some(Asked { scene: load(&args.scene)?, lit: described }))
 }
 
 /// From where: the view asked for, else the eye asked for, else the scene's first view, else so that all is seen.

@@ -79,7 +79,7 @@ impl Shot<'_> {
     }
 
     fn land(&self, flight: &Flight, hit: Option<Hit>) -> Landing {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Landing::default();
         };
         let more = flight.depth + 1 < self.settings.depth;

@@ -76,7 +76,7 @@ pub fn render<'a>(
     settings.checked()?;
     photons.checked()?;
     let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene);
+    let lamps = Lamps::areas_of(scene, settings.rounding);
     let shot = |count, caustic| emit::Shot { scene, settings, lamps: &lamps, count, caustic };
     let global = PhotonMap::new(shot(photons.global, false).landed(&mut tracer)?);
     let caustic = PhotonMap::new(shot(photons.caustic, true).landed(&mut tracer)?);
@@ -96,7 +96,7 @@ struct Gathering<'a> {
 
 impl Shade for Gathering<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
-        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, &flight.ray, hit)) else {
+        let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(mul(flight.weight, wide(self.settings.background)));
         };
         // Gather rays carry a density. They see no lamps: shadow rays and the caustic map have counted those.

@@ -39,7 +39,6 @@ fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     for channel in 0..3 {
         let ([mapped, chance], [walked, more]) = (a[channel], b[channel]);
         let (bias, chance) = (mapped / walked - 1.0, 3.0 * (chance + more).sqrt() / walked);
-        println!("channel {channel}: {bias:+.4}, chance {chance:.4}");
         assert!(bias.abs() < bound + chance, "channel {channel}: {bias}, of which {chance} may be chance");
     }
 }
