@@ -148,6 +148,29 @@ fn lit_surfaces_have_no_spots() {
 }
 
 #[test]
+fn cards_of_short_formats_see_no_shadow_of_their_own() {
+    use crossbar::geom::exact::Sides;
+    use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
+    let mut builder = Builder::default();
+    builder.quad([-1.0, -1.0, 0.1], [2.0, 0.0, 0.3], [0.0, 2.0, 0.2], white(1.0));
+    let mut scene = builder.scene();
+    scene.point_lights.push(PointLight { position: [1.5, 0.25, 1.75], intensity: [1.0; 3] });
+    let camera = Camera::new([0.1, 0.2, 9.0], [0.0, 0.0, 0.25], [0.0, 1.0, 0.0], 0.1, 24, 24).expect("a camera");
+    let dark = |rounding| {
+        let parameters =
+            EngineParameters { sides: Sides::Both, triangles: 1..=15, rays: 8, ..EngineParameters::default() };
+        let profile = refsim::device::Profile::named("ideal-fp24").expect("a profile");
+        let executor = refsim::machine::ExecutorKind::Batch;
+        let mut engine = RayEngine::new(scene.mesh(), profile, executor, parameters).expect("an engine");
+        let told = Settings { rounding, ..settings() };
+        let picture = whitted::render(&scene, &camera, &told, &mut engine, &mut |_| {}).expect("a picture");
+        picture.color.iter().filter(|color| color[0] <= 0.0).count()
+    };
+    assert_eq!(dark(1.0 / 131_072.0), 0);
+    assert!(dark(Settings::default().rounding) > 0, "told that it were single precision, it sees some");
+}
+
+#[test]
 fn depth_ends_the_hall_of_mirrors() {
     let mut builder = Builder::default();
     let mirror = of(Surface::Mirror { reflectance: [1.0; 3] });
