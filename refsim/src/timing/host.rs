@@ -59,6 +59,8 @@ operations! {
     BucketInsert = "bucket-insert", 25, "six numbers and an index copied; no source was found";
     /// A ray made: by the camera, or by a hit.
     RayGenerated = "ray-generated", 40, "a direction and its length; no source was found";
+    /// A ray written into the textures of a pass.
+    RayPacked = "ray-packed", 10, "six numbers written one after the other; taken like a result that is read";
     /// A result looked at that came from the card.
     ResultRead = "result-read", 10, "an index and a distance kept if nearer; no source was found";
     /// A vertex handed to the driver, with its attributes.

@@ -131,6 +131,8 @@ impl RayEngine<'_> {
         }
         let (rays_given, triangles_given) = (waiting.len() as u64, triangles.len() as u64);
         let rays = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
+        // Section 5.2: the front end converts the cache into texture data.
+        self.note(Operation::RayPacked, rays_given);
         self.note(Operation::TriangleSent, triangles_given);
         self.note(Operation::VertexSent, 4 * triangles_given);
         let drawn = self.passes.issue(self.mesh, &triangles, rays, waiting)?;
@@ -204,16 +206,20 @@ impl RayEngine<'_> {
         self.answered.push(Answered { ticket: ended.ticket, hit, uvw });
     }
 
-    /// Work of the host, for the log; neighbours of one kind are one entry.
+    /// Work of the host, for the log: between two calls of the card, all of one kind is one entry.
     pub(super) fn note(&mut self, operation: Operation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;
         }
-        if let Some(Event::Host(work)) = self.log.last_mut()
-            && work.kind == operation.name()
-        {
-            work.operations += count;
-            return;
+        for event in self.log.iter_mut().rev() {
+            match event {
+                Event::Host(work) if work.kind == operation.name() => {
+                    work.operations += count;
+                    return;
+                }
+                Event::Host(_) => {}
+                _ => break,
+            }
         }
         self.log.push(Event::Host(HostWork { kind: operation.name().into(), operations: count }));
     }

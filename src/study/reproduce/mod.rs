@@ -9,6 +9,7 @@ mod pipeline;
 mod radeon_8500;
 pub mod report;
 mod row;
+mod tables;
 mod vertex_variant;
 
 use refsim::device::{DeviceError, Profile};
@@ -127,6 +128,26 @@ pub const ENTRIES: &[Entry] = &[
         id: "figure-7",
         title: "Tests a second by the number of triangles (Ray Engine, figure 7)",
         work: figure_7::findings,
+    },
+    Entry {
+        id: "ray-engine-tables-1-2",
+        title: "Rays a second of five scenes, and the share of them on the card (Ray Engine, tables 1 and 2)",
+        work: tables::table_1,
+    },
+    Entry {
+        id: "ray-engine-table-3",
+        title: "What the card, asynchronous read-back and an infinitely fast card bring (Ray Engine, table 3)",
+        work: tables::table_3,
+    },
+    Entry {
+        id: "ray-engine-table-4",
+        title: "The number of triangles that go to the card (Ray Engine, table 4)",
+        work: tables::table_4,
+    },
+    Entry {
+        id: "ray-engine-table-5",
+        title: "The number of rays that go to the card (Ray Engine, table 5)",
+        work: tables::table_5,
     },
 ];
 

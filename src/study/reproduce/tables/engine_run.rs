@@ -1,0 +1,131 @@
+//! One run of the Ray Engine over a renderer's bundles: what it did, and how long that takes on the host and card of the paper.
+
+use refsim::device::Profile;
+use refsim::event::{DrawRecord, Event};
+use refsim::machine::ExecutorKind;
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostWeights, Operation};
+use refsim::timing::queue::QueueFigures;
+use refsim::timing::replay::{Costs, Options, replay};
+use refsim::timing::{DrawCost, Level, Model, Picoseconds};
+
+use super::super::ReproduceError;
+use super::super::pipeline::failed;
+use super::workload::Workload;
+use crate::geom::exact::Sides;
+use crate::ray_engine::HostTracer;
+use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::ray_engine::octree::OctreeParameters;
+
+/// The card that computes: fp32, as the simulator of section 5.4.
+const COMPUTES: &str = "ideal-fp32";
+/// The card that the time is of: "execution rates measured on the GeForce 4".
+pub(super) const TIMES: &str = "nv25";
+/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was worked out.
+pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
+
+/// An engine's run over a workload.
+pub(super) struct Run {
+    pub(super) counts: EngineCounts,
+    log: Vec<Event>,
+}
+
+impl Run {
+    /// Plays the bundles to an engine, one after the other, and lets it finish once in the end: secondary rays enter the cache while
+    /// others still wait in it, as they do where a renderer goes on with whatever comes out.
+    pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, ReproduceError> {
+        let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
+        let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
+        for bundle in &work.bundles {
+            engine.submit(bundle)?;
+        }
+        engine.finish()?;
+        Ok(Self { counts: engine.counts(), log: engine.take_log() })
+    }
+
+    /// What was asked of the card and done on the host.
+    pub(super) fn log(&self) -> &[Event] {
+        &self.log
+    }
+}
+
+/// What a host does for a workload without card and ray tree: the first row of Table 3.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HostOnly {
+    pub(super) counts: HostCounts,
+    pub(super) rays: u64,
+}
+
+impl HostOnly {
+    pub(super) fn of(work: &Workload) -> Self {
+        let tracer = HostTracer::new(&work.mesh, OCTREE, Sides::Both);
+        let mut counts = HostCounts::default();
+        for bundle in &work.bundles {
+            let (_, cost) = tracer.nearest_all(bundle);
+            counts.add(Operation::OctreeCell, cost.traversal.cells);
+            counts.add(Operation::RayTriangleTest, cost.tests);
+        }
+        Self { counts, rays: work.rays }
+    }
+
+    /// The host on which this work takes as long as Table 3's first row says: the one constant that is calibrated.
+    pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, ReproduceError> {
+        let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
+        model.map_err(|e| failed(TIMES)(&e))
+    }
+
+    /// Rays a second on a host.
+    pub(super) fn rays_per_s(&self, host: &HostModel) -> f64 {
+        self.rays as f64 / host.time_of_all(&self.counts).seconds()
+    }
+}
+
+/// What the commands of a run cost, beside equation 11.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Commands {
+    /// Nothing: equation 11 is all there is.
+    Free,
+    /// These figures of the host, and the bus's latencies.
+    Cost(QueueFigures),
+}
+
+/// Draws at the measured fill rate, the bus by its rates.
+struct GeForce4 {
+    rates: Model,
+    free: bool,
+}
+
+impl Costs for GeForce4 {
+    fn draw(&self, record: &DrawRecord) -> DrawCost {
+        self.rates.draw(record)
+    }
+
+    fn upload(&self, bytes: u64) -> Picoseconds {
+        // Equation 11 knows nothing of uploads.
+        if self.free { Picoseconds::ZERO } else { self.rates.upload(bytes) }
+    }
+
+    fn read_back(&self, bytes: u64) -> Picoseconds {
+        self.rates.read_back(bytes)
+    }
+
+    fn clear(&self, bytes: u64) -> Picoseconds {
+        self.rates.clear(bytes)
+    }
+
+    fn state(&self, changes: u32) -> Picoseconds {
+        self.rates.state_change(changes)
+    }
+}
+
+/// Rays a second of a run.
+pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Result<f64, ReproduceError> {
+    let free = commands == Commands::Free;
+    let card = GeForce4 { rates: Model::new(Level::Rates, &Profile::named(TIMES)?)?, free };
+    let queue = match commands {
+        Commands::Free => QueueFigures::default().without_overhead(),
+        Commands::Cost(figures) => figures,
+    };
+    let options = Options { queue, host: Some(host), ..Options::default() };
+    let found = replay(&run.log, &card, &options).map_err(|e| failed(TIMES)(&e))?;
+    Ok(run.counts.rays as f64 / found.timeline.makespan().seconds())
+}

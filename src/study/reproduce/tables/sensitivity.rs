@@ -1,0 +1,55 @@
+//! What each guess of host and queue does to Table 3.
+
+use rayon::prelude::*;
+use refsim::timing::host::{HostWeights, Operation};
+use refsim::timing::queue::QueueFigures;
+
+use super::engine_run::{Commands, HostOnly, rays_per_s};
+use super::{Line, ReproduceError, speed_up, tenths};
+use crate::report::{Cell, Table};
+
+/// Guesses that are doubled: of the host's operations, and of the queue's commands.
+fn keys() -> Vec<String> {
+    let host = Operation::ALL.iter().map(|operation| format!("host.{operation}"));
+    let queue = QueueFigures::default().rows().into_iter().filter(|row| row.unit == "ps").map(|row| row.key);
+    host.chain(queue).collect()
+}
+
+/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated anew each
+/// time, so that it does the work alone in the same time.
+pub(super) fn table(alone: &HostOnly, lines: &[Line]) -> Result<Table, ReproduceError> {
+    let headings: Vec<String> = std::iter::once("guess".to_owned())
+        .chain(lines.iter().map(|line| format!("{}_%", line.what.replace(' ', "_"))))
+        .collect();
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    let mut table = Table::new("Speed-ups of Table 3 with one guess doubled", &headings);
+    let stated = speed_ups(alone, lines, HostWeights::default(), QueueFigures::default())?;
+    push(&mut table, "as stated", &stated);
+    let doubled = |key: String| {
+        let (mut weights, mut queue) = (HostWeights::default(), QueueFigures::default());
+        if let Some(figure) = weights.figure_mut(&key).or_else(|| queue.figure_mut(&key)) {
+            *figure *= 2;
+        }
+        speed_ups(alone, lines, weights, queue).map(|found| (key, found))
+    };
+    let found: Vec<_> = keys().into_par_iter().map(doubled).collect::<Result<_, _>>()?;
+    for (key, found) in found.into_iter().filter(|(_, found)| *found != stated) {
+        push(&mut table, &format!("{key} doubled"), &found);
+    }
+    Ok(table)
+}
+
+fn speed_ups(
+    alone: &HostOnly,
+    lines: &[Line],
+    weights: HostWeights,
+    queue: QueueFigures,
+) -> Result<Vec<f64>, ReproduceError> {
+    let host = alone.calibrate(weights)?;
+    lines.iter().map(|line| Ok(speed_up(rays_per_s(&line.run, &host, Commands::Cost(queue))?))).collect()
+}
+
+fn push(table: &mut Table, guess: &str, found: &[f64]) {
+    let head: Cell = guess.into();
+    table.push(std::iter::once(head).chain(found.iter().map(|value| tenths(*value, 10.0))));
+}
