@@ -11,7 +11,7 @@ use crossbar::geom::Ray;
 
 use crate::rooms::Room;
 use crate::tracers::{self, Tracer};
-use crate::{KINDS, THREADS, rooms};
+use crate::{KINDS, Kind, THREADS, rooms};
 
 const BEGIN: &str = "<!-- host rays: begin -->";
 const END: &str = "<!-- host rays: end -->";
@@ -29,12 +29,12 @@ pub(crate) fn write() -> io::Result<()> {
     for room in rooms::all() {
         let tracers = tracers::all(&room.mesh);
         tracers::compare(&tracers, &room);
-        for kind in 0..KINDS.len() {
+        for kind in KINDS {
             for threads in THREADS {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(io::Error::other)?;
                 let figures = pool.install(|| measure(&tracers, &room, kind));
                 let _: Result<(), std::fmt::Error> =
-                    writeln!(out, "| {}, {}, {threads} {}", room.name, KINDS[kind].0, line(&figures));
+                    writeln!(out, "| {}, {}, {threads} {}", room.name, kind.0, line(&figures));
             }
         }
     }
@@ -47,8 +47,8 @@ pub(crate) fn write() -> io::Result<()> {
 }
 
 /// Millions of rays a second of each tracer.
-fn measure(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room, kind: usize) -> Vec<(&'static str, f64)> {
-    let (_, rays, trace) = KINDS[kind];
+fn measure(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room, kind: Kind) -> Vec<(&'static str, f64)> {
+    let (_, rays, trace) = kind;
     let rays: &[Ray] = rays(room);
     let mut seconds = vec![0.0; tracers.len()];
     for part in rays.chunks(PART) {
