@@ -73,7 +73,9 @@ fn waiting_changes_the_time_and_never_a_hit() {
         assert!(found.counts.passes > 20, "{mode:?}: {} passes", found.counts.passes);
     }
     let [synchronous, one, four, infinite] = runs.each_ref().map(|run| timed(run, &host).timeline.makespan().0);
-    assert!(four <= one && one < synchronous, "{synchronous} {one} {four}");
+    // Each entry of host work is rounded up to a picosecond, and passes cut the same work into other entries.
+    let rounding = runs[2].log.len() as u64;
+    assert!(four <= one + rounding && one < synchronous, "{synchronous} {one} {four}");
     assert!(infinite < four, "{four} {infinite}");
     let working = host.time_of_all(&host_work(&runs[3].log)).0;
     assert!(infinite >= working && infinite - working <= runs[3].log.len() as u64, "nothing but host work, rounded up");

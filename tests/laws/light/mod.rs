@@ -117,11 +117,12 @@ const FAR: f64 = 4.5;
 
 /// Holds one pixel against what is expected of it.
 fn within_chance(picture: &Picture, pixel: usize, expected: Vec3) {
-    for channel in 0..3 {
-        let (found, spread) = (picture.color[pixel][channel], picture.variance[pixel][channel].sqrt());
-        let off = (found - expected[channel]) / spread;
-        assert!(off.abs() < FAR, "found {found}, expected {}: {off} of {spread} off", expected[channel]);
-        assert!(spread < 0.05 * expected[channel], "{spread} is too wide to tell anything");
+    let variances = picture.variance[pixel];
+    for ((found, variance), expected) in picture.color[pixel].into_iter().zip(variances).zip(expected) {
+        let spread = variance.sqrt();
+        let off = (found - expected) / spread;
+        assert!(off.abs() < FAR, "found {found}, expected {expected}: {off} of {spread} off");
+        assert!(spread < 0.05 * expected, "{spread} is too wide to tell anything");
     }
 }
 
