@@ -7,6 +7,7 @@
 
 mod agreement;
 mod blame;
+mod constants;
 mod coverage;
 mod dice;
 mod executors;

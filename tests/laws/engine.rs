@@ -59,7 +59,7 @@ fn schedules_change_counts_and_never_a_hit() {
             EngineParameters { triangles: 1..=40, rays: 64, ..base.clone() },
             EngineParameters { rays: 16, waiting: 500, readback: Readback::Asynchronous { passes: 3 }, ..base.clone() },
             EngineParameters { readback: Readback::InfinitelyFast, ..base.clone() },
-            EngineParameters { cull: true, beams: false, shuffle: None, ..base.clone() },
+            EngineParameters { cull: false, beams: false, shuffle: None, ..base.clone() },
             EngineParameters { shuffle: Some(99), outputs: Outputs::Id, small_ids: true, rays: 16, ..base.clone() },
         ];
         for (i, parameters) in variants.into_iter().enumerate() {

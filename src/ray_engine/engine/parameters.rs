@@ -48,8 +48,7 @@ pub struct EngineParameters {
     /// Whether triangles come back as places in the pass's list, in the smallest colour target that the card has: one byte for up to 255
     /// triangles, two for more, four where the card has no such target. Not with barycentric coordinates.
     pub small_ids: bool,
-    /// Whether the vertex program culls triangles that no ray of a pass can hit. Off: what it saves is fill, a small part of the time,
-    /// and the emulator decodes the program anew for the constants of each pass, which makes passes several times slower to emulate.
+    /// Whether the vertex program culls triangles that no ray of a pass can hit.
     pub cull: bool,
     /// Whether a bucket that leaves the tree is tested against the octree's cells first, as one beam.
     pub beams: bool,
@@ -72,7 +71,7 @@ impl Default for EngineParameters {
             readback: Readback::default(),
             outputs: Outputs::default(),
             small_ids: false,
-            cull: false,
+            cull: true,
             beams: true,
             shuffle: Some(1),
             record: false,

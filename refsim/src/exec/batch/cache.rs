@@ -35,7 +35,8 @@ impl<K, V> Cache<K, V> {
         value
     }
 
-    fn find(&self, matches: impl Fn(&K) -> bool) -> Option<Arc<V>> {
+    /// The value whose key `matches`, if there is one.
+    pub(crate) fn find(&self, matches: impl Fn(&K) -> bool) -> Option<Arc<V>> {
         let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         let found = entries.iter().rposition(|(key, _)| matches(key))?;
         let entry = entries.remove(found);

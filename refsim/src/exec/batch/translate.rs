@@ -43,7 +43,13 @@ pub(crate) struct Translator<'a> {
     pub(crate) pads: usize,
     /// Texture reads by sampler, one an instruction.
     pub(crate) fetches: Vec<usize>,
+    /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program; else they are part of
+    /// what is made.
+    pub(crate) open_constants: bool,
 }
+
+/// The first input that is a constant's, after those of 16 attributes.
+pub(crate) const CONSTANT_INPUTS: u16 = 64;
 
 impl<'a> Translator<'a> {
     pub(crate) fn new(
@@ -65,6 +71,7 @@ impl<'a> Translator<'a> {
             padded: [zero; 2],
             pads: 0,
             fetches: Vec::new(),
+            open_constants: false,
         }
     }
 
@@ -128,6 +135,10 @@ impl<'a> Translator<'a> {
 
     fn constant(&mut self, register: &Register, component: usize) -> Node {
         let address = match register.relative {
+            None if self.open_constants => {
+                let input = CONSTANT_INPUTS + 4 * register.index + component as u16;
+                return self.make.graph.node(Kind::Input(input));
+            }
             None => {
                 let bits = self.constants.float.get(usize::from(register.index)).map_or(0, |c| c[component]);
                 return self.make.pattern(Arith::Main, bits);

@@ -18,7 +18,7 @@ use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
 use super::slots::{Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
-use super::translate::{Effect, Place, Translator};
+use super::translate::{CONSTANT_INPUTS, Effect, Place, Translator};
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::{Constants, ResolvedConstants};
@@ -104,11 +104,40 @@ enum VertexCode {
 struct Key {
     program: Program,
     rules: Rules,
-    constants: ResolvedConstants,
+    /// `None` where they are inputs.
+    constants: Option<ResolvedConstants>,
     needed: ComponentMask,
 }
 
 static DECODED: Cache<Key, Decoded> = Cache::new();
+
+/// A program decoded, or as it was decoded before. The first constants that it comes with become part of it; when others follow, it is decoded
+/// once more with constants as inputs, which serves all that come after.
+fn decoded(
+    program: &Program,
+    rules: &Rules,
+    formats: &Formats,
+    constants: &ResolvedConstants,
+    (needed, components): (ComponentMask, &[usize]),
+) -> Arc<Decoded> {
+    let same = |key: &Key| key.needed == needed && key.program == *program && key.rules == *rules;
+    let folded = |key: &Key| key.constants.as_ref() == Some(constants) && same(key);
+    if let Some(code) = DECODED.find(folded) {
+        return code;
+    }
+    let open = !has_flow(program) && DECODED.find(same).is_some();
+    let matches = |key: &Key| if open { key.constants.is_none() && same(key) } else { folded(key) };
+    DECODED.get(matches, || {
+        let code = if has_flow(program) {
+            VertexCode::Flow(Box::new(FlowPlan::vertex(program, rules, formats, constants)))
+        } else {
+            straight(program, rules, formats, constants, (open, components))
+        };
+        let constants = (!open).then(|| constants.clone());
+        let key = Key { program: program.clone(), rules: rules.clone(), constants, needed };
+        (key, Decoded { code, slots: Pool::default() })
+    })
+}
 
 impl BatchVertices {
     /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if
@@ -117,18 +146,7 @@ impl BatchVertices {
         let formats = vertex_formats(rules.vertex_format)?;
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
-        let matches = |key: &Key| {
-            key.needed == needed && key.program == *program && key.constants == constants && key.rules == *rules
-        };
-        let code = DECODED.get(matches, || {
-            let (program, rules, constants) = (program.clone(), rules.clone(), constants.clone());
-            let code = if has_flow(&program) {
-                VertexCode::Flow(Box::new(FlowPlan::vertex(&program, &rules, &formats, &constants)))
-            } else {
-                straight(&program, &rules, &formats, &constants, &components)
-            };
-            (Key { program, rules, constants, needed }, Decoded { code, slots: Pool::default() })
-        });
+        let code = decoded(program, rules, &formats, &constants, (needed, &components));
         Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
 
@@ -216,6 +234,11 @@ impl BatchVertices {
             VertexCode::Flow(plan) => plan.inputs(),
         };
         for &(component, slot) in inputs {
+            if let Some(constant) = component.checked_sub(CONSTANT_INPUTS) {
+                let register = self.constants.get(usize::from(constant / 4));
+                slots.row_mut(slot)[..count].fill(register.map_or(0, |c| c[usize::from(constant % 4)]));
+                continue;
+            }
             // A pattern is the number's host bits: single precision is the host's own.
             let row = &mut slots.row_mut(slot)[..count];
             attributes(usize::from(component / 4), usize::from(component % 4), first, row);
@@ -280,15 +303,16 @@ fn outputs(components: &[usize]) -> impl Iterator<Item = Place> {
     }))
 }
 
-/// A program without flow control as one block that makes the outputs alone.
+/// A program without flow control as one block that makes the outputs alone; `open`: its constants are inputs.
 fn straight(
     program: &Program,
     rules: &Rules,
     formats: &Formats,
     constants: &ResolvedConstants,
-    components: &[usize],
+    (open, components): (bool, &[usize]),
 ) -> VertexCode {
     let mut t = Translator::new(program, rules, formats.clone(), constants, None);
+    t.open_constants = open;
     let mut cost = 0;
     for instruction in &program.instructions {
         let slots = instruction.opcode.info().slot_cost(program.version);

@@ -150,15 +150,14 @@ fn tenths(value: f64, steps: f64) -> Cell {
     ((value * steps).round() / steps).into()
 }
 
-/// How the engine of the tables runs unless a table says otherwise: 5 to 15 triangles, 64 rays (section 6.3); buckets tested against cells,
-/// rays put into the tree in random order (section 5.3). Culling in the vertex program saves fill alone, a few thousandths of the time; it
-/// is left out because every pass would have its own constants, for which the emulator decodes the program anew.
+/// How the engine of the tables runs unless a table says otherwise: 5 to 15 triangles, 64 rays (section 6.3); triangles outside the bucket
+/// culled by the vertex program, buckets tested against cells, rays put into the tree in random order (section 5.3).
 fn parameters() -> EngineParameters {
     EngineParameters {
         triangles: 5..=15,
         rays: 64,
         readback: Readback::Synchronous,
-        cull: false,
+        cull: true,
         beams: true,
         shuffle: Some(built::SEED),
         ..EngineParameters::default()
