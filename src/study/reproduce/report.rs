@@ -136,5 +136,6 @@ fn page(found: &Reproduced, provenance: &Provenance) -> Result<Page, ReportError
 }
 
 fn rounded(value: f64, steps: f64) -> f64 {
-    (value * steps).round() / steps
+    // Plus 0, so that nothing reads -0.
+    (value * steps).round() / steps + 0.0
 }
