@@ -2,11 +2,10 @@
 //!
 //! Written for being the same as the card, not for speed: it is asked once a hit.
 
+use super::host_test::{cross, dot, neg, sub};
 use super::rays::normalise_range;
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
-
-type Vector = [f32; 3];
 
 /// A point of a triangle's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,20 +35,4 @@ pub(super) fn plane_point(mesh: &Mesh, triangle: u32, ray: &Ray, sides: Sides) -
     };
     let t = dot(n, ao) * -inverse;
     Some(PlanePoint { t: (f64::from(t) * power) as f32, uvw })
-}
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn neg(a: Vector) -> Vector {
-    a.map(|x| -x)
-}
-
-fn dot(a: Vector, b: Vector) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -78,23 +78,23 @@ impl HostRay {
 }
 
 #[inline(always)]
-fn sub(a: Vector, b: Vector) -> Vector {
+pub(super) fn sub(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
-fn neg(a: Vector) -> Vector {
+pub(super) fn neg(a: Vector) -> Vector {
     a.map(|x| -x)
 }
 
 /// Sums from the left, as `dp3` of the fp32 profiles.
 #[inline(always)]
-fn dot(a: Vector, b: Vector) -> f32 {
+pub(super) fn dot(a: Vector, b: Vector) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The first product is rounded, then the second, then their difference, as `mul` and `mad`, or `crs`, of the fp32 profiles.
 #[inline(always)]
-fn cross(a: Vector, b: Vector) -> Vector {
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

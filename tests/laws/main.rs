@@ -14,6 +14,7 @@ mod ground_truth;
 mod light;
 mod logs;
 mod models;
+mod mutation;
 mod octree;
 mod oracle;
 mod outputs;

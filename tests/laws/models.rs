@@ -7,6 +7,8 @@ use crossbar::geom::{Mesh, Sides, exact, teapot};
 use crossbar::io::{load_obj, load_rays, parse_obj, parse_rays, write_hits, write_obj};
 use proptest::prelude::*;
 
+use crate::mutation::mutated;
+
 const GOOD: &str = "# good\nmtllib a.mtl\no thing\nv 0 0 0\nv 1.5 0 -0\nv 1e-3 +1 0 1\nv -1 0 .5 1 0 0\nvt 0 0\nvn 0 0 1\n\
                     usemtl red\ng part\ns 1\nf 1 2 3\nf 1/1/1 2//1 3/1 4\nf -1 -2 \\\n-3\nl 1 2\np 1\n";
 
@@ -18,23 +20,6 @@ fn round_trip(mesh: &Mesh) -> Mesh {
     let mut text = Vec::new();
     write_obj(mesh, &mut text).expect("written");
     parse_obj(&text, Path::new("m.obj")).expect("a mesh")
-}
-
-/// A good file with some bytes replaced, put in or left out, or lines made of the words that the reader knows.
-fn mutated() -> impl Strategy<Value = Vec<u8>> {
-    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), 1..12);
-    edits.prop_map(|edits| {
-        let mut bytes = GOOD.as_bytes().to_vec();
-        for (place, kind, byte) in edits {
-            let at = place.index(bytes.len());
-            match kind {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                _ => drop(bytes.remove(at)),
-            }
-        }
-        bytes
-    })
 }
 
 fn word() -> impl Strategy<Value = String> {
@@ -85,7 +70,7 @@ proptest! {
     }
 
     #[test]
-    fn mutated_models_do_no_harm(bytes in mutated()) {
+    fn mutated_models_do_no_harm(bytes in mutated(GOOD, 1..12)) {
         if let Ok(mesh) = parse_obj(&bytes, Path::new("m.obj")) {
             prop_assert_eq!(soup(&round_trip(&mesh)), soup(&mesh));
         }

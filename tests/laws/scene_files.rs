@@ -8,6 +8,8 @@ use crossbar::io::{parse_mtl, parse_scene, scene_file, scene_files, write_mtl, w
 use crossbar::scene::{Material, Scene, Surface, built};
 use proptest::prelude::*;
 
+use crate::mutation::mutated;
+
 const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
                    usemtl glass\nf 1 2 3 4\nusemtl nowhere\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";
 const MTL: &str = "newmtl red\nKd 0.5 0.1 .1\nKs .25 .25 .25\nNs 20\nillum 2\nd 1\nmap_Kd a.png\n\nnewmtl glass\nillum 6\n\
@@ -97,23 +99,6 @@ fn fixtures_are_the_scenes() {
     }
 }
 
-/// A good text with some bytes replaced, put in or left out.
-fn mutated(good: &'static str) -> impl Strategy<Value = Vec<u8>> {
-    let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), 0..8);
-    edits.prop_map(move |edits| {
-        let mut bytes = good.as_bytes().to_vec();
-        for (place, kind, byte) in edits {
-            let at = place.index(bytes.len());
-            match kind {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                _ => drop(bytes.remove(at)),
-            }
-        }
-        bytes
-    })
-}
-
 fn word() -> impl Strategy<Value = String> {
     let known = "v vn f usemtl mtllib newmtl Kd Ks Ke Ns Ni Tf d Tr illum a.mtl red 0 1 0.5 -1 2 6 3 7 11 1e39 nan -0 1//1 1//-1 \
                  2//2 3//9 2/1/1 1e-45 # \\ [[view]] name = \" é";
@@ -147,7 +132,7 @@ proptest! {
     }
 
     #[test]
-    fn mutated_files_do_no_harm(obj in mutated(OBJ), mtl in mutated(MTL), toml in mutated(TOML)) {
+    fn mutated_files_do_no_harm(obj in mutated(OBJ, 0..8), mtl in mutated(MTL, 0..8), toml in mutated(TOML, 0..8)) {
         if let Some(scene) = parse(&obj, &mtl) {
             let plain = |material: &Material| !material.name.contains(|c: char| c.is_whitespace() || c == '\\');
             if scene.materials().iter().all(plain) {

@@ -135,7 +135,8 @@ fn page(found: &Reproduced, provenance: &Provenance) -> Result<Page, ReportError
     Ok(page)
 }
 
-fn rounded(value: f64, steps: f64) -> f64 {
+/// A value to whole parts of `steps` in one.
+pub(super) fn rounded(value: f64, steps: f64) -> f64 {
     // Plus 0, so that nothing reads -0.
     (value * steps).round() / steps + 0.0
 }

@@ -12,7 +12,7 @@ use super::super::ReproduceError;
 use super::super::pipeline::failed;
 use super::workload::Workload;
 use crate::geom::exact::Sides;
-use crate::ray_engine::HostTracer;
+use crate::ray_engine;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::ray_engine::octree::OctreeParameters;
 
@@ -56,15 +56,12 @@ pub(super) struct HostOnly {
 }
 
 impl HostOnly {
-    pub(super) fn of(work: &Workload) -> Self {
-        let tracer = HostTracer::new(&work.mesh, OCTREE, Sides::Both);
-        let mut counts = HostCounts::default();
-        for bundle in &work.bundles {
-            let (_, cost) = tracer.nearest_all(bundle);
-            counts.add(Operation::OctreeCell, cost.traversal.cells);
-            counts.add(Operation::RayTriangleTest, cost.tests);
-        }
-        Self { counts, rays: work.rays }
+    /// What a host tracer counted.
+    pub(super) fn of(cost: &ray_engine::HostCounts) -> Self {
+        let counts = HostCounts::default()
+            .with(Operation::OctreeCell, cost.traversal.cells)
+            .with(Operation::RayTriangleTest, cost.tests);
+        Self { counts, rays: cost.rays }
     }
 
     /// The host on which this work takes as long as Table 3's first row says: the one constant that is calibrated.

@@ -3,7 +3,7 @@
 use refsim::event::Event;
 use refsim::timing::host::{HostCounts, HostModel, Operation};
 
-use super::{Line, TeapotRoom, tenths};
+use super::{Line, TeapotRoom, figure};
 use crate::report::{Cell, Table};
 
 /// Microseconds a ray that the host spends on each kind of operation: alone, and in the lines of a table.
@@ -12,7 +12,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[Line]) -> Table {
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("The host's time a ray", &headings);
-    table.push(row("host alone", &room.host, &room.alone.counts, room.alone.rays));
+    table.push(row("host alone", &room.host, &room.work.alone.counts, room.work.alone.rays));
     for line in lines {
         table.push(row(&line.what, &room.host, &counted(line.run.log()), line.run.counts.rays));
     }
@@ -20,7 +20,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[Line]) -> Table {
 }
 
 fn row(what: &str, host: &HostModel, counts: &HostCounts, rays: u64) -> Vec<Cell> {
-    let each = |seconds: f64| tenths(1e6 * seconds / rays.max(1) as f64, 1000.0);
+    let each = |seconds: f64| figure(1e6 * seconds / rays.max(1) as f64, 1000.0);
     let kinds = Operation::ALL.iter().map(|kind| each(host.time_of(*kind, counts.of(*kind)).seconds()));
     std::iter::once(what.into()).chain(kinds).chain([each(host.time_of_all(counts).seconds())]).collect()
 }

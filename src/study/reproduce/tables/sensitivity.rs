@@ -5,7 +5,7 @@ use refsim::timing::host::{HostWeights, Operation};
 use refsim::timing::queue::QueueFigures;
 
 use super::engine_run::{Commands, HostOnly, rays_per_s};
-use super::{Line, ReproduceError, speed_up, tenths};
+use super::{Line, ReproduceError, figure, speed_up};
 use crate::report::{Cell, Table};
 
 /// Guesses that are doubled: of the host's operations, and of the queue's commands.
@@ -51,5 +51,5 @@ fn speed_ups(
 
 fn push(table: &mut Table, guess: &str, found: &[f64]) {
     let head: Cell = guess.into();
-    table.push(std::iter::once(head).chain(found.iter().map(|value| tenths(*value, 10.0))));
+    table.push(std::iter::once(head).chain(found.iter().map(|value| figure(*value, 10.0))));
 }

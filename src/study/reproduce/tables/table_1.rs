@@ -1,9 +1,9 @@
 //! Tables 1 and 2: rays a second, and the share of rays on the card, for five scenes and applications.
 
 use super::super::{Findings, Modelled, Printed, ReproduceError, Row};
-use super::engine_run::{HostOnly, Run, TIMES, rays_per_s};
+use super::engine_run::{Run, TIMES, rays_per_s};
 use super::workload::{Asks, CLASSICAL_TEAPOT, Job};
-use super::{TeapotRoom, commands, parameters, tenths};
+use super::{TeapotRoom, commands, figure, parameters};
 use crate::ray_engine::engine::EngineParameters;
 use crate::report::Table;
 
@@ -71,7 +71,7 @@ pub(in super::super) fn findings() -> Result<Findings, ReproduceError> {
     for scene in SCENES {
         let work = scene.job.workload()?;
         let run = Run::of(&work, EngineParameters { rays: scene.rays, ..parameters() })?;
-        let (ours, alone) = (rays_per_s(&run, &room.host, commands())?, HostOnly::of(&work).rays_per_s(&room.host));
+        let (ours, alone) = (rays_per_s(&run, &room.host, commands())?, work.alone.rays_per_s(&room.host));
         let share = 100.0 * run.counts.share_on_card();
         let row = |what: String, value, unit, place, ours| Row {
             what,
@@ -87,12 +87,12 @@ pub(in super::super) fn findings() -> Result<Findings, ReproduceError> {
             scene.what.into(),
             scene.polygons.into(),
             work.mesh.len().into(),
-            work.rays.into(),
-            tenths(scene.rays_per_s, 1.0),
-            tenths(ours, 1.0),
-            tenths(alone, 1.0),
-            tenths(scene.share, 1.0),
-            tenths(share, 10.0),
+            work.alone.rays.into(),
+            figure(scene.rays_per_s, 1.0),
+            figure(ours, 1.0),
+            figure(alone, 1.0),
+            figure(scene.share, 1.0),
+            figure(share, 10.0),
         ]);
     }
     Ok(Findings { text: vec![HOW.to_owned()], rows, tables: vec![table], charts: Vec::new() })

@@ -20,7 +20,7 @@ pub(in super::super) fn findings() -> Result<Findings, ReproduceError> {
     ];
     let lines: [Line; 3] = lines(&room, wanted)?.try_into().map_err(|_| failed(TIMES)(&"three lines"))?;
     let (rows, table) = rows(&room, &lines, "Table 3")?;
-    let guesses = sensitivity::table(&room.alone, &lines)?;
+    let guesses = sensitivity::table(&room.work.alone, &lines)?;
     Ok(Findings {
         text: vec![HOW.to_owned(), passes(&lines, &room)?],
         rows,

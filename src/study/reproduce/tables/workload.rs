@@ -2,11 +2,10 @@
 
 use super::super::ReproduceError;
 use super::super::pipeline::failed;
-use super::engine_run::TIMES;
+use super::engine_run::{HostOnly, OCTREE, TIMES};
 use crate::geom::exact::Sides;
 use crate::geom::{CastError, Caster, Hit, Mesh, Ray};
-use crate::ray_engine::HostTracer;
-use crate::ray_engine::octree::OctreeParameters;
+use crate::ray_engine::{HostCounts, HostTracer};
 use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
 
@@ -40,20 +39,23 @@ pub(super) struct Workload {
     pub(super) mesh: Mesh,
     /// In the order in which the renderer asked.
     pub(super) bundles: Vec<Vec<Ray>>,
-    /// Rays of all bundles.
-    pub(super) rays: u64,
+    /// What a host does for them without card and ray tree.
+    pub(super) alone: HostOnly,
 }
 
-/// A host tracer that writes down what it is asked.
+/// A host tracer that writes down what it is asked, and what that costs.
 struct Recording {
     tracer: HostTracer,
     bundles: Vec<Vec<Ray>>,
+    cost: HostCounts,
 }
 
 impl Caster for Recording {
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
         self.bundles.push(rays.to_vec());
-        self.tracer.cast(rays)
+        let (hits, cost) = self.tracer.nearest_all(rays);
+        self.cost += cost;
+        Ok(hits)
     }
 }
 
@@ -68,11 +70,10 @@ impl Job {
         };
         let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
         let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
-        let tracer = HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both);
-        let mut recording = Recording { tracer, bundles: Vec::new() };
+        let tracer = HostTracer::new(scene.mesh(), OCTREE, Sides::Both);
+        let mut recording = Recording { tracer, bundles: Vec::new(), cost: HostCounts::default() };
         self.render(&scene, &camera, &mut recording).map_err(|e| fail(&e))?;
-        let rays = recording.bundles.iter().map(|bundle| bundle.len() as u64).sum();
-        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, rays })
+        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })
     }
 
     fn render(&self, scene: &Scene, camera: &Camera, caster: &mut dyn Caster) -> Result<(), RenderError> {
