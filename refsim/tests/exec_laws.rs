@@ -139,7 +139,7 @@ proptest! {
             // A limit of this device; an ideal one takes them all, as tested below.
             return Ok(());
         };
-        let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false] };
+        let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false], ..Constants::default() };
         run(&program, profile, &data, &host)?;
     }
 }

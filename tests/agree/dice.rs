@@ -126,6 +126,7 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
         float,
         int: (0..3).map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0]).collect(),
         boolean: (0..3).map(|_| r.one_in(2)).collect(),
+        ..Constants::default()
     }
 }
 

@@ -97,6 +97,15 @@ pub enum ErrorKind {
     /// A definition of something that is no constant register.
     #[error("not a constant register")]
     NotAConstant,
+    /// A name that cannot be given, or one that nobody gave.
+    #[error("misused name")]
+    Name,
+    /// A program without its `END`.
+    #[error("missing end")]
+    MissingEnd,
+    /// An `OPTION` that changes what a program means and is not known.
+    #[error("unknown option")]
+    UnknownOption,
     /// An unknown suffix of `dcl`.
     #[error("unknown declaration")]
     UnknownUsage,

@@ -8,12 +8,15 @@
 //!
 //! [`print()`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
 //!
+//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) are read by rooms of their own (`gl`), into the same program.
+//!
 //! Two spellings are ours, because period text cannot say them: `def` takes `0x` and eight hexadecimal digits as the
 //! bits of a float (so that infinities and NaNs can be printed), and a constant's value may end in `f`.
 //! Source: Direct3D 9 "Assembly Shader Syntax" pages, DirectX 8.1 "Pixel Shader Assembler Reference".
 
 mod declare;
 mod error;
+mod gl;
 mod lexer;
 mod list;
 mod number;
@@ -23,7 +26,6 @@ mod print;
 mod word;
 
 pub use error::{AssembleErrors, ErrorKind, SyntaxError};
-pub use print::print;
 
 use crate::isa::{Program, Span};
 
@@ -56,6 +58,15 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
             )],
         });
     }
+    if gl::is_program(text) {
+        return gl::assemble(text);
+    }
     let (tokens, errors) = lexer::lex(text);
     parser::Parser::new(tokens, errors).run()
+}
+
+/// The canonical text of a program, which [`assemble`] reads back to an equal one: in small letters for Direct3D's
+/// versions, as the extensions write them for OpenGL's.
+pub fn print(program: &Program) -> String {
+    if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }
 }

@@ -4,8 +4,8 @@ use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
 use super::lexer::{Kind, Token};
 use super::{MAX_ERRORS, MAX_OPERANDS, MAX_STATEMENTS, word};
 use crate::isa::{
-    ConstantDef, Declaration, Destination, DestinationRule, Instruction, OpInfo, Predicate, Program, Source, Span,
-    Swizzle, Version,
+    ConstantDef, Declaration, Destination, DestinationRule, FragmentPart, Instruction, OpInfo, Predicate, Program,
+    Source, Span, Swizzle, Version,
 };
 
 /// The result of reading one part of a statement.
@@ -89,6 +89,7 @@ impl<'a> Parser<'a> {
                 constants: self.constants,
                 declarations: self.declarations,
                 instructions: self.instructions,
+                parameters: Vec::new(),
             }),
             _ => {
                 self.errors.sort_by_key(|error| error.span.start);
@@ -339,6 +340,7 @@ impl<'a> Parser<'a> {
             sources,
             coissue: prefix.coissue,
             predicate: prefix.predicate,
+            fragment: FragmentPart::default(),
             span,
         });
     }

@@ -15,7 +15,7 @@ const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
 ///
 /// [`super::assemble`] reads it back to an equal program, if the program can be written at all: its definitions and
 /// declarations are in rising order of position, its masks are not empty, its shifts are -3 to 3.
-pub fn print(program: &Program) -> String {
+pub(super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let mut constants = program.constants.iter().peekable();
     let mut declarations = program.declarations.iter().peekable();
@@ -121,6 +121,9 @@ fn source(out: &mut String, s: &Source) {
         Modifier::Negate => ("-", ""),
         Modifier::Invert => ("1-", ""),
         Modifier::Not => ("!", ""),
+        // No Direct3D text of the period says this.
+        Modifier::Absolute => ("", "_abs"),
+        Modifier::AbsoluteNegate => ("-", "_abs"),
         Modifier::Bias => ("", "_bias"),
         Modifier::BiasNegate => ("-", "_bias"),
         Modifier::Bx2 => ("", "_bx2"),

@@ -98,7 +98,7 @@ impl Limit {
     /// control nesting limits.
     #[rustfmt::skip]
     fn of_version(self, version: Version) -> Option<u32> {
-        use Version::{Ps1_1, Ps1_2, Ps1_3, Ps1_4, Ps2_0, Ps2A, Ps2B, Vs1_1, Vs2_0};
+        use Version::{ArbFp1_0, Fp1_0, Ps1_1, Ps1_2, Ps1_3, Ps1_4, Ps2_0, Ps2A, Ps2B, Vs1_1, Vs2_0};
         Some(match (self, version) {
             (Self::TextureInstructions, Ps1_1 | Ps1_2 | Ps1_3) => 4,
             (Self::TextureInstructions, Ps1_4) => 6,
@@ -128,6 +128,11 @@ impl Limit {
             (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
             (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
             (Self::StaticFlowCount, Vs2_0) => 16,
+            // GL_NV_fragment_program: at least so many.
+            (Self::Instructions, Fp1_0) => 1024,
+            (Self::Constants, Fp1_0) => 64,
+            (Self::TextureCoordinates, Fp1_0 | ArbFp1_0) => 8,
+            (Self::Samplers, Fp1_0 | ArbFp1_0) => 16,
             _ => return None,
         })
     }
@@ -144,12 +149,33 @@ impl Limit {
         }
     }
 
+    /// The figure for one of OpenGL's programs: the device's own where it has one, or else the extension's.
+    fn of_fragment(self, profile: &Profile, version: Version) -> Option<Allowed> {
+        let l = &profile.limits;
+        let arb = version == Version::ArbFp1_0;
+        let (device, key) = match self {
+            Self::Instructions => (l.fragment_instructions, "limits.fragment_instructions"),
+            Self::Constants => (l.fragment_parameters, "limits.fragment_parameters"),
+            Self::TextureInstructions | Self::ArithmeticInstructions | Self::DependentReads if !arb => return None,
+            _ => (self.of_device(profile, Stage::Pixel), self.key(Stage::Pixel)),
+        };
+        if let Some(value) = device {
+            return Some(Allowed { value, owner: format!("`{}`", profile.name), key, by_device: true });
+        }
+        let value =
+            if profile.limits.version_limits { self.of_version(version) } else { self.of_emulator(Stage::Pixel) }?;
+        Some(Allowed { value, owner: format!("`{}`", version.token()), key, by_device: false })
+    }
+
     /// The figure that holds for programs of `version` on the device; `None`: no limit.
     ///
     /// The smaller of the device's and the version's, except that what `ps_2_x` leaves to the device (slots,
     /// temporaries, nesting) is the device's alone.
     pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let stage = version.stage();
+        if version.is_fragment_program() {
+            return self.of_fragment(profile, version);
+        }
         let key = self.key(stage);
         let device = self.of_device(profile, stage);
         let by = |value, owner: &str, by_device| Allowed { value, owner: format!("`{owner}`"), key, by_device };

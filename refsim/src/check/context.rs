@@ -138,6 +138,8 @@ impl<'a> Context<'a> {
             F::PositionOut | F::FogOut | F::PointSizeOut => fixed(1, vertex),
             F::DiffuseOut => fixed(2, vertex),
             F::TexCoordOut => fixed(8, vertex),
+            // `fragment` counts these.
+            F::Half | F::FogIn | F::WindowPosition | F::HalfColorOut | F::Discard | F::HalfDiscard => None,
         }
     }
 

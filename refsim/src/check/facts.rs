@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::context::{Context, is_texture};
 use super::slots;
-use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, Usage, Version};
+use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
 
 /// Slots used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,6 +123,12 @@ pub(super) fn derive(context: &Context<'_>) -> Facts {
     for def in program.constants.iter().filter(|d| d.register.file == RegisterFile::Constant) {
         facts.constants = facts.constants.max(def.register.index.saturating_add(1));
     }
+    for instruction in program.instructions.iter().filter(|i| i.fragment.target.is_some()) {
+        let unit = instruction.sources.get(1).map_or(usize::MAX, |s| usize::from(s.register.index));
+        if let Some(entry) = facts.sampler_usage.get_mut(unit) {
+            *entry = instruction.fragment.target.map(usage);
+        }
+    }
     for instruction in &program.instructions {
         note(&mut facts, context, instruction);
     }
@@ -152,6 +158,7 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
         match register.file {
             RegisterFile::Temp => facts.temporaries = facts.temporaries.max(register.index.saturating_add(1)),
             RegisterFile::ColorOut => facts.color_outputs |= bit(register.index),
+            RegisterFile::HalfColorOut => facts.color_outputs |= 1,
             RegisterFile::DepthOut => facts.writes_depth = true,
             RegisterFile::TexCoordOut => facts.texcoord_outputs |= bit(register.index),
             RegisterFile::DiffuseOut => facts.diffuse_outputs |= bit(register.index),
@@ -166,10 +173,19 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
         }
     }
     facts.has_flow |= opcode.info().class == crate::isa::OpcodeClass::Flow;
-    facts.kills |= opcode == Opcode::TexKill;
+    facts.kills |= matches!(opcode, Opcode::TexKill | Opcode::Kil);
     facts.writes_depth |= matches!(opcode, Opcode::TexDepth | Opcode::TexM3x2Depth);
     let fetch = samples_stage(version, opcode) || matches!(opcode, Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP);
     facts.uses_derivatives |= fetch || matches!(opcode, Opcode::Dsx | Opcode::Dsy);
+}
+
+/// What a read's kind of texture is among Direct3D's.
+fn usage(target: TextureTarget) -> Usage {
+    match target {
+        TextureTarget::D1 | TextureTarget::D2 | TextureTarget::Rect => Usage::Sampler2d,
+        TextureTarget::D3 => Usage::SamplerVolume,
+        TextureTarget::Cube => Usage::SamplerCube,
+    }
 }
 
 /// Whether the operation samples the stage of its destination's number.

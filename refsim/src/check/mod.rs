@@ -15,6 +15,7 @@ mod dataflow;
 mod declared;
 mod facts;
 mod flow;
+mod fragment;
 mod operands;
 mod pairs;
 mod ps_1;
@@ -68,6 +69,11 @@ pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, Ch
 }
 
 fn run(context: &mut Context<'_>) {
+    if context.version.is_fragment_program() {
+        shape::version(context);
+        slots::check(context);
+        return fragment::check(context);
+    }
     shape::check(context);
     slots::check(context);
     operands::check(context);

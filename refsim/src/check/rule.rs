@@ -5,7 +5,7 @@ use std::fmt;
 macro_rules! rules {
     ($($id:ident $text:literal;)*) => {
         /// A rule of the checker. V01 to V46 are Direct3D's and the cards'; from V47 on they are what the executors need
-        /// besides to run a program without surprises. docs/devices.md has them with examples.
+        /// besides to run a program without surprises, from V60 on OpenGL's. docs/devices.md has them with examples.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum RuleId { $(#[doc = $text] $id),* }
 
@@ -86,6 +86,13 @@ rules! {
     V57 "p0 is set before it decides, and decides only what it can (ps_2_a)";
     V58 "oFog and oPts are written through .x (vertex)";
     V59 "what works in several steps does not overwrite its own sources, and has its mask";
+    V60 "the instruction can have its suffixes (!!FP1.0)";
+    V61 "packed words are of full precision (!!FP1.0)";
+    V62 "an instruction reads one attribute and one constant at most (!!FP1.0)";
+    V63 "the program writes colour in one precision, or depth through z (OpenGL)";
+    V64 "an image unit is read as one kind of texture (OpenGL)";
+    V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
+    V66 "texture reads depend on one another over so many levels at most (!!ARBfp1.0)";
 }
 
 impl fmt::Display for RuleId {

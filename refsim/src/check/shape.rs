@@ -14,7 +14,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-fn version(context: &mut Context<'_>) {
+pub(super) fn version(context: &mut Context<'_>) {
     let (program, profile) = (context.program, context.profile);
     if profile.supports(context.version) {
         return;

@@ -52,6 +52,10 @@ figures! {
         arithmetic_instructions_per_phase,
         /// Instruction slots of a pixel program in all.
         instructions,
+        /// Instructions of an OpenGL fragment program.
+        fragment_instructions,
+        /// Parameters of an OpenGL fragment program that the host sets, of each kind.
+        fragment_parameters,
         /// Temporaries `r#` of a pixel program.
         temporaries,
         /// Constants `c#` of a pixel program.

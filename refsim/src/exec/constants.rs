@@ -1,13 +1,17 @@
 //! Constants on their way from the host to the registers: clamped, stored, converted once a draw, for every executor.
 
 use crate::device::{ConstantStorage, Rules};
-use crate::isa::{ConstantValue, Program, RegisterFile};
+use std::collections::BTreeMap;
+
+use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Program, RegisterFile};
 use crate::num::{self, Format};
 
 /// Integer and boolean constant registers, of each.
 const FLOW_CONSTANTS: usize = 16;
 /// Float constants that a program may name at most (vs_2_0).
 const FLOAT_CONSTANTS: usize = 256;
+/// Float constants that an OpenGL fragment program may name at most, those that stand in its text among them.
+const FRAGMENT_CONSTANTS: usize = FIRST_LITERAL as usize + 4096;
 /// 1.0 in single precision.
 const FP32_ONE: u32 = 0x3f80_0000;
 
@@ -15,12 +19,15 @@ const FP32_ONE: u32 = 0x3f80_0000;
 /// (`def`, `defi`, `defb`) wins.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Constants {
-    /// `c0` on, as single precision patterns. Those beyond c255 are not reachable.
+    /// `c0` on, as single precision patterns. Those beyond c255 are not reachable (c511 in OpenGL's fragment programs).
     pub float: Vec<[u32; 4]>,
     /// `i0` to `i15`.
     pub int: Vec<[i32; 4]>,
     /// `b0` to `b15`.
     pub boolean: Vec<bool>,
+    /// The constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), single precision patterns. A name
+    /// that the program does not declare is passed over.
+    pub named: BTreeMap<String, [u32; 4]>,
 }
 
 /// Constants as instructions read them.
@@ -54,8 +61,12 @@ impl ResolvedConstants {
     }
 
     fn resolve(program: &Program, host: &Constants, convert: impl Fn(u32) -> u32) -> Self {
+        let (from_host, most) = match program.version.is_fragment_program() {
+            true => (usize::from(FIRST_NAMED), FRAGMENT_CONSTANTS),
+            false => (FLOAT_CONSTANTS, FLOAT_CONSTANTS),
+        };
         let mut out = Self {
-            float: host.float.iter().take(FLOAT_CONSTANTS).map(|c| c.map(&convert)).collect(),
+            float: host.float.iter().take(from_host).map(|c| c.map(&convert)).collect(),
             int: [[0; 4]; FLOW_CONSTANTS],
             boolean: [false; FLOW_CONSTANTS],
         };
@@ -69,7 +80,7 @@ impl ResolvedConstants {
             let number = usize::from(definition.register.index);
             match definition.value {
                 ConstantValue::Float(value) if definition.register.file == RegisterFile::Constant => {
-                    if number >= out.float.len() && number < FLOAT_CONSTANTS {
+                    if number >= out.float.len() && number < most {
                         out.float.resize(number + 1, [0; 4]);
                     }
                     if let Some(slot) = out.float.get_mut(number) {
@@ -87,6 +98,16 @@ impl ResolvedConstants {
                         *slot = value;
                     }
                 }
+            }
+        }
+        for parameter in &program.parameters {
+            let value = host.named.get(&parameter.name).unwrap_or(&parameter.default);
+            let number = usize::from(parameter.register.index);
+            if number >= out.float.len() && number < most {
+                out.float.resize(number + 1, [0; 4]);
+            }
+            if let Some(slot) = out.float.get_mut(number) {
+                *slot = value.map(&convert);
             }
         }
         out

@@ -1,7 +1,7 @@
 //! What a program reads and writes, found by looking at its text: shared by the executors.
 
 use crate::isa::{Opcode, Program, RegisterFile};
-use crate::raster::ComponentMask;
+use crate::raster::{ComponentMask, FOG_COMPONENT};
 
 /// The interpolated components that a pixel program can read. The others need not be interpolated; a program cannot
 /// tell.
@@ -13,11 +13,13 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
         }
     };
     let mut colors = [false; 2];
+    let mut fog = false;
     for instruction in &program.instructions {
         let registers = instruction.sources.iter().map(|s| s.register);
         for register in registers.chain(instruction.destination.map(|d| d.register)) {
             match register.file {
                 RegisterFile::Texture => set(register.index),
+                RegisterFile::FogIn => fog = true,
                 RegisterFile::Input => {
                     if let Some(color) = colors.get_mut(usize::from(register.index)) {
                         *color = true;
@@ -37,7 +39,7 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
             mask = mask.with_color(number);
         }
     }
-    mask
+    if fog { mask.with(FOG_COMPONENT) } else { mask }
 }
 
 /// Which colours a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it,
@@ -48,6 +50,8 @@ pub fn colors_written(program: &Program) -> u8 {
     }
     let destinations = program.instructions.iter().filter_map(|i| i.destination);
     destinations
-        .filter(|d| d.register.file == RegisterFile::ColorOut && d.register.index < 4)
+        .filter(|d| {
+            matches!(d.register.file, RegisterFile::ColorOut | RegisterFile::HalfColorOut) && d.register.index < 4
+        })
         .fold(0, |written, d| written | 1 << d.register.index)
 }

@@ -4,14 +4,19 @@
 //! runs. Nothing in here evaluates anything: values are the business of [`crate::exec`]. The words are
 //! Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`), because the programs are.
 
+mod fragment;
 mod opcode;
 mod operand;
 mod program;
 mod register;
 mod version;
 
+pub use fragment::{
+    Condition, ConditionTest, FIRST_ENVIRONMENT, FIRST_LITERAL, FIRST_NAMED, FragmentPart, Precision, Spelling,
+    TextureTarget,
+};
 pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
 pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
-pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Program, Span, Usage};
+pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, Program, Span, Usage};
 pub use register::{Register, RegisterFile, Relative};
 pub use version::{Stage, Version};

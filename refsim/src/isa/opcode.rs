@@ -3,7 +3,7 @@
 //!
 //! The assembler, the printer, the checker, the executors and the timing model all read it; none keeps a list of
 //! its own. Sources: the Direct3D 9 shader assembly reference, pages "Instructions ps_1_X", "ps_2_0", "ps_2_x",
-//! "vs_1_1" and "vs_2_0".
+//! "vs_1_1" and "vs_2_0"; GL_NV_fragment_program and GL_ARB_fragment_program, whose own spellings are in `fragment`.
 
 use super::Version;
 
@@ -53,10 +53,10 @@ pub struct OpInfo {
     pub destination: DestinationRule,
     /// Whether the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,
-    /// Source operands by version, in the order of [`Version::ALL`]; `None` where the version lacks the operation.
-    sources: [Option<u8>; 9],
-    /// Slots by version, in the order of [`Version::ALL`].
-    slots: [u16; 9],
+    /// Source operands by version, in the order of [`Version`]; `None` where the version lacks the operation.
+    sources: [Option<u8>; VERSIONS],
+    /// Slots by version, in the order of [`Version`].
+    slots: [u16; VERSIONS],
 }
 
 impl OpInfo {
@@ -85,6 +85,9 @@ impl OpInfo {
     }
 }
 
+/// Columns of the table: as many as there are versions.
+const VERSIONS: usize = Version::ALL.len() + Version::FRAGMENT.len();
+
 /// `-` in the table below: not available.
 const NA: (Option<u8>, u16) = (None, 0);
 /// A cell of the table: so many sources, so many slots.
@@ -92,11 +95,11 @@ const fn c(sources: u8, slots: u16) -> (Option<u8>, u16) {
     (Some(sources), slots)
 }
 
-const fn split(cells: [(Option<u8>, u16); 9]) -> ([Option<u8>; 9], [u16; 9]) {
-    let mut sources = [None; 9];
-    let mut slots = [0; 9];
+const fn split(cells: [(Option<u8>, u16); VERSIONS]) -> ([Option<u8>; VERSIONS], [u16; VERSIONS]) {
+    let mut sources = [None; VERSIONS];
+    let mut slots = [0; VERSIONS];
     let mut i = 0;
-    while i < 9 {
+    while i < VERSIONS {
         sources[i] = cells[i].0;
         slots[i] = cells[i].1;
         i += 1;
@@ -119,7 +122,7 @@ macro_rules! opcodes {
             pub const fn info(self) -> &'static OpInfo {
                 match self {
                     $(Self::$variant => {
-                        const CELLS: ([Option<u8>; 9], [u16; 9]) = split([$($cell),*]);
+                        const CELLS: ([Option<u8>; VERSIONS], [u16; VERSIONS]) = split([$($cell),*]);
                         const INFO: OpInfo = OpInfo {
                             opcode: Opcode::$variant,
                             mnemonic: $mnemonic,
@@ -139,88 +142,111 @@ macro_rules! opcodes {
 
 #[rustfmt::skip]
 opcodes! {
-//  variant      mnemonic       class      dest  cmp    ps_1_1   ps_1_2   ps_1_3   ps_1_4   ps_2_0   ps_2_a   ps_2_b   vs_1_1    vs_2_0
-    Nop          "nop"          Marker     None  false [c(0,0),  c(0,0),  c(0,0),  c(0,0),  c(0,1),  c(0,1),  c(0,1),  c(0,1),   c(0,1)]
-    Phase        "phase"        Marker     None  false [NA,      NA,      NA,      c(0,0),  NA,      NA,      NA,      NA,       NA]
-    Mov          "mov"          Arithmetic Write false [c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
-    Mova         "mova"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(1,1)]
-    Add          "add"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Sub          "sub"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Mul          "mul"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Mad          "mad"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),   c(3,1)]
-    Lrp          "lrp"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,2),  c(3,2),  c(3,2),  NA,       c(3,2)]
-    Dp3          "dp3"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Dp4          "dp4"          Arithmetic Write false [NA,      c(2,2),  c(2,2),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Dp2Add       "dp2add"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,2),  c(3,2),  c(3,2),  NA,       NA]
-    Cnd          "cnd"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,      NA,      NA,      NA,       NA]
-    Cmp          "cmp"          Arithmetic Write false [NA,      c(3,2),  c(3,2),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,       NA]
-    Bem          "bem"          Arithmetic Write false [NA,      NA,      NA,      c(2,2),  NA,      NA,      NA,      NA,       NA]
-    Abs          "abs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  NA,       c(1,1)]
-    Min          "min"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Max          "max"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),   c(2,1)]
-    Frc          "frc"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,3),   c(1,1)]
-    Rcp          "rcp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
-    Rsq          "rsq"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),   c(1,1)]
-    Exp          "exp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10),  c(1,1)]
-    Log          "log"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10),  c(1,1)]
-    Expp         "expp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,1)]
-    Logp         "logp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,1)]
-    Pow          "pow"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  NA,       c(2,3)]
-    Crs          "crs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  NA,       c(2,2)]
-    Nrm          "nrm"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,3),  c(1,3),  c(1,3),  NA,       c(1,3)]
-    Sgn          "sgn"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(3,3)]
-    SinCos       "sincos"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,8),  c(3,8),  c(3,8),  NA,       c(3,8)]
-    Sge          "sge"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
-    Slt          "slt"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
-    Dst          "dst"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),   c(2,1)]
-    Lit          "lit"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),   c(1,3)]
-    M3x2         "m3x2"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  c(2,2),   c(2,2)]
-    M3x3         "m3x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),   c(2,3)]
-    M3x4         "m3x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),   c(2,4)]
-    M4x3         "m4x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),   c(2,3)]
-    M4x4         "m4x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),   c(2,4)]
-    Dsx          "dsx"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       NA]
-    Dsy          "dsy"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       NA]
-    Setp         "setp"         Arithmetic Write true  [NA,      NA,      NA,      NA,      NA,      c(2,1),  NA,      NA,       NA]
-    Tex          "tex"          Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexCoord     "texcoord"     Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexKill      "texkill"      Texture    Read  false [c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,2),  c(0,2),  NA,       NA]
-    TexBem       "texbem"       Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexBemL      "texbeml"      Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexReg2Ar    "texreg2ar"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexReg2Gb    "texreg2gb"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexReg2Rgb   "texreg2rgb"   Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x2Pad   "texm3x2pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x2Tex   "texm3x2tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x2Depth "texm3x2depth" Texture    Write false [NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x3Pad   "texm3x3pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x3Tex   "texm3x3tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x3Spec  "texm3x3spec"  Texture    Write false [c(2,1),  c(2,1),  c(2,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x3VSpec "texm3x3vspec" Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexM3x3      "texm3x3"      Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexDp3       "texdp3"       Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexDp3Tex    "texdp3tex"    Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,       NA]
-    TexLd        "texld"        Texture    Write false [NA,      NA,      NA,      c(1,1),  c(2,1),  c(2,1),  c(2,1),  NA,       NA]
-    TexLdB       "texldb"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,6),  c(2,6),  NA,       NA]
-    TexLdP       "texldp"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,3),  c(2,3),  NA,       NA]
-    TexLdD       "texldd"       Texture    Write false [NA,      NA,      NA,      NA,      NA,      c(4,3),  NA,      NA,       NA]
-    TexCrd       "texcrd"       Texture    Write false [NA,      NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,       NA]
-    TexDepth     "texdepth"     Texture    Write false [NA,      NA,      NA,      c(0,1),  NA,      NA,      NA,      NA,       NA]
-    If           "if"           Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       c(1,3)]
-    IfC          "if"           Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       NA]
-    Else         "else"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
-    EndIf        "endif"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
-    Rep          "rep"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       c(1,3)]
-    EndRep       "endrep"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,2),  NA,      NA,       c(0,2)]
-    Loop         "loop"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(2,3)]
-    EndLoop      "endloop"      Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,       c(0,2)]
-    Break        "break"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       NA]
-    BreakC       "break"        Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       NA]
-    BreakP       "breakp"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,       NA]
-    Call         "call"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,       c(1,2)]
-    CallNz       "callnz"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,       c(2,3)]
-    Label        "label"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,0),  NA,      NA,       c(1,0)]
-    Ret          "ret"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,       c(0,1)]
+//  variant      mnemonic       class      dest  cmp    ps_1_1   ps_1_2   ps_1_3   ps_1_4   ps_2_0   ps_2_a   ps_2_b   vs_1_1   vs_2_0   FP1.0    ARBfp1.0
+    Nop          "nop"          Marker     None  false [c(0,0),  c(0,0),  c(0,0),  c(0,0),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  NA,      NA]
+    Phase        "phase"        Marker     None  false [NA,      NA,      NA,      c(0,0),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    Mov          "mov"          Arithmetic Write false [c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1)]
+    Mova         "mova"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA,      NA]
+    Add          "add"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Sub          "sub"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Mul          "mul"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Mad          "mad"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,1)]
+    Lrp          "lrp"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  c(3,2),  c(3,2),  c(3,2),  NA,      c(3,2),  c(3,1),  c(3,1)]
+    Dp3          "dp3"          Arithmetic Write false [c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Dp4          "dp4"          Arithmetic Write false [NA,      c(2,2),  c(2,2),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Dp2Add       "dp2add"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,2),  c(3,2),  c(3,2),  NA,      NA,      NA,      NA]
+    Cnd          "cnd"          Arithmetic Write false [c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    Cmp          "cmp"          Arithmetic Write false [NA,      c(3,2),  c(3,2),  c(3,1),  c(3,1),  c(3,1),  c(3,1),  NA,      NA,      NA,      c(3,1)]
+    Bem          "bem"          Arithmetic Write false [NA,      NA,      NA,      c(2,2),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    Abs          "abs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  NA,      c(1,1),  NA,      c(1,1)]
+    Min          "min"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Max          "max"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Frc          "frc"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,3),  c(1,1),  c(1,1),  c(1,1)]
+    Rcp          "rcp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1)]
+    Rsq          "rsq"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1)]
+    Exp          "exp"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10), c(1,1),  c(1,1),  c(1,1)]
+    Log          "log"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  c(1,1),  c(1,10), c(1,1),  c(1,1),  c(1,1)]
+    Expp         "expp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  NA,      NA]
+    Logp         "logp"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,1),  NA,      NA]
+    Pow          "pow"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  NA,      c(2,3),  c(2,1),  c(2,1)]
+    Crs          "crs"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  NA,      c(2,2),  NA,      c(2,1)]
+    Nrm          "nrm"          Arithmetic Write false [NA,      NA,      NA,      NA,      c(1,3),  c(1,3),  c(1,3),  NA,      c(1,3),  NA,      NA]
+    Sgn          "sgn"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(3,3),  NA,      NA]
+    SinCos       "sincos"       Arithmetic Write false [NA,      NA,      NA,      NA,      c(3,8),  c(3,8),  c(3,8),  NA,      c(3,8),  NA,      NA]
+    Sge          "sge"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Slt          "slt"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Dst          "dst"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  c(2,1),  c(2,1),  c(2,1)]
+    Lit          "lit"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,3),  c(1,1),  c(1,1)]
+    M3x2         "m3x2"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,2),  c(2,2),  c(2,2),  c(2,2),  c(2,2),  NA,      NA]
+    M3x3         "m3x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),  c(2,3),  NA,      NA]
+    M3x4         "m3x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),  c(2,4),  NA,      NA]
+    M4x3         "m4x3"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,3),  c(2,3),  c(2,3),  c(2,3),  c(2,3),  NA,      NA]
+    M4x4         "m4x4"         Arithmetic Write false [NA,      NA,      NA,      NA,      c(2,4),  c(2,4),  c(2,4),  c(2,4),  c(2,4),  NA,      NA]
+    Dsx          "dsx"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,      NA,      c(1,1),  NA]
+    Dsy          "dsy"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,      NA,      c(1,1),  NA]
+    Setp         "setp"         Arithmetic Write true  [NA,      NA,      NA,      NA,      NA,      c(2,1),  NA,      NA,      NA,      NA,      NA]
+    Tex          "tex"          Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexCoord     "texcoord"     Texture    Write false [c(0,1),  c(0,1),  c(0,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexKill      "texkill"      Texture    Read  false [c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,2),  c(0,2),  NA,      NA,      NA,      NA]
+    TexBem       "texbem"       Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexBemL      "texbeml"      Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexReg2Ar    "texreg2ar"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexReg2Gb    "texreg2gb"    Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexReg2Rgb   "texreg2rgb"   Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x2Pad   "texm3x2pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x2Tex   "texm3x2tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x2Depth "texm3x2depth" Texture    Write false [NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x3Pad   "texm3x3pad"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x3Tex   "texm3x3tex"   Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x3Spec  "texm3x3spec"  Texture    Write false [c(2,1),  c(2,1),  c(2,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x3VSpec "texm3x3vspec" Texture    Write false [c(1,1),  c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexM3x3      "texm3x3"      Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexDp3       "texdp3"       Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexDp3Tex    "texdp3tex"    Texture    Write false [NA,      c(1,1),  c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexLd        "texld"        Texture    Write false [NA,      NA,      NA,      c(1,1),  c(2,1),  c(2,1),  c(2,1),  NA,      NA,      c(2,1),  c(2,1)]
+    TexLdB       "texldb"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,6),  c(2,6),  NA,      NA,      NA,      c(2,1)]
+    TexLdP       "texldp"       Texture    Write false [NA,      NA,      NA,      NA,      c(2,1),  c(2,3),  c(2,3),  NA,      NA,      c(2,1),  c(2,1)]
+    TexLdD       "texldd"       Texture    Write false [NA,      NA,      NA,      NA,      NA,      c(4,3),  NA,      NA,      NA,      c(4,1),  NA]
+    TexCrd       "texcrd"       Texture    Write false [NA,      NA,      NA,      c(1,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    TexDepth     "texdepth"     Texture    Write false [NA,      NA,      NA,      c(0,1),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
+    Flr          "flr"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,1)]
+    Cos          "cos"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,1)]
+    Sin          "sin"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  c(1,1)]
+    Scs          "scs"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1)]
+    Dph          "dph"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1)]
+    Swz          "swz"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1)]
+    Seq          "seq"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Sgt          "sgt"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Sle          "sle"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Sne          "sne"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Str          "str"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Sfl          "sfl"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    Rfl          "rfl"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,1),  NA]
+    X2d          "x2d"          Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(3,1),  NA]
+    Pk2h         "pk2h"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Pk2us        "pk2us"        Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Pk4b         "pk4b"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Pk4ub        "pk4ub"        Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Up2h         "up2h"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Up2us        "up2us"        Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Up4b         "up4b"         Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Up4ub        "up4ub"        Arithmetic Write false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(1,1),  NA]
+    Kil          "kil"          Texture    None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(0,1),  c(1,1)]
+    If           "if"           Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,      c(1,3),  NA,      NA]
+    IfC          "if"           Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,      NA,      NA,      NA]
+    Else         "else"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,      c(0,1),  NA,      NA]
+    EndIf        "endif"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,      c(0,1),  NA,      NA]
+    Rep          "rep"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,      c(1,3),  NA,      NA]
+    EndRep       "endrep"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,2),  NA,      NA,      c(0,2),  NA,      NA]
+    Loop         "loop"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA]
+    EndLoop      "endloop"      Flow       None  false [NA,      NA,      NA,      NA,      NA,      NA,      NA,      NA,      c(0,2),  NA,      NA]
+    Break        "break"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,      NA,      NA,      NA]
+    BreakC       "break"        Flow       None  true  [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,      NA,      NA,      NA]
+    BreakP       "breakp"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,3),  NA,      NA,      NA,      NA,      NA]
+    Call         "call"         Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,2),  NA,      NA,      c(1,2),  NA,      NA]
+    CallNz       "callnz"       Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(2,3),  NA,      NA,      c(2,3),  NA,      NA]
+    Label        "label"        Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(1,0),  NA,      NA,      c(1,0),  NA,      NA]
+    Ret          "ret"          Flow       None  false [NA,      NA,      NA,      NA,      NA,      c(0,1),  NA,      NA,      c(0,1),  NA,      NA]
 }
 
 impl Opcode {

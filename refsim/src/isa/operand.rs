@@ -73,6 +73,10 @@ pub enum Modifier {
     Dw,
     /// `!p0` or `!b0`: logical not
     Not,
+    /// `|x|`
+    Absolute,
+    /// `-|x|`
+    AbsoluteNegate,
 }
 
 /// One source operand.

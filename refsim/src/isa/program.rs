@@ -1,6 +1,6 @@
 //! Programs and their parts.
 
-use super::{Comparison, Destination, Opcode, Predicate, Register, Source, Version};
+use super::{Comparison, Destination, FragmentPart, Opcode, Predicate, Register, Source, Version};
 
 /// A byte range of the program text.
 ///
@@ -119,6 +119,8 @@ pub struct Instruction {
     pub coissue: bool,
     /// `(p0)` in front.
     pub predicate: Option<Predicate>,
+    /// What an OpenGL fragment program says besides; nothing in Direct3D's versions.
+    pub fragment: FragmentPart,
     /// The whole instruction in the program text.
     pub span: Span,
 }
@@ -136,6 +138,21 @@ pub struct Program {
     pub declarations: Vec<Declaration>,
     /// Its instructions, `phase` and flow control included.
     pub instructions: Vec<Instruction>,
+    /// The constants that the host can set by name, in the order of the text (OpenGL's `DECLARE`).
+    pub parameters: Vec<Parameter>,
+}
+
+/// A constant that the host can set by name ([`crate::exec::Constants::named`]).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// The constant register that the program reads it in.
+    pub register: Register,
+    /// Its value if the host sets none, single precision patterns.
+    pub default: [u32; 4],
+    /// Where it stands in the program text.
+    pub span: Span,
 }
 
 impl Program {

@@ -41,6 +41,18 @@ pub enum RegisterFile {
     DiffuseOut,
     /// `oT#`: texture coordinates of a vertex.
     TexCoordOut,
+    /// `H#`: half precision temporaries of an OpenGL fragment program, whose `R#` are [`Self::Temp`].
+    Half,
+    /// `f[FOGC]`: the fog coordinate in x, then 0, 0, 1.
+    FogIn,
+    /// `f[WPOS]`: the window position of the fragment: x, y, depth, 1/w.
+    WindowPosition,
+    /// `o[COLH]`: the colour in half precision.
+    HalfColorOut,
+    /// `RC`: takes a result in full precision and keeps nothing of it, for the condition codes' sake.
+    Discard,
+    /// `HC`: likewise in half precision.
+    HalfDiscard,
 }
 
 impl RegisterFile {
@@ -65,17 +77,31 @@ impl RegisterFile {
             Self::PointSizeOut => "oPts",
             Self::DiffuseOut => "oD",
             Self::TexCoordOut => "oT",
+            Self::Half => "H",
+            Self::FogIn => "fog",
+            Self::WindowPosition => "wpos",
+            Self::HalfColorOut => "oColh",
+            Self::Discard => "RC",
+            Self::HalfDiscard => "HC",
         }
     }
 
     /// Whether the file has a single register that is written without a number.
     pub const fn is_unnumbered(self) -> bool {
-        matches!(self, Self::Loop | Self::DepthOut | Self::PositionOut | Self::FogOut | Self::PointSizeOut)
+        let vertex = matches!(self, Self::PositionOut | Self::FogOut | Self::PointSizeOut);
+        let fragment = matches!(self, Self::FogIn | Self::WindowPosition | Self::HalfColorOut);
+        let discard = matches!(self, Self::Discard | Self::HalfDiscard);
+        vertex || fragment || discard || matches!(self, Self::Loop | Self::DepthOut)
+    }
+
+    /// Whether the file's registers hold half precision numbers.
+    pub const fn is_half(self) -> bool {
+        matches!(self, Self::Half | Self::HalfColorOut | Self::HalfDiscard)
     }
 }
 
 /// Relative addressing of a constant: `c[a0.x + 3]` or `c[aL + 3]`. The constant part is the register's index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Relative {
     /// Through a component (0 to 3 for x to w) of `a0`.
     Address(u8),
@@ -84,7 +110,7 @@ pub enum Relative {
 }
 
 /// One register, as an instruction names it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Register {
     /// The file.
     pub file: RegisterFile,

@@ -26,10 +26,14 @@ pub enum Version {
     Ps2B,
     Vs1_1,
     Vs2_0,
+    /// GL_NV_fragment_program, `!!FP1.0`.
+    Fp1_0,
+    /// GL_ARB_fragment_program, `!!ARBfp1.0`.
+    ArbFp1_0,
 }
 
 impl Version {
-    /// Every version, in the order of the enumeration.
+    /// Every version of Direct3D, in the order of the enumeration.
     pub const ALL: [Self; 9] = [
         Self::Ps1_1,
         Self::Ps1_2,
@@ -41,6 +45,9 @@ impl Version {
         Self::Vs1_1,
         Self::Vs2_0,
     ];
+
+    /// OpenGL's fragment programs, in the order of the enumeration, which goes on after [`Self::ALL`].
+    pub const FRAGMENT: [Self; 2] = [Self::Fp1_0, Self::ArbFp1_0];
 
     /// The version token as it is written in a program, `ps_1_4` for example.
     pub const fn token(self) -> &'static str {
@@ -54,6 +61,8 @@ impl Version {
             Self::Ps2B => "ps_2_b",
             Self::Vs1_1 => "vs_1_1",
             Self::Vs2_0 => "vs_2_0",
+            Self::Fp1_0 => "!!FP1.0",
+            Self::ArbFp1_0 => "!!ARBfp1.0",
         }
     }
 
@@ -80,6 +89,16 @@ impl Version {
         matches!(self, Self::Ps2_0 | Self::Ps2A | Self::Ps2B)
     }
 
+    /// Whether this is one of OpenGL's fragment programs.
+    pub const fn is_fragment_program(self) -> bool {
+        matches!(self, Self::Fp1_0 | Self::ArbFp1_0)
+    }
+
+    /// Whether arithmetic can read the coordinates `t#` as they are interpolated.
+    pub const fn reads_coordinates(self) -> bool {
+        self.is_ps_2() || self.is_fragment_program()
+    }
+
     /// Whether this is one of the extended `ps_2_x` versions.
     pub const fn is_ps_2_x(self) -> bool {
         matches!(self, Self::Ps2A | Self::Ps2B)
@@ -100,8 +119,11 @@ pub struct UnknownVersion(pub String);
 impl FromStr for Version {
     type Err = UnknownVersion;
 
-    /// Accepts the token in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
+    /// Accepts Direct3D's tokens in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
     fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if let Some(version) = Self::FRAGMENT.into_iter().find(|v| v.token() == text) {
+            return Ok(version);
+        }
         let token = text.to_ascii_lowercase().replace('.', "_");
         Self::ALL.into_iter().find(|v| v.token() == token).ok_or_else(|| UnknownVersion(text.to_owned()))
     }

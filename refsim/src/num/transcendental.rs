@@ -5,6 +5,7 @@
 //! enclosure is made again with twice the places. Exact results never get here, so the loop ends: `2^x` is
 //! irrational for every rational `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
 
+mod circle;
 mod enclose;
 
 use num_bigint::BigInt;
@@ -90,6 +91,31 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
                     Enclosure { low: &base + long.low, high: base + long.high, exp: long.exp }
                 })
             })
+        }
+    }
+}
+
+/// `cos x`, x in radians, correctly rounded. An infinite angle is `INVALID`.
+pub fn cos(env: impl Into<Env>, x: u32) -> Outcome {
+    circular(env.into(), x, false)
+}
+
+/// `sin x`, x in radians, correctly rounded; a zero keeps its sign. An infinite angle is `INVALID`.
+pub fn sin(env: impl Into<Env>, x: u32) -> Outcome {
+    circular(env.into(), x, true)
+}
+
+/// Sine and cosine of rational angles but 0 are irrational, so no enclosure stays undecided.
+fn circular(env: Env, x: u32, sine: bool) -> Outcome {
+    let format = &env.format;
+    let value = unpack(format, x);
+    match value {
+        Unpacked::Nan { .. } => nan_result(format, &[value]),
+        Unpacked::Inf { .. } => invalid(format),
+        Unpacked::Finite { sign, sig: 0, .. } if sine => zero(format, sign),
+        Unpacked::Finite { sig: 0, .. } => from_parts(env, false, 1, 0, false),
+        Unpacked::Finite { sign, sig, exp } => {
+            decide_long(&env, |places| circle::circular(sine, sign, sig, exp, places))
         }
     }
 }

@@ -6,8 +6,8 @@
 
 use proptest::{collection::vec, option, prelude::*, sample::select};
 use refsim::isa::{
-    Comparison, ConstantDef, ConstantValue, Declaration, Destination, DestinationRule, Instruction, Mask, Modifier,
-    Opcode, Predicate, Program, Register, RegisterFile, Relative, Source, Span, Swizzle, Usage, Version,
+    Comparison, ConstantDef, ConstantValue, Declaration, Destination, DestinationRule, FragmentPart, Instruction, Mask,
+    Modifier, Opcode, Predicate, Program, Register, RegisterFile, Relative, Source, Span, Swizzle, Usage, Version,
 };
 
 /// Every register file.
@@ -132,6 +132,7 @@ pub(crate) fn instruction(version: Version) -> impl Strategy<Value = Instruction
                 sources,
                 coissue,
                 predicate,
+                fragment: FragmentPart::default(),
                 span: nowhere(),
             }
         })
@@ -208,7 +209,7 @@ pub(crate) fn program_of(version: Version) -> impl Strategy<Value = Program> {
             for (dcl, position) in declarations.iter_mut().zip(places.1) {
                 dcl.position = position;
             }
-            Program { version, version_span: nowhere(), constants, declarations, instructions }
+            Program { version, version_span: nowhere(), constants, declarations, instructions, parameters: Vec::new() }
         })
 }
 

@@ -183,7 +183,7 @@ fn random_constants(r: &mut Random, count: usize) -> Constants {
     let float = (0..count).map(|_| [0; 4].map(|_: u32| clean(r.number()))).collect();
     let mut small = |bound: usize| i32::try_from(r.below(bound)).unwrap_or_default();
     let int = (0..4).map(|_| [small(4), small(3), 1, 0]).collect();
-    Constants { float, int, boolean: (0..4).map(|_| r.one_in(2)).collect() }
+    Constants { float, int, boolean: (0..4).map(|_| r.one_in(2)).collect(), ..Constants::default() }
 }
 
 /// The first word that differs, in words.

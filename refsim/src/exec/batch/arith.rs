@@ -240,6 +240,11 @@ impl<'a> Maker<'a> {
         match modifier {
             M::None | M::Dz | M::Dw | M::Not => x,
             M::Negate => self.neg(k, x),
+            M::Absolute => self.unary(k, Code::Abs, x),
+            M::AbsoluteNegate => {
+                let magnitude = self.unary(k, Code::Abs, x);
+                self.neg(k, magnitude)
+            }
             M::Invert => {
                 let one = self.one(k);
                 self.sub(k, one, x)

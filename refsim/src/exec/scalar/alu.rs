@@ -192,6 +192,16 @@ impl<'r> Alu<'r> {
         self.keep(outcome)
     }
 
+    pub(crate) fn cos(&mut self, a: u32) -> u32 {
+        let outcome = ops::cos(self.format, a);
+        self.keep(outcome)
+    }
+
+    pub(crate) fn sin(&mut self, a: u32) -> u32 {
+        let outcome = ops::sin(self.format, a);
+        self.keep(outcome)
+    }
+
     /// Multiplies by two to the power `shift`.
     pub(crate) fn scale(&mut self, a: u32, shift: i8) -> u32 {
         if shift == 0 {

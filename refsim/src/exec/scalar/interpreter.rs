@@ -6,6 +6,7 @@
 
 use super::alu::Alu;
 use super::flow::Frame;
+use super::fragment::FragmentState;
 use super::operation::{self, Context, Vector};
 use super::prepared::Prepared;
 use super::registers::{Registers, finished, operand};
@@ -46,7 +47,9 @@ pub(super) struct Interpreter<'p, 'a, O> {
     /// Instruction slots executed while at least one lane was active.
     pub(super) slots: u64,
     pub(super) fetches: [u64; SAMPLERS],
-    flags: [Flags; LANES],
+    pub(super) flags: [Flags; LANES],
+    /// What only an OpenGL fragment program has.
+    pub(super) fragment: Option<Box<FragmentState<'a>>>,
     pub(super) observer: &'p mut O,
 }
 
@@ -73,6 +76,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             slots: 0,
             fetches: [0; SAMPLERS],
             flags: [Flags::empty(); LANES],
+            fragment: prepared.program.version.is_fragment_program().then(|| Box::new(FragmentState::new(rules))),
             observer,
         }
     }
@@ -92,6 +96,11 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             if self.active != 0 {
                 let cost = instruction.opcode.info().slot_cost(program.version);
                 self.slots += u64::from(cost.arithmetic) + u64::from(cost.texture);
+            }
+            if self.fragment.is_some() {
+                self.fragment_instruction(at, instruction);
+                at += 1;
+                continue;
             }
             at = match instruction.opcode.info().class {
                 OpcodeClass::Flow => match self.flow(at, instruction) {
@@ -304,7 +313,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     /// Puts the flags raised since the last time down to a lane; a lane that is masked off has none.
     pub(super) fn settle(&mut self, lane: usize) {
         let partial = self.partial.as_mut().map(Alu::take_flags).unwrap_or_default();
-        let raised = self.full.take_flags() | self.address.take_flags() | partial;
+        let own = self.fragment.as_mut().map(|f| f.take_flags()).unwrap_or_default();
+        let raised = self.full.take_flags() | self.address.take_flags() | partial | own;
         if self.active >> lane & 1 == 1 {
             self.flags[lane] |= raised;
         }

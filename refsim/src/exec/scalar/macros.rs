@@ -111,3 +111,28 @@ pub(super) fn lit(alu: &mut Alu<'_>, a: &Vector) -> Vector {
     let specular = if lit && alu.less(0, a[1]) { pow(alu, a[1], power) } else { 0 };
     [alu.one(), if lit { a[0] } else { 0 }, specular, alu.one()]
 }
+
+/// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d`, a product and a
+/// difference a component; w gives 0. Source: GL_NV_fragment_program.
+pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Vector, direction: &Vector) -> Vector {
+    let along = alu.dot(&axis[..3], &direction[..3]);
+    let twice = alu.add(along, along);
+    let square = alu.dot(&axis[..3], &axis[..3]);
+    let q = alu.div(twice, square);
+    let mut component = |i: usize| {
+        let product = alu.mul(q, axis[i]);
+        alu.sub(product, direction[i])
+    };
+    [component(0), component(1), component(2), 0]
+}
+
+/// `X2D`: a point moved by a matrix: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and `a.y` in y and w, each
+/// step a `mad` under the rules. Source: GL_NV_fragment_program.
+pub(super) fn x2d(alu: &mut Alu<'_>, a: &Vector, b: &Vector, c: &Vector) -> Vector {
+    let mut row = |base: u32, i: usize| {
+        let first = alu.mad(b[0], c[i], base);
+        alu.mad(b[1], c[i + 1], first)
+    };
+    let (x, y) = (row(a[0], 0), row(a[1], 2));
+    [x, y, x, y]
+}

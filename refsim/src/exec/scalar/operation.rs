@@ -60,12 +60,29 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Vector; 3], contex
         Opcode::SinCos => macros::sincos(alu, a[0], &b, &c),
         Opcode::Dst => [alu.one(), alu.mul(a[1], b[1]), a[2], b[3]],
         Opcode::Lit => macros::lit(alu, &a),
+        Opcode::Flr => each(mask, |i| alu.floor(a[i])),
+        Opcode::Cos => [alu.cos(a[0]); 4],
+        Opcode::Sin => [alu.sin(a[0]); 4],
+        Opcode::Scs => [alu.cos(a[0]), alu.sin(a[0]), 0, 0],
+        Opcode::Dph => {
+            let dot = alu.dot(&a[..3], &b[..3]);
+            [alu.add(dot, b[3]); 4]
+        }
+        Opcode::Swz => a,
+        Opcode::Seq => each(mask, |i| if alu.equal(a[i], b[i]) { alu.one() } else { 0 }),
+        Opcode::Sne => each(mask, |i| if alu.equal(a[i], b[i]) { 0 } else { alu.one() }),
+        Opcode::Sgt => each(mask, |i| if alu.less(b[i], a[i]) { alu.one() } else { 0 }),
+        Opcode::Sle => each(mask, |i| if alu.less_or_equal(a[i], b[i]) { alu.one() } else { 0 }),
+        Opcode::Str => [alu.one(); 4],
+        Opcode::Sfl => [0; 4],
+        Opcode::Rfl => macros::rfl(alu, &a, &b),
+        Opcode::X2d => macros::x2d(alu, &a, &b, &c),
         _ => [0; 4],
     }
 }
 
 /// The components of `mask`, each from its number; zero elsewhere.
-fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Vector {
+pub(crate) fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Vector {
     let mut vector = [0; 4];
     for i in mask.components() {
         vector[i] = component(i);
@@ -80,6 +97,9 @@ pub(crate) fn read_mask(opcode: Opcode, mask: Mask) -> Mask {
         Opcode::Cnd | Opcode::Cmp | Opcode::Abs | Opcode::Min | Opcode::Max => mask,
         Opcode::Sge | Opcode::Slt | Opcode::Frc | Opcode::Sgn | Opcode::Mova | Opcode::Setp => mask,
         Opcode::Dsx | Opcode::Dsy => mask,
+        Opcode::Flr | Opcode::Swz | Opcode::Seq | Opcode::Sne | Opcode::Sgt | Opcode::Sle => mask,
+        Opcode::Cos | Opcode::Sin | Opcode::Scs => Mask(0b0001),
+        Opcode::Rfl => Mask::RGB,
         Opcode::Dp3 | Opcode::Crs | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
         Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow => Mask(0b0001),
         Opcode::Expp | Opcode::Logp => Mask::ALPHA,

@@ -61,7 +61,7 @@ impl<'a> PixelProgram<'a> {
         let reads = self.prepared.reads;
         let colors = (0u16..).zip(&input.v).filter(|&(n, _)| reads.has(COLOR_COMPONENT + 4 * usize::from(n)));
         let mut out: Vec<_> = colors.map(|(n, v)| (Register::new(RegisterFile::Input, n), self.color(*v))).collect();
-        if self.prepared.program.version.is_ps_2() {
+        if self.prepared.program.version.reads_coordinates() {
             let sets = (0u16..).zip(&input.t).filter(|&(n, _)| reads.has(TEXCOORD_COMPONENT + 4 * usize::from(n)));
             out.extend(sets.map(|(n, t)| (Register::new(RegisterFile::Texture, n), self.coordinates(*t))));
         }
@@ -100,9 +100,15 @@ impl<'a> PixelProgram<'a> {
                 }
             }
             for (number, set) in input.t.iter().enumerate() {
-                if version.is_ps_2() && prepared.reads.has(TEXCOORD_COMPONENT + 4 * number) {
+                if version.reads_coordinates() && prepared.reads.has(TEXCOORD_COMPONENT + 4 * number) {
                     registers.texture[number] = self.coordinates(*set);
                 }
+            }
+        }
+        if let Some(fragment) = &mut run.fragment {
+            for (lane, input) in inputs.iter().enumerate() {
+                let fog = ops::convert(&Format::FP32, format, input.fog).bits;
+                fragment.fog[lane] = [fog, 0, 0, format.one()];
             }
         }
         run.run();
@@ -117,6 +123,9 @@ impl<'a> PixelProgram<'a> {
                 .or(registers.depth_out.map(|bits| (format, bits)))
                 .map(|(format, bits)| DepthValue { format, bits });
             result.colors = registers.color_out;
+            if let Some(fragment) = &run.fragment {
+                result.colors[0] = fragment.color(prepared.program, lane, result.colors[0]);
+            }
             if version.is_ps_1_x() {
                 result.colors[0] = registers.temp[0].map(|x| ops::saturate01(format, x).bits);
             }

@@ -123,6 +123,11 @@ pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
     match modifier {
         Modifier::None | Modifier::Dz | Modifier::Dw | Modifier::Not => x,
         Modifier::Negate => alu.neg(x),
+        Modifier::Absolute => alu.abs(x),
+        Modifier::AbsoluteNegate => {
+            let magnitude = alu.abs(x);
+            alu.neg(magnitude)
+        }
         Modifier::Invert => alu.sub(alu.one(), x),
         Modifier::Bias => alu.sub(x, alu.half()),
         Modifier::BiasNegate => {

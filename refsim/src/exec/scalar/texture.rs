@@ -14,10 +14,10 @@ use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
 const ONE: u32 = 0x3f80_0000;
 
 /// One vector for each lane.
-type Quad = [Vector; LANES];
+pub(super) type Quad = [Vector; LANES];
 
 /// How a read finds its level of detail.
-enum Detail {
+pub(super) enum Detail {
     /// From the differences of the coordinates across the quad.
     Implicit,
     /// As [`Detail::Implicit`], plus a bias a lane.
@@ -127,7 +127,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Interpolated coordinate set `number`; zeros where there is none.
-    fn coordinate_set(&self, lane: usize, number: u16) -> Vector {
+    pub(super) fn coordinate_set(&self, lane: usize, number: u16) -> Vector {
         self.coordinates[lane].get(usize::from(number)).copied().unwrap_or_default()
     }
 
@@ -230,7 +230,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Reads a texel for one lane and counts it. An unbound sampler gives (0, 0, 0, 1).
-    fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Vector {
+    pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Vector {
         let prepared = self.prepared;
         if self.covered >> lane & 1 == 1
             && let Some(count) = self.fetches.get_mut(stage)

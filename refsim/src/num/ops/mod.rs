@@ -16,7 +16,7 @@ mod select;
 mod sqrt;
 
 pub use super::convert::convert;
-pub use super::transcendental::{exp2, log2, pow};
+pub use super::transcendental::{cos, exp2, log2, pow, sin};
 pub use add::{add, sub};
 pub use compare::{eq, eq_signaling, le, le_quiet, lt, lt_quiet};
 pub use div::{div, rcp};

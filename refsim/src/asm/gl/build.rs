@@ -1,0 +1,77 @@
+//! A program as it grows: instructions, constants that stand in the text, names.
+
+use std::collections::BTreeMap;
+
+use super::super::error::{ErrorKind, SyntaxError, quote};
+use super::super::parser::Parsed;
+use super::token::Token;
+use crate::isa::{
+    ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, Instruction, Parameter, Program, Register, RegisterFile,
+    Span, Version,
+};
+
+/// Constants of each kind that a text can have.
+const MOST_LITERALS: usize = 4096;
+const MOST_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize;
+
+/// The parts of a program.
+#[derive(Default)]
+pub(super) struct Build {
+    pub(super) instructions: Vec<Instruction>,
+    constants: Vec<ConstantDef>,
+    literals: BTreeMap<[u32; 4], u16>,
+    parameters: Vec<Parameter>,
+}
+
+impl Build {
+    /// The register of a constant that stands in the text: one for equal ones.
+    pub(super) fn literal(&mut self, value: [u32; 4], span: Span) -> Parsed<Register> {
+        let count = self.constants.len();
+        if let Some(&index) = self.literals.get(&value) {
+            return Ok(Register::new(RegisterFile::Constant, index));
+        }
+        if count >= MOST_LITERALS {
+            return Err(SyntaxError::new(
+                ErrorKind::ValueCount,
+                span,
+                format!("at most {MOST_LITERALS} different constants in the text"),
+                "another one",
+                "set constants from outside, as `p[0]` or `program.local[0]`",
+            ));
+        }
+        let register = Register::new(RegisterFile::Constant, FIRST_LITERAL + count as u16);
+        self.literals.insert(value, register.index);
+        let value = ConstantValue::Float(value);
+        self.constants.push(ConstantDef { register, value, position: 0, span });
+        Ok(register)
+    }
+
+    /// A constant that the host sets by name.
+    pub(super) fn parameter(&mut self, name: Token<'_>, default: [u32; 4]) -> Parsed<Register> {
+        let count = self.parameters.len();
+        if count >= MOST_NAMED {
+            return Err(SyntaxError::new(
+                ErrorKind::ValueCount,
+                name.span,
+                format!("at most {MOST_NAMED} names that the host can set"),
+                quote(name.text),
+                "use numbered parameters",
+            ));
+        }
+        let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
+        self.parameters.push(Parameter { name: name.text.to_owned(), register, default, span: name.span });
+        Ok(register)
+    }
+
+    /// The program.
+    pub(super) fn finish(self, version: Version, version_span: Span) -> Program {
+        Program {
+            version,
+            version_span,
+            constants: self.constants,
+            declarations: Vec::new(),
+            instructions: self.instructions,
+            parameters: self.parameters,
+        }
+    }
+}

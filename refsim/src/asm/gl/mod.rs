@@ -1,0 +1,50 @@
+//! OpenGL's fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
+//!
+//! - `token`: the text in pieces; `operand`: what both languages share of operands and numbers; `build`: the program as it
+//!   grows; `nv`, `arb`: the two languages; `print`: back to text.
+
+mod arb;
+mod build;
+mod nv;
+mod operand;
+mod print;
+mod token;
+
+use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
+use crate::isa::{Program, Span, Version};
+pub(super) use print::print;
+
+/// Whether the text is meant to be one of OpenGL's programs: it starts with `!!`.
+pub(super) fn is_program(text: &str) -> bool {
+    body(text).starts_with("!!")
+}
+
+/// The text from its first word on. Lines in front that start with `//`, as our own files have them, are passed over.
+fn body(text: &str) -> &str {
+    let mut rest = text.trim_start_matches('\u{feff}').trim_ascii_start();
+    while rest.starts_with("//") {
+        rest = rest.find(['\n', '\r']).map_or("", |end| rest[end..].trim_ascii_start());
+    }
+    rest
+}
+
+/// Reads a program that starts with `!!`.
+pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
+    let rest = body(text);
+    let start = text.len() - rest.len();
+    let end = rest.find(|c: char| c.is_ascii_whitespace() || matches!(c, ';' | '#')).unwrap_or(rest.len());
+    let span = Span::new(start as u32, (start + end) as u32);
+    match rest[..end].parse() {
+        Ok(Version::Fp1_0) => nv::assemble(text, span),
+        Ok(Version::ArbFp1_0) => arb::assemble(text, span),
+        _ => Err(AssembleErrors {
+            errors: vec![SyntaxError::new(
+                ErrorKind::UnknownVersion,
+                span,
+                "`!!FP1.0` or `!!ARBfp1.0`",
+                quote(&rest[..end]),
+                "these two of OpenGL's program languages are known",
+            )],
+        }),
+    }
+}

@@ -1,0 +1,174 @@
+//! What the two languages share: masks, swizzles, numbers, constants in braces, the names of instructions.
+
+use super::super::error::{ErrorKind, SyntaxError, quote};
+use super::super::number;
+use super::super::parser::Parsed;
+use super::token::{Cursor, Kind, Token};
+use crate::isa::{Mask, Precision, Spelling, Swizzle, TextureTarget};
+
+/// Sets of letters that name components.
+const LETTERS: [&str; 2] = ["xyzw", "rgba"];
+
+fn component(set: &str, letter: char) -> Option<u8> {
+    set.find(letter).map(|i| i as u8)
+}
+
+/// `.xyz` after a destination; nothing means all.
+pub(super) fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
+    if !cursor.accept(".") {
+        return Ok(Mask::ALL);
+    }
+    let token = cursor.next();
+    for set in LETTERS {
+        let all: Option<Vec<u8>> = token.text.chars().map(|c| component(set, c)).collect();
+        if let Some(all) = all.filter(|all| !all.is_empty() && all.is_sorted_by(|a, b| a < b)) {
+            return Ok(Mask(all.iter().fold(0, |mask, c| mask | 1 << c)));
+        }
+    }
+    Err(SyntaxError::new(
+        ErrorKind::Mask,
+        token.span,
+        "components in the order xyzw, each once",
+        token.found(),
+        "write `.x`, `.xyz` or `.yw`, for example",
+    ))
+}
+
+/// `.x` or `.xyzw` after a source; nothing means no change.
+pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
+    if !cursor.accept(".") {
+        return Ok(Swizzle::IDENTITY);
+    }
+    let token = cursor.next();
+    for set in LETTERS {
+        let all: Option<Vec<u8>> = token.text.chars().map(|c| component(set, c)).collect();
+        match all.as_deref() {
+            Some([one]) => return Ok(Swizzle::replicate(*one)),
+            Some(&[x, y, z, w]) => return Ok(Swizzle([x, y, z, w])),
+            _ => {}
+        }
+    }
+    Err(SyntaxError::new(
+        ErrorKind::Swizzle,
+        token.span,
+        "one or four of xyzw",
+        token.found(),
+        "write `.x` or `.xxyz`, for example",
+    ))
+}
+
+/// A whole number up to `most`.
+pub(super) fn index(cursor: &mut Cursor<'_>, most: u16) -> Parsed<u16> {
+    let token = cursor.next();
+    let number = if token.kind == Kind::Number { token.text.parse().ok() } else { None };
+    number.filter(|&n| n <= most).ok_or_else(|| register_number(token, most))
+}
+
+fn register_number(token: Token<'_>, most: u16) -> SyntaxError {
+    SyntaxError::new(
+        ErrorKind::RegisterNumber,
+        token.span,
+        format!("a number from 0 to {most}"),
+        token.found(),
+        "count from 0",
+    )
+}
+
+/// The number behind a one-letter or longer prefix, `R12` for example; `None` if the word is something else.
+pub(super) fn numbered(token: Token<'_>, prefix: &str, most: u16) -> Option<Parsed<u16>> {
+    let digits = token.text.strip_prefix(prefix)?;
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    Some(digits.parse().ok().filter(|&n| n <= most).ok_or_else(|| register_number(token, most)))
+}
+
+/// A number with its signs, as the bits of a single float.
+pub(super) fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
+    let mut negative = false;
+    while let Some(sign) = ["-", "+"].into_iter().find(|s| cursor.accept(s)) {
+        negative ^= sign == "-";
+    }
+    let token = cursor.peek();
+    if token.kind != Kind::Number {
+        return Err(SyntaxError::new(
+            ErrorKind::MalformedValue,
+            token.span,
+            "a number",
+            token.found(),
+            "write `1`, `-0.5` or `2.5e-3`",
+        ));
+    }
+    cursor.next();
+    let bits = number::float(token.text, token.span)?;
+    Ok(if negative { bits ^ 0x8000_0000 } else { bits })
+}
+
+/// A constant: `{x, y, z, w}`, of which what is missing is 0, 0, 0, 1; or one number for all components.
+pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
+    if !cursor.accept("{") {
+        return Ok([value(cursor)?; 4]);
+    }
+    let mut all = [0, 0, 0, 0x3f80_0000];
+    for (i, slot) in all.iter_mut().enumerate() {
+        if i > 0 && !cursor.accept(",") {
+            break;
+        }
+        *slot = value(cursor)?;
+    }
+    cursor.expect("}", "a constant has one to four numbers between braces")?;
+    Ok(all)
+}
+
+/// The kind of texture that a read asks for.
+pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
+    let token = cursor.next();
+    TextureTarget::from_name(token.text).ok_or_else(|| {
+        let names = TextureTarget::ALL.map(TextureTarget::name).join(", ");
+        SyntaxError::new(
+            ErrorKind::UnknownUsage,
+            token.span,
+            format!("one of {names}"),
+            token.found(),
+            "the kind of texture stands last, after its image unit",
+        )
+    })
+}
+
+/// An instruction's name taken apart.
+pub(super) struct Mnemonic {
+    pub(super) spelling: &'static Spelling,
+    pub(super) precision: Option<Precision>,
+    pub(super) updates: bool,
+    pub(super) saturate: bool,
+}
+
+/// The name of an instruction, with the suffixes of `!!FP1.0` if `suffixes`.
+pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
+    let (name, saturate) = match token.text.strip_suffix("_SAT") {
+        Some(name) => (name, true),
+        None => (token.text, false),
+    };
+    let split = |spelling: &'static Spelling| {
+        let mut rest = name.strip_prefix(spelling.name)?;
+        let precision = Precision::ALL.into_iter().find(|p| suffixes && rest.starts_with(p.letter()));
+        rest = if precision.is_some() { &rest[1..] } else { rest };
+        let updates = suffixes && rest == "C";
+        (updates || rest.is_empty()).then_some(Mnemonic { spelling, precision, updates, saturate })
+    };
+    // `EX2R` is `EX2`; of names that begin another the longest counts.
+    let best = Spelling::ALL.iter().filter_map(split).max_by_key(|m| m.spelling.name.len());
+    best.ok_or_else(|| {
+        let close = Spelling::ALL
+            .iter()
+            .find(|s| token.text.len() >= 2 && s.name.starts_with(&token.text[..first(token.text)]));
+        let help =
+            close.map_or("see the extension's table of instructions".to_owned(), |s| format!("{} is one", s.name));
+        SyntaxError::new(ErrorKind::UnknownOpcode, token.span, "an instruction", quote(token.text), help)
+    })
+}
+
+/// The length of the first two characters.
+fn first(text: &str) -> usize {
+    text.char_indices().nth(2).map_or(text.len(), |(at, _)| at)
+}

@@ -1,0 +1,289 @@
+//! OpenGL's fragment programs. Sources: GL_NV_fragment_program for `!!FP1.0`, GL_ARB_fragment_program for `!!ARBfp1.0`.
+//! Temporaries start at zero there, so nothing has to be written before it is read.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::allowed::Limit;
+use super::context::{Context, ordinal};
+use super::{RuleId, Violation};
+use crate::isa::{
+    FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Opcode, OpcodeClass, Precision, Register, RegisterFile, Span,
+    Spelling, Version,
+};
+
+/// Registers of full and half precision that there are names for.
+const FULL: u16 = 32;
+const HALF: u16 = 64;
+/// What all registers of a program may weigh together, one of half precision weighing 1.
+const MOST_WEIGHT: u32 = 64;
+
+pub(super) fn check(context: &mut Context<'_>) {
+    let nv = context.version == Version::Fp1_0;
+    let all: Vec<&Instruction> = context.program.instructions.iter().collect();
+    for (index, instruction) in all.iter().enumerate() {
+        if !context.is_sound(index) {
+            missing(context, instruction);
+            continue;
+        }
+        registers(context, instruction);
+        operands(context, instruction);
+        if nv {
+            suffixes(context, instruction);
+            packing(context, instruction);
+            distinct(context, instruction);
+        }
+    }
+    outputs(context, &all);
+    targets(context, &all);
+    if nv {
+        weight(context, &all);
+    } else {
+        indirections(context, &all);
+    }
+}
+
+/// V03.
+fn missing(context: &mut Context<'_>, instruction: &Instruction) {
+    let name = Spelling::of(instruction.opcode).map_or(instruction.opcode.info().mnemonic, |s| s.name);
+    let version = context.version;
+    let found = Violation::new(RuleId::V03, instruction.span, format!("`{name}` is not an instruction of {version}"));
+    context.add(found.label("this one").help("write it with the instructions that the extension has"));
+}
+
+fn all_registers(instruction: &Instruction) -> impl Iterator<Item = (Register, Span)> + '_ {
+    let written = instruction.destination.map(|d| (d.register, d.span));
+    written.into_iter().chain(instruction.sources.iter().map(|s| (s.register, s.span)))
+}
+
+/// V07: the registers there are.
+fn registers(context: &mut Context<'_>, instruction: &Instruction) {
+    for (register, span) in all_registers(instruction) {
+        let figure = |context: &Context<'_>, limit: Limit, emulated: u32| {
+            context.limit(limit).map_or((emulated, "limits"), |a| (a.value.min(emulated), a.key))
+        };
+        let (count, key) = match register.file {
+            RegisterFile::Temp => (FULL.into(), "version"),
+            RegisterFile::Half => (HALF.into(), "version"),
+            RegisterFile::Sampler => figure(context, Limit::Samplers, 16),
+            RegisterFile::Texture => figure(context, Limit::TextureCoordinates, 8),
+            RegisterFile::Constant if register.index < FIRST_NAMED => figure(context, Limit::Constants, 256),
+            _ => continue,
+        };
+        let number = match register.file {
+            RegisterFile::Constant => register.index % FIRST_ENVIRONMENT,
+            _ => register.index,
+        };
+        if u32::from(number) >= count {
+            let name = written_name(register, number);
+            let message = format!("`{name}` does not exist: there are {count}");
+            let mut violation = Violation::new(RuleId::V07, span, message).label("no such register");
+            violation.key = (key != "version").then_some(key);
+            violation.limit = Some(count);
+            violation.found = Some(u32::from(number) + 1);
+            context.add(violation.help("count from 0"));
+        }
+    }
+}
+
+fn written_name(register: Register, number: u16) -> String {
+    match register.file {
+        RegisterFile::Temp => format!("R{number}"),
+        RegisterFile::Sampler => format!("TEX{number}"),
+        RegisterFile::Texture => format!("f[TEX{number}]"),
+        RegisterFile::Constant if register.index >= FIRST_ENVIRONMENT => format!("program.env[{number}]"),
+        RegisterFile::Constant => format!("p[{number}]"),
+        _ => register.to_string(),
+    }
+}
+
+/// V42: operands of scalar instructions name one component.
+fn operands(context: &mut Context<'_>, instruction: &Instruction) {
+    let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.scalar) else { return };
+    for source in &instruction.sources {
+        if source.swizzle.replicated().is_none() {
+            let message = format!("`{}` reads one component, found four", spelling.name);
+            context.add(
+                Violation::new(RuleId::V42, source.span, message)
+                    .label("which component?")
+                    .help("choose one: `.x`, `.y`, `.z` or `.w`"),
+            );
+        }
+    }
+}
+
+/// V60: the suffixes that the instruction can have.
+fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
+    let Some(spelling) = Spelling::of(instruction.opcode) else { return };
+    let part = &instruction.fragment;
+    let precise = match part.precision {
+        None => true,
+        Some(Precision::Fixed) => spelling.fixed,
+        Some(_) => spelling.floats,
+    };
+    let saturates = instruction.destination.is_some_and(|d| d.saturate);
+    let wrong = match part.precision {
+        Some(precision) if !precise => precision.letter().to_string(),
+        _ if part.updates && !spelling.result => "C".to_owned(),
+        _ if saturates && !spelling.result => "_SAT".to_owned(),
+        _ => return,
+    };
+    let message = format!("`{}` has no suffix {wrong}", spelling.name);
+    context
+        .add(Violation::new(RuleId::V60, instruction.span, message).help("see the extension's table of instructions"));
+}
+
+/// V61: packed words are of full precision.
+fn packing(context: &mut Context<'_>, instruction: &Instruction) {
+    let half = match instruction.opcode {
+        Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
+            instruction.destination.filter(|d| d.register.file.is_half()).map(|d| d.span)
+        }
+        Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub => {
+            instruction.sources.first().filter(|s| s.register.file.is_half()).map(|s| s.span)
+        }
+        _ => None,
+    };
+    if let Some(span) = half {
+        let message = "a packed word has 32 bits, a register of half precision 16";
+        context.add(Violation::new(RuleId::V61, span, message).help("keep packed words in R# or o[COLR]"));
+    }
+}
+
+/// V62: one attribute and one constant an instruction.
+fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
+    if !context.version_limits() {
+        return;
+    }
+    let is_attribute = |file| {
+        use RegisterFile as F;
+        matches!(file, F::Input | F::Texture | F::FogIn | F::WindowPosition)
+    };
+    let kinds: [(&str, &dyn Fn(RegisterFile) -> bool); 2] =
+        [("attributes", &is_attribute), ("constants", &|file| file == RegisterFile::Constant)];
+    for (what, belongs) in kinds {
+        let sources = instruction.sources.iter().filter(|s| belongs(s.register.file));
+        let mut seen = BTreeSet::new();
+        let mut second = None;
+        for source in sources {
+            if seen.insert((source.register.file, source.register.index)) && seen.len() == 2 {
+                second = Some(source.span);
+            }
+        }
+        if let Some(span) = second {
+            let message = format!("instruction reads {} different {what}, allowed is 1", seen.len());
+            let mut violation = Violation::new(RuleId::V62, span, message).label("the second");
+            violation.limit = Some(1);
+            violation.found = Some(seen.len() as u32);
+            context.add(violation.help("move one of them into a temporary first"));
+        }
+    }
+}
+
+/// V63: the colour goes out in one precision, depth through z, and something goes out.
+fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
+    let find = |file| all.iter().filter_map(|i| i.destination).find(move |d| d.register.file == file);
+    let (full, half) = (find(RegisterFile::ColorOut), find(RegisterFile::HalfColorOut));
+    if let (Some(full), Some(half)) = (full, half) {
+        let later = if full.span.start > half.span.start { full } else { half };
+        let message = "program writes both o[COLR] and o[COLH]";
+        context.add(Violation::new(RuleId::V63, later.span, message).help("write the colour in one precision"));
+    }
+    let depths = all.iter().filter_map(|i| i.destination).filter(|d| d.register.file == RegisterFile::DepthOut);
+    for depth in depths.filter(|d| d.mask.0 != 0b0100) {
+        let message = "depth is the z component, which the mask leaves out";
+        context.add(Violation::new(RuleId::V63, depth.span, message).help("write o[DEPR].z or result.depth.z"));
+    }
+    if full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none() {
+        let span = context.program.version_span;
+        let message = "program writes neither colour nor depth";
+        context.add(Violation::new(RuleId::V63, span, message).help("write a result, for example o[COLR]"));
+    }
+}
+
+/// V64: a texture image unit is read as one kind of texture.
+fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
+    let mut known = BTreeMap::new();
+    for instruction in all {
+        let (Some(target), Some(unit)) = (instruction.fragment.target, instruction.sources.get(1)) else { continue };
+        let first = *known.entry(unit.register.index).or_insert(target);
+        if first != target {
+            let message =
+                format!("image unit {} is read as {} and as {}", unit.register.index, first.name(), target.name());
+            context.add(
+                Violation::new(RuleId::V64, instruction.span, message).help("bind the second texture to another unit"),
+            );
+        }
+    }
+}
+
+/// V65: what the registers weigh.
+fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
+    if !context.version_limits() {
+        return;
+    }
+    let mut seen = BTreeSet::new();
+    let mut weight = 0;
+    let mut first = None;
+    for (register, span) in all.iter().flat_map(|i| all_registers(i)) {
+        let one = match register.file {
+            RegisterFile::Temp | RegisterFile::ColorOut | RegisterFile::DepthOut => 2,
+            RegisterFile::Half | RegisterFile::HalfColorOut => 1,
+            _ => 0,
+        };
+        if one > 0 && seen.insert((register.file, register.index)) {
+            weight += one;
+            if weight > MOST_WEIGHT && first.is_none() {
+                first = Some(span);
+            }
+        }
+    }
+    let Some(span) = first else { return };
+    let message = format!("registers weigh {weight}, !!FP1.0 allows {MOST_WEIGHT}");
+    let mut violation = Violation::new(RuleId::V65, span, message).label("from here on");
+    violation.limit = Some(MOST_WEIGHT);
+    violation.found = Some(weight);
+    context.add(violation.help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)"));
+}
+
+/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its destination
+/// was touched, since the last began.
+fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
+    let Some(allowed) = context.limit(Limit::DependentReads) else { return };
+    let mut touched: BTreeSet<Register> = BTreeSet::new();
+    let mut written: BTreeSet<Register> = BTreeSet::new();
+    let mut count = 1_u32;
+    let mut first = None;
+    for instruction in all {
+        let temporary = |r: &Register| r.file == RegisterFile::Temp;
+        let sources: Vec<Register> = instruction.sources.iter().map(|s| s.register).filter(temporary).collect();
+        let destination = instruction.destination.map(|d| d.register).filter(temporary);
+        if instruction.opcode.info().class == OpcodeClass::Texture {
+            let computed = sources.iter().any(|r| written.contains(r));
+            let used = destination.is_some_and(|r| touched.contains(&r));
+            if computed || used {
+                count += 1;
+                touched.clear();
+                written.clear();
+                if count > allowed.value && first.is_none() {
+                    first = Some(instruction.span);
+                }
+            }
+        } else {
+            touched.extend(sources.iter().copied());
+            touched.extend(destination);
+        }
+        written.extend(destination);
+    }
+    let Some(span) = first else { return };
+    let message = format!("program has {count} texture indirections, {} allows {}", allowed.owner, allowed.value);
+    let label = format!("the {} begins here", ordinal(allowed.value + 1));
+    context.exceed(
+        RuleId::V66,
+        span,
+        count,
+        &allowed,
+        message,
+        label,
+        "read textures together, before what depends on them",
+    );
+}

@@ -1,0 +1,55 @@
+//! In which formats an OpenGL fragment program computes: shared by the executors.
+
+use crate::device::Rules;
+use crate::isa::{Instruction, Precision, RegisterFile};
+use crate::num::{Format, Overflow, Specials};
+
+/// The formats behind the suffixes R, H and X.
+///
+/// Source: GL_NV_fragment_program. R is the device's register format, fp32 on its cards; H is the format of `_pp`, fp16
+/// with the extension's own infinities where a device has none; X is fx12. All round alike, as the device says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FragmentFormats {
+    /// `R#`, `o[COLR]`, `o[DEPR]`, and what is interpolated.
+    pub full: Format,
+    /// `H#`, `o[COLH]`.
+    pub half: Format,
+    /// Operations with X; no register has it.
+    pub fixed: Format,
+}
+
+impl FragmentFormats {
+    /// The formats of a device.
+    pub fn new(rules: &Rules) -> Self {
+        let rounding = rules.format.rounding;
+        let half = Format::FP16.with_rounding(rounding).with_overflow(Overflow::Nv30).with_specials(Specials::Nv);
+        Self { full: rules.format, half: rules.partial.unwrap_or(half), fixed: Format::FX12.with_rounding(rounding) }
+    }
+
+    /// The format of a precision.
+    pub const fn of(&self, precision: Precision) -> Format {
+        match precision {
+            Precision::Full => self.full,
+            Precision::Half => self.half,
+            Precision::Fixed => self.fixed,
+        }
+    }
+
+    /// The format of the numbers in a register file.
+    pub const fn of_file(&self, file: RegisterFile) -> Format {
+        if file.is_half() { self.half } else { self.full }
+    }
+}
+
+/// The precision that an arithmetic instruction computes in: the suffix's, or the destination's. Operands `f[TEX#]` and
+/// `f[FOGC]` ask for full precision whatever the suffix says.
+pub fn precision_of(instruction: &Instruction) -> Precision {
+    let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
+    if instruction.sources.iter().any(|s| interpolated(s.register.file)) {
+        return Precision::Full;
+    }
+    instruction.fragment.precision.unwrap_or(match instruction.destination {
+        Some(d) if d.register.file.is_half() => Precision::Half,
+        _ => Precision::Full,
+    })
+}

@@ -1,0 +1,57 @@
+//! Texture reads of OpenGL's fragment programs. Addresses are single precision whatever the registers are, as in
+//! Direct3D's programs; the texel is taken into full precision and from there into the destination's.
+
+use super::interpreter::{Interpreter, LANES};
+use super::operation::Vector;
+use super::registers::modified;
+use super::texture::{Detail, Quad};
+use crate::exec::Observer;
+use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source};
+use crate::num::{Format, ops};
+
+impl<O: Observer> Interpreter<'_, '_, O> {
+    /// `TEX`, `TXP`, `TXB`, `TXD`.
+    pub(super) fn fragment_texture(&mut self, at: usize, instruction: &Instruction) {
+        let (Some(destination), [source, sampler, rest @ ..]) = (&instruction.destination, &*instruction.sources)
+        else {
+            return;
+        };
+        let mut coordinates: Quad = [[0; 4]; LANES];
+        for (lane, slot) in coordinates.iter_mut().enumerate() {
+            let [x, y, z, w] = self.address(lane, source);
+            *slot = match instruction.opcode {
+                Opcode::TexLdP => [self.address.div(x, w), self.address.div(y, w), self.address.div(z, w), w],
+                _ => [x, y, z, w],
+            };
+            self.settle(lane);
+        }
+        let detail = match (instruction.opcode, rest) {
+            (Opcode::TexLdB, _) => Detail::Biased([0, 1, 2, 3].map(|lane: usize| coordinates[lane][3])),
+            (Opcode::TexLdD, [x, y]) => {
+                let mut gradient = |source| [0, 1, 2, 3].map(|lane: usize| self.address(lane, source));
+                Detail::Gradients(Box::new([gradient(x), gradient(y)]))
+            }
+            _ => Detail::Implicit,
+        };
+        let stage = usize::from(sampler.register.index);
+        let to = self.fragment_formats().of_file(destination.register.file);
+        for lane in 0..LANES {
+            let texel = self.fetch(stage, lane, &coordinates, &detail);
+            let value = texel.map(|x| {
+                let clamped = if destination.saturate { self.full.saturate(x) } else { x };
+                self.full.leave(to, clamped)
+            });
+            self.fragment_store(at, lane, instruction, value);
+        }
+    }
+
+    /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
+    fn address(&mut self, lane: usize, source: &Source) -> Vector {
+        if source.register.file == RegisterFile::Texture {
+            let set = self.coordinate_set(lane, source.register.index);
+            return source.swizzle.0.map(|c| modified(&mut self.address, source.modifier, set[usize::from(c & 3)]));
+        }
+        let from = self.fragment_formats().of_file(source.register.file);
+        self.loaded(lane, source, Mask::ALL, 0).map(|x| ops::convert(&from, Format::FP32, x).bits)
+    }
+}

@@ -1,0 +1,238 @@
+//! What OpenGL's fragment programs say besides Direct3D's words: precision, condition codes, texture targets, spellings.
+//!
+//! Sources: the extension specifications GL_NV_fragment_program (`!!FP1.0`) and GL_ARB_fragment_program (`!!ARBfp1.0`).
+//! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]` is
+//! `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
+
+use super::{Opcode, Span, Swizzle};
+
+/// The first `c#` of ARB's `program.env`; `p[0]` and `program.local[0]` are `c0`.
+pub const FIRST_ENVIRONMENT: u16 = 256;
+/// The first `c#` of constants with a name that the host can set.
+pub const FIRST_NAMED: u16 = 512;
+/// The first `c#` of constants that stand in the text.
+pub const FIRST_LITERAL: u16 = 1024;
+
+/// The suffix that says in which format an instruction computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Precision {
+    /// `R`: the format of `R#`, fp32 on the cards.
+    Full,
+    /// `H`: the format of `H#`, fp16.
+    Half,
+    /// `X`: fx12, fixed point from -2 to 2047/1024.
+    Fixed,
+}
+
+impl Precision {
+    /// Every precision.
+    pub const ALL: [Self; 3] = [Self::Full, Self::Half, Self::Fixed];
+
+    /// The letter after the mnemonic.
+    pub const fn letter(self) -> char {
+        match self {
+            Self::Full => 'R',
+            Self::Half => 'H',
+            Self::Fixed => 'X',
+        }
+    }
+}
+
+/// What is asked of a condition code: less than, equal to, greater than zero, or unordered (NaN).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the variants are the names in programs")]
+pub enum ConditionTest {
+    Eq,
+    /// Equal or greater.
+    Ge,
+    Gt,
+    /// Less or equal.
+    Le,
+    Lt,
+    /// Anything but equal: unordered too.
+    Ne,
+    /// Always.
+    Tr,
+    /// Never.
+    Fl,
+}
+
+impl ConditionTest {
+    /// Every test.
+    pub const ALL: [Self; 8] = [Self::Eq, Self::Ge, Self::Gt, Self::Le, Self::Lt, Self::Ne, Self::Tr, Self::Fl];
+
+    /// The name in programs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Eq => "EQ",
+            Self::Ge => "GE",
+            Self::Gt => "GT",
+            Self::Le => "LE",
+            Self::Lt => "LT",
+            Self::Ne => "NE",
+            Self::Tr => "TR",
+            Self::Fl => "FL",
+        }
+    }
+
+    /// The test of this name.
+    pub fn from_name(text: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|t| t.name() == text)
+    }
+}
+
+/// `(GT.x)` after a destination, or the operand of `KIL`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Condition {
+    /// What must hold.
+    pub test: ConditionTest,
+    /// Of which condition code, for each lane.
+    pub swizzle: Swizzle,
+    /// Where it stands in the program text.
+    pub span: Span,
+}
+
+/// Which kind of texture a read asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the variants are the names in programs")]
+pub enum TextureTarget {
+    D1,
+    D2,
+    D3,
+    Cube,
+    Rect,
+}
+
+impl TextureTarget {
+    /// Every target.
+    pub const ALL: [Self; 5] = [Self::D1, Self::D2, Self::D3, Self::Cube, Self::Rect];
+
+    /// The name in programs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::D1 => "1D",
+            Self::D2 => "2D",
+            Self::D3 => "3D",
+            Self::Cube => "CUBE",
+            Self::Rect => "RECT",
+        }
+    }
+
+    /// The target of this name.
+    pub fn from_name(text: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|t| t.name() == text)
+    }
+}
+
+/// What an OpenGL fragment program says of an instruction besides Direct3D's words.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct FragmentPart {
+    /// The format of the operation; that of the destination where nothing is said.
+    pub precision: Option<Precision>,
+    /// `C`: the condition codes take the result.
+    pub updates: bool,
+    /// The condition under which components are written, or fragments killed.
+    pub condition: Option<Condition>,
+    /// The kind of texture that is read.
+    pub target: Option<TextureTarget>,
+    /// `SWZ`: bit `i` negates component `i`; there the swizzle's 4 means 0 and 5 means 1.
+    pub negate: u8,
+}
+
+/// How OpenGL writes an operation, and the suffixes that it can have in `!!FP1.0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spelling {
+    /// The operation.
+    pub opcode: Opcode,
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it can have R and H.
+    pub floats: bool,
+    /// Whether it can have X.
+    pub fixed: bool,
+    /// Whether it can have C, and `_SAT`.
+    pub result: bool,
+    /// Whether its operands are single components.
+    pub scalar: bool,
+}
+
+/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`; then whether it is scalar.
+macro_rules! spellings {
+    ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal $scalar:literal)*) => {
+        &[$(Spelling {
+            opcode: Opcode::$opcode,
+            name: $name,
+            floats: $floats,
+            fixed: $fixed,
+            result: $result,
+            scalar: $scalar,
+        }),*]
+    };
+}
+
+#[rustfmt::skip]
+const SPELLINGS: &[Spelling] = spellings! {
+//  opcode name    R, H  X     C, SAT scalar
+    Abs    "ABS"   true  true  true  false
+    Add    "ADD"   true  true  true  false
+    Cmp    "CMP"   true  true  true  false
+    Cos    "COS"   true  false true  true
+    Dsx    "DDX"   true  false true  false
+    Dsy    "DDY"   true  false true  false
+    Dp3    "DP3"   true  true  true  false
+    Dp4    "DP4"   true  true  true  false
+    Dph    "DPH"   true  true  true  false
+    Dst    "DST"   true  false true  false
+    Exp    "EX2"   true  false true  true
+    Flr    "FLR"   true  true  true  false
+    Frc    "FRC"   true  true  true  false
+    Kil    "KIL"   false false false false
+    Log    "LG2"   true  false true  true
+    Lit    "LIT"   true  false true  false
+    Lrp    "LRP"   true  true  true  false
+    Mad    "MAD"   true  true  true  false
+    Max    "MAX"   true  true  true  false
+    Min    "MIN"   true  true  true  false
+    Mov    "MOV"   true  true  true  false
+    Mul    "MUL"   true  true  true  false
+    Pk2h   "PK2H"  false false false false
+    Pk2us  "PK2US" false false false false
+    Pk4b   "PK4B"  false false false false
+    Pk4ub  "PK4UB" false false false false
+    Pow    "POW"   true  false true  true
+    Rcp    "RCP"   true  false true  true
+    Rfl    "RFL"   true  false true  false
+    Rsq    "RSQ"   true  false true  true
+    Scs    "SCS"   true  false true  true
+    Seq    "SEQ"   true  true  true  false
+    Sfl    "SFL"   true  true  true  false
+    Sge    "SGE"   true  true  true  false
+    Sgt    "SGT"   true  true  true  false
+    Sin    "SIN"   true  false true  true
+    Sle    "SLE"   true  true  true  false
+    Slt    "SLT"   true  true  true  false
+    Sne    "SNE"   true  true  true  false
+    Str    "STR"   true  true  true  false
+    Sub    "SUB"   true  true  true  false
+    Swz    "SWZ"   true  true  true  false
+    TexLd  "TEX"   false false true  false
+    TexLdB "TXB"   false false true  false
+    TexLdD "TXD"   false false true  false
+    TexLdP "TXP"   false false true  false
+    Up2h   "UP2H"  false false true  true
+    Up2us  "UP2US" false false true  true
+    Up4b   "UP4B"  false false true  true
+    Up4ub  "UP4UB" false false true  true
+    X2d    "X2D"   true  false true  false
+    Crs    "XPD"   true  true  true  false
+};
+
+impl Spelling {
+    /// Every spelling, by name.
+    pub const ALL: &'static [Self] = SPELLINGS;
+
+    /// How OpenGL writes the operation; `None` for operations that only Direct3D has.
+    pub fn of(opcode: Opcode) -> Option<&'static Self> {
+        SPELLINGS.iter().find(|s| s.opcode == opcode)
+    }
+}
