@@ -21,9 +21,14 @@ pub struct FragmentFormats {
 impl FragmentFormats {
     /// The formats of a device.
     pub fn new(rules: &Rules) -> Self {
-        let rounding = rules.format.rounding;
+        Self::of_registers(rules.format, rules.partial)
+    }
+
+    /// The formats of a device with these for registers and `_pp` instructions.
+    pub fn of_registers(format: Format, partial: Option<Format>) -> Self {
+        let rounding = format.rounding;
         let half = Format::FP16.with_rounding(rounding).with_overflow(Overflow::Nv30).with_specials(Specials::Nv);
-        Self { full: rules.format, half: rules.partial.unwrap_or(half), fixed: Format::FX12.with_rounding(rounding) }
+        Self { full: format, half: partial.unwrap_or(half), fixed: Format::FX12.with_rounding(rounding) }
     }
 
     /// The format of a precision.

@@ -6,6 +6,7 @@ use super::ops::Code;
 use super::simd::SimdLevel;
 use super::slots::TRUE;
 use crate::device::{LrpMode, MadMode, Rules};
+use crate::exec::FragmentFormats;
 use crate::num::{self, DotOrder, Format, Overflow};
 
 /// Four components.
@@ -14,17 +15,20 @@ pub(crate) type Vector = [Node; 4];
 /// The formats of a program and their arithmetic.
 #[derive(Clone, Debug)]
 pub(crate) struct Formats {
-    formats: [Format; 4],
-    lanes: [AnyLane; 4],
+    formats: [Format; 6],
+    lanes: [AnyLane; 6],
     simd: SimdLevel,
 }
 
 impl Formats {
     /// Of registers in `main`, with `_pp` arithmetic in `partial`.
     pub(crate) fn new(main: Format, partial: Option<Format>) -> Option<Self> {
-        let formats = [main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap)];
-        let [Some(a), Some(b), Some(c), Some(d)] = formats.map(AnyLane::new) else { return None };
-        Some(Self { formats, lanes: [a, b, c, d], simd: SimdLevel::widest() })
+        let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
+        let wrapped = main.with_overflow(Overflow::Wrap);
+        let formats = [main, partial.unwrap_or(main), Format::FP32, wrapped, half, fixed];
+        let lanes = formats.map(AnyLane::new);
+        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = lanes else { return None };
+        Some(Self { formats, lanes: [a, b, c, d, e, f], simd: SimdLevel::widest() })
     }
 
     pub(crate) fn format(&self, arith: Arith) -> Format {

@@ -24,6 +24,24 @@ pub(crate) enum Arith {
     Single,
     /// The register format, wrapping: coordinates delivered by `texcrd` with their fraction kept.
     Wrapped,
+    /// H in OpenGL's fragment programs.
+    Half,
+    /// X in OpenGL's fragment programs.
+    Fixed,
+}
+
+impl Arith {
+    /// Its number in shaders' tables of formats, where those of targets and textures stand in between.
+    pub(crate) const fn number(self) -> u32 {
+        match self {
+            Self::Main => 0,
+            Self::Partial => 1,
+            Self::Single => 2,
+            Self::Wrapped => 3,
+            Self::Half => 9,
+            Self::Fixed => 10,
+        }
+    }
 }
 
 /// How a texture read finds its level of detail.
@@ -56,6 +74,8 @@ pub(crate) enum Kind {
     Steps(u32, Node),
     /// A texture read: sampler, single precision coordinates, detail.
     Fetch(u8, [Node; 4], Detail),
+    /// The cosine, or the sine, of an angle: format, whether it is the sine, angle.
+    Circle(Arith, bool, Node),
     /// A component of a texture read's result.
     Texel(Node, u8),
     /// A float constant with a relative number: `c[index + a]`, component, `a` an integer.
@@ -72,7 +92,7 @@ impl Kind {
                 a.into_iter().take(terms.into()).for_each(&mut visit);
                 b.into_iter().take(terms.into()).for_each(visit);
             }
-            Kind::Convert(_, _, a) | Kind::Steps(_, a) | Kind::Texel(a, _) | Kind::Relative(_, _, a) => visit(a),
+            Kind::Circle(_, _, a) | Kind::Convert(_, _, a) | Kind::Steps(_, a) | Kind::Texel(a, _) | Kind::Relative(_, _, a) => visit(a),
             Kind::Fetch(_, coordinates, detail) => {
                 coordinates.into_iter().for_each(&mut visit);
                 match detail {
@@ -89,6 +109,7 @@ impl Code {
     /// How many operands the operation reads.
     pub(crate) fn arity(self) -> usize {
         match self {
+            Code::JoinPattern(_) | Code::JoinShort(_) | Code::JoinByte(_) | Code::JoinSignedByte(_) => 2,
             Code::Add | Code::Sub | Code::Mul | Code::Div | Code::Min | Code::Max | Code::Factor => 2,
             Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or | Code::AndNot => 2,
             Code::Mad | Code::FusedMad | Code::SelectNonNegative | Code::SelectAboveHalf | Code::Select => 3,

@@ -1,7 +1,7 @@
 //! Operations of several rounded steps, as graph nodes. The sequences are those that the scalar executor documents.
 
 use super::arith::{Maker, Vector};
-use super::graph::{Arith, Node};
+use super::graph::{Arith, Kind, Node};
 use super::ops::Code;
 use crate::isa::Opcode;
 use crate::num;
@@ -50,6 +50,26 @@ impl Maker<'_> {
             Opcode::SinCos => self.sincos(k, a[0], &b, &c),
             Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
             Opcode::Lit => self.lit(k, &a),
+            Opcode::Flr => a.map(|x| self.unary(k, Code::Floor, x)),
+            Opcode::Cos => [self.circle(k, false, a[0]); 4],
+            Opcode::Sin => [self.circle(k, true, a[0]); 4],
+            Opcode::Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
+            Opcode::Dph => {
+                let dot = self.dot(k, 3, &a, &b);
+                [self.add(k, dot, b[3]); 4]
+            }
+            Opcode::Swz => a,
+            Opcode::Seq => std::array::from_fn(|i| self.flag(k, Code::Equal, a[i], b[i])),
+            Opcode::Sne => std::array::from_fn(|i| {
+                let same = self.holds(k, Code::Equal, a[i], b[i]);
+                let (one, zero) = (self.one(k), self.zero());
+                self.select(same, zero, one)
+            }),
+            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, Code::Less, b[i], a[i])),
+            Opcode::Sle => std::array::from_fn(|i| self.flag(k, Code::LessEqual, a[i], b[i])),
+            Opcode::Str => [self.one(k); 4],
+            Opcode::Rfl => self.rfl(k, &a, &b),
+            Opcode::X2d => self.x2d(k, &a, &b, &c),
             _ => [self.zero(); 4],
         }
     }
@@ -131,6 +151,32 @@ impl Maker<'_> {
         let u = self.mul(k, s, s);
         let twice = self.add(k, u, u);
         [self.sub(k, r[2], twice), sine, self.zero(), self.zero()]
+    }
+
+    fn circle(&mut self, k: Arith, sine: bool, angle: Node) -> Node {
+        self.graph.node(Kind::Circle(k, sine, angle))
+    }
+
+    fn rfl(&mut self, k: Arith, axis: &Vector, direction: &Vector) -> Vector {
+        let along = self.dot(k, 3, axis, direction);
+        let twice = self.add(k, along, along);
+        let square = self.dot(k, 3, axis, axis);
+        let q = self.div(k, twice, square);
+        let mut component = |i: usize| {
+            let product = self.mul(k, q, axis[i]);
+            self.sub(k, product, direction[i])
+        };
+        let (x, y, z) = (component(0), component(1), component(2));
+        [x, y, z, self.zero()]
+    }
+
+    fn x2d(&mut self, k: Arith, a: &Vector, b: &Vector, c: &Vector) -> Vector {
+        let mut row = |base: Node, i: usize| {
+            let first = self.mad(k, b[0], c[i], base);
+            self.mad(k, b[1], c[i + 1], first)
+        };
+        let (x, y) = (row(a[0], 0), row(a[1], 2));
+        [x, y, x, y]
     }
 
     fn lit(&mut self, k: Arith, a: &Vector) -> Vector {

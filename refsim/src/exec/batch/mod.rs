@@ -3,7 +3,7 @@
 //!
 //! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`,
 //!   `power`: exact results squeezed into doubles; `lanes`: which format gets which.
-//! - `graph`, `arith`, `macros`, `translate`, `translate_texture`: a program as a graph of component values under a
+//! - `graph`, `arith`, `macros`, `translate`, `translate_texture`, `fragment`: a program as a graph of component values under a
 //!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
 //!   reads, and with what only one operation reads as part of that.
 //! - `ops`, `loops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
@@ -21,6 +21,7 @@ mod evaluate;
 mod fetch;
 mod fixed;
 mod float;
+pub(in crate::exec) mod fragment;
 pub(in crate::exec) mod flow;
 mod flow_run;
 mod fuse;
@@ -33,6 +34,7 @@ mod macros;
 mod odd;
 pub(in crate::exec) mod ops;
 mod output;
+mod pack;
 mod power;
 pub(in crate::exec) mod program;
 mod raster;

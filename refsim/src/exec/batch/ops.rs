@@ -5,6 +5,7 @@ use super::lanes::{AnyLane, with_any_lane};
 use super::loops::{
     address, bitwise, compare, difference, dot, dot_by, narrow, one, or_less, select, three, two, widen,
 };
+use super::pack::{fraction, join, signed, split, unsigned};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 
@@ -65,6 +66,19 @@ pub(crate) enum Code {
     MadBy,
     /// `a`, or the mask of `b < c`.
     OrLess,
+    /// `a`, with `b` at this bit: its pattern of up to 16 bits; clamped to [0, 1] in 16 or 8 bits; from -1 to 1 in 8.
+    JoinPattern(u8),
+    JoinShort(u8),
+    JoinByte(u8),
+    JoinSignedByte(u8),
+    /// What those put at this bit of `a`.
+    SplitPattern(u8),
+    SplitShort(u8),
+    SplitByte(u8),
+    SplitSignedByte(u8),
+    /// The pattern of `a`, and the number of a pattern.
+    ToBits,
+    FromBits,
     /// Mask operations: `a ? b : c`, and, or, `b and not a`.
     Select,
     And,
@@ -178,6 +192,28 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         Code::Narrow => {
             narrow(l, wide, out);
         }
+        Code::JoinPattern(shift) => {
+            for i in 0..LANES {
+                out[i] = a[i] | (l.encode(L::load(b[i])) & 0xffff) << shift;
+            }
+        }
+        Code::JoinShort(shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 65535.0)),
+        Code::JoinByte(shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 255.0)),
+        Code::JoinSignedByte(shift) => join::<L>(a, b, out, shift, |x| signed(l.to_f64(x))),
+        Code::SplitPattern(shift) => split::<L>(a, out, |word| l.decode(word >> shift & 0xffff)),
+        Code::SplitShort(shift) => split::<L>(a, out, |word| l.round_f64(fraction(word >> shift & 0xffff, 65535.0))),
+        Code::SplitByte(shift) => split::<L>(a, out, |word| l.round_f64(fraction(word >> shift & 0xff, 255.0))),
+        Code::SplitSignedByte(shift) => split::<L>(a, out, |word| {
+            let k = word >> shift & 0xff;
+            let magnitude = fraction(k.abs_diff(128), 127.0);
+            l.round_f64(if k < 128 { -magnitude } else { magnitude })
+        }),
+        Code::ToBits => {
+            for i in 0..LANES {
+                out[i] = l.encode(L::load(a[i]));
+            }
+        }
+        Code::FromBits => split::<L>(a, out, |word| l.decode(word)),
         Code::Select => {
             select(a, b, c, out);
         }

@@ -192,6 +192,9 @@ fn is_arithmetic(instruction: &Instruction) -> bool {
 
 /// The effects of one instruction.
 pub(crate) fn one(t: &mut Translator<'_>, instruction: &Instruction, effects: &mut Vec<Effect>) {
+    if t.program.version.is_fragment_program() {
+        return t.fragment(instruction, effects);
+    }
     match instruction.opcode.info().class {
         OpcodeClass::Arithmetic => t.arithmetic(instruction, effects),
         OpcodeClass::Texture => t.texture(instruction, effects),
@@ -212,6 +215,11 @@ fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[Node; 4]>
             let value = t.registers.get(&(RegisterFile::Temp, 0, c as u8)).copied().unwrap_or(zero);
             t.make.unary(Arith::Main, Code::Saturate, value)
         }));
+        return colors;
+    }
+    if program.version.is_fragment_program() {
+        let half = |i: &Instruction| i.destination.is_some_and(|d| d.register.file == RegisterFile::HalfColorOut);
+        colors[0] = Some(t.fragment_color(program.instructions.iter().any(half)));
         return colors;
     }
     let written = crate::exec::colors_written(program);

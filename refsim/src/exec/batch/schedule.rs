@@ -39,6 +39,17 @@ pub(crate) enum Step {
     },
     /// A texture read.
     Fetch(FetchStep),
+    /// Cosines or sines.
+    Circle {
+        /// Their format.
+        arith: Arith,
+        /// Whether they are sines.
+        sine: bool,
+        /// The angles.
+        from: Slot,
+        /// Where the values go.
+        to: Slot,
+    },
     /// Constants with relative numbers.
     Relative {
         /// Number without the address.
@@ -275,6 +286,13 @@ impl Scheduler<'_> {
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Unorm { steps, from });
                 self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, args: [from; OPERANDS] });
+            }
+            Kind::Circle(arith, sine, a) => {
+                let from = self.at(a);
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.block.steps.push(Step::Circle { arith, sine, from, to });
             }
             Kind::Relative(base, component, address) => {
                 let address = self.at(address);

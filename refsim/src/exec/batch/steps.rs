@@ -7,7 +7,8 @@ use super::lane::LANES;
 use super::odd;
 use super::ops;
 use super::schedule::{Block, Step};
-use super::slots::{Row, Slots};
+use super::slots::{Row, Slot, Slots};
+use crate::num::ops as definition;
 
 /// What steps need besides slots.
 #[derive(Debug)]
@@ -42,6 +43,7 @@ pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, sl
                     texture.read(fetch, around.formats, run, slots);
                 }
             }
+            Step::Circle { arith, sine, from, to } => circle(around.formats, *arith, *sine, (*from, *to), slots),
             Step::Relative { base, component, address, to } => {
                 for lane in 0..LANES {
                     let number = i64::from(*base) + i64::from(slots.row(*address)[lane].cast_signed());
@@ -50,6 +52,20 @@ pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, sl
                 }
             }
         }
+    }
+}
+
+/// Cosines or sines, by the definition itself: no vector code of ours is worth its proof for them.
+fn circle(formats: &Formats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
+    let (format, lane) = (formats.format(arith), formats.lane(arith));
+    let value = |bits| if sine { definition::sin(format, bits).bits } else { definition::cos(format, bits).bits };
+    let mut last = (0, value(0));
+    for i in 0..LANES {
+        let bits = lane.encode(slots.row(from)[i]);
+        if bits != last.0 {
+            last = (bits, value(bits));
+        }
+        slots.row_mut(to)[i] = lane.decode(last.1);
     }
 }
 

@@ -10,6 +10,7 @@ use super::arith::Formats;
 use super::fetch::BatchTexture;
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, Watch};
+use super::fragment::of_file;
 use super::graph::{Arith, Node};
 use super::lane::LANES;
 use super::output::Results;
@@ -26,7 +27,7 @@ use crate::exec::scalar::{DepthValue, FragmentResult};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::{PixelTracer, ResolvedConstants, Shading, Step, TileDraw, TileExecutor, inputs_read, sample_rules};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile};
-use crate::num::Flags;
+use crate::num::{Flags, ops};
 use crate::output::{FragmentFate, TargetTile};
 use crate::raster::{
     COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, FragmentInput, TEXCOORD_COMPONENT, TriangleSetup,
@@ -58,7 +59,7 @@ enum Code {
 /// What the roots of a block mean: an instruction's results, component by component.
 #[derive(Debug)]
 struct Part {
-    written: Vec<(usize, Mask)>,
+    written: Vec<(usize, Mask, Arith)>,
     block: Block,
 }
 
@@ -96,6 +97,13 @@ impl<'a> BatchTracer<'a> {
         self.formats.lane(Arith::Main).encode(slots.row(slot)[lane])
     }
 
+    /// What a slot holds as a number: a packed word as the number that it is a pattern of.
+    fn number(&self, arith: Arith, slots: &Slots, slot: Slot, lane: usize) -> u32 {
+        let format = self.formats.format(arith);
+        let bits = self.formats.lane(arith).encode(slots.row(slot)[lane]);
+        if self.program.version.is_fragment_program() { ops::convert(&format, format, bits).bits } else { bits }
+    }
+
     fn output(&self, results: &Results, slots: &Slots, lane: usize) -> FragmentResult {
         let holds = |slot: Slot| slots.row(slot)[lane] != 0;
         let own = results.depth.filter(|(_, _, decided)| decided.is_none_or(holds));
@@ -113,7 +121,7 @@ impl<'a> BatchTracer<'a> {
 /// The input registers that hold interpolated values, and a block that computes them.
 fn delivered(t: &mut Translator<'_>, program: &Program, reads: ComponentMask) -> (Vec<Register>, Block) {
     let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
-    let sets = (0u16..8).filter(|_| program.version.is_ps_2());
+    let sets = (0u16..8).filter(|_| program.version.reads_coordinates());
     let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
     let registers: Vec<Register> = colors
         .chain(sets)
@@ -129,6 +137,12 @@ fn delivered(t: &mut Translator<'_>, program: &Program, reads: ComponentMask) ->
 fn makes_step(instruction: &Instruction) -> bool {
     let class = instruction.opcode.info().class;
     instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
+}
+
+/// The format of what an instruction writes.
+fn format_of(program: &Program, at: usize) -> Arith {
+    let destination = program.instructions.get(at).and_then(|i| i.destination);
+    destination.map_or(Arith::Main, |d| of_file(d.register.file))
 }
 
 fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
@@ -158,7 +172,7 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
         let mut roots = ends.roots();
         roots.extend(chunk.iter().flat_map(|(_, _, nodes)| nodes.iter().copied()));
         Part {
-            written: chunk.iter().map(|&(at, mask, _)| (at, mask)).collect(),
+            written: chunk.iter().map(|&(at, mask, _)| (at, mask, format_of(program, at))).collect(),
             block: schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0),
         }
     });
@@ -222,10 +236,10 @@ impl BatchTracer<'_> {
             let slots = self.run_block(&part.block, rows);
             output = self.output(&ends.results(&part.block.roots), &slots, rows.lane);
             let mut roots = part.block.roots.iter().skip(ends.roots().len());
-            for &(instruction, mask) in &part.written {
+            for &(instruction, mask, arith) in &part.written {
                 let mut value = [0; 4];
                 for (c, &slot) in mask.components().zip(&mut roots) {
-                    value[c] = self.main(&slots, slot, rows.lane);
+                    value[c] = self.number(arith, &slots, slot, rows.lane);
                 }
                 steps.push(step(instruction, rows.lane, mask, value));
             }

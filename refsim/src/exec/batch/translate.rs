@@ -1,8 +1,9 @@
 //! One instruction at a time from the instruction set to graph nodes: operands, modifiers, results.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::arith::{Formats, Maker, Vector};
+use super::fragment::CodeNodes;
 use super::graph::{Arith, Kind, Node};
 use super::ops::Code;
 use super::slots::{Slot, TRUE};
@@ -11,7 +12,7 @@ use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
 };
-use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
+use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
 pub(crate) type Place = (RegisterFile, u16, u8);
@@ -41,6 +42,10 @@ pub(crate) struct Translator<'a> {
     /// Dot products left by `texm3x2pad` and `texm3x3pad`, and how many are waiting.
     pub(crate) padded: [Node; 2],
     pub(crate) pads: usize,
+    /// Condition codes of an OpenGL program.
+    pub(crate) codes: [CodeNodes; 4],
+    /// What may be any 32 bits, and not a number as arithmetic leaves it.
+    pub(crate) words: BTreeSet<Node>,
     /// Texture reads by sampler, one an instruction.
     pub(crate) fetches: Vec<usize>,
     /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program; else they are part of
@@ -61,6 +66,7 @@ impl<'a> Translator<'a> {
     ) -> Self {
         let mut make = Maker::new(formats, rules, program.version.stage() == Stage::Pixel);
         let zero = make.zero();
+        let codes = Self::first_codes(&mut make);
         Self {
             make,
             program,
@@ -70,6 +76,8 @@ impl<'a> Translator<'a> {
             loop_counter: None,
             padded: [zero; 2],
             pads: 0,
+            codes,
+            words: BTreeSet::new(),
             fetches: Vec::new(),
             open_constants: false,
         }
@@ -124,7 +132,15 @@ impl<'a> Translator<'a> {
                 let node = self.make.graph.node(Kind::Input(4 * register.index + component as u16));
                 self.make.convert(Arith::Single, Arith::Main, node)
             }
-            RegisterFile::Texture if self.program.version.is_ps_2() => {
+            RegisterFile::FogIn => match component {
+                0 => {
+                    let node = self.make.graph.node(Kind::Input(FOG_COMPONENT as u16));
+                    self.make.convert(Arith::Single, Arith::Main, node)
+                }
+                3 => self.make.one(Arith::Main),
+                _ => self.make.zero(),
+            },
+            RegisterFile::Texture if self.program.version.reads_coordinates() => {
                 let node = self.coordinate(register.index, component);
                 self.make.convert(Arith::Single, Arith::Main, node)
             }

@@ -182,7 +182,7 @@ impl Translator<'_> {
         texel
     }
 
-    fn fetch(&mut self, stage: usize, coordinates: Vector, detail: Detail) -> Vector {
+    pub(super) fn fetch(&mut self, stage: usize, coordinates: Vector, detail: Detail) -> Vector {
         self.fetches.push(stage);
         let binding = self.bindings.and_then(|b| b.samplers.get(stage)).and_then(Option::as_ref);
         let Some(binding) = binding else {

@@ -241,7 +241,7 @@ impl Assembler<'_> {
                 }
                 let to = self.result(node, places);
                 let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
-                self.words.push(op::DOT | (k as u32) << 8 | u32::from(terms) << 16);
+                self.words.push(op::DOT | k.number() << 8 | u32::from(terms) << 16);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
             Kind::Convert(from, into, a) => {
@@ -258,13 +258,15 @@ impl Assembler<'_> {
                 self.words.extend([op::RELATIVE | u32::from(component) << 16, pair(to, a), base.cast_unsigned()]);
             }
             Kind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
+            // `super::PixelShader` turns away programs that have these.
+            Kind::Circle(..) => {}
             Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
         }
     }
 
     fn alu(&mut self, node: Node, k: Arith, operation: Operation, args: [u16; 3], places: &mut Places) {
         let to = self.result(node, places);
-        self.emit(op::ALU | (k as u32) << 8 | operation.word() << 16, to, args);
+        self.emit(op::ALU | k.number() << 8 | operation.word() << 16, to, args);
     }
 
     fn compute(&mut self, node: Node, k: Arith, code: Code, args: [u16; 3], places: &mut Places) {
@@ -287,7 +289,7 @@ impl Assembler<'_> {
             Code::DifferenceX | Code::DifferenceY => {
                 let quad = if code == Code::DifferenceX { 1 } else { 2 };
                 let to = self.result(node, places);
-                self.emit(op::ALU | (k as u32) << 8 | quad << 12 | Operation::Sub.word() << 16, to, [a; 3]);
+                self.emit(op::ALU | k.number() << 8 | quad << 12 | Operation::Sub.word() << 16, to, [a; 3]);
             }
             _ => {
                 if let Some(operation) = operation(code) {

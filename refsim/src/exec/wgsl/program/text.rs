@@ -52,11 +52,9 @@ pub(super) fn unroll(program: &Lowered, mode: NumberMode, native: NativeOperatio
         let _ = writeln!(writer.text, "    q_fetched[{sampler}] += {count}u * covered;");
     }
     let mut text = String::from(include_str!("rows.wgsl"));
-    for (k, name) in
-        [(Arith::Main, "MAIN"), (Arith::Partial, "PARTIAL"), (Arith::Single, "SINGLE"), (Arith::Wrapped, "WRAPPED")]
-    {
+    for k in [Arith::Main, Arith::Partial, Arith::Single, Arith::Wrapped, Arith::Half, Arith::Fixed] {
         let words = format_words(&program.formats.format(k)).map(|w| format!("{w}u")).join(", ");
-        let _ = writeln!(text, "const P_{name}: Format = Format({words});");
+        let _ = writeln!(text, "const {}: Format = Format({words});", name(k));
     }
     text.push_str(
         "\nfn shade() {\n    p_zeros = vec4<u32>(code[q_code]);\n    q_color = array<array<vec4<u32>, 4>, 4>();\n    q_killed = vec4<bool>(false);\n",
@@ -84,6 +82,8 @@ fn name(k: Arith) -> &'static str {
         Arith::Partial => "P_PARTIAL",
         Arith::Single => "P_SINGLE",
         Arith::Wrapped => "P_WRAPPED",
+        Arith::Half => "P_HALF",
+        Arith::Fixed => "P_FIXED",
     }
 }
 
@@ -104,7 +104,8 @@ impl Writer<'_> {
 
     fn node(&mut self, node: Node, table: usize) {
         let value = match self.program.graph.kind(node) {
-            Kind::Constant(_) | Kind::Held(_) => return,
+            // `super::PixelShader` turns away programs that have angles.
+            Kind::Constant(_) | Kind::Held(_) | Kind::Circle(..) => return,
             Kind::Input(component) => format!("q_input[{component}]"),
             Kind::Texel(fetch, component) => format!("t{}[{component}]", fetch.0),
             Kind::Compute(k, code, args) => self.compute(k, code, args.map(v)),

@@ -1,0 +1,379 @@
+//! OpenGL's fragment programs as graph nodes: three precisions, condition codes, packing. What the instructions mean is
+//! written at the scalar executor's `fragment`.
+
+use super::arith::Vector;
+use super::graph::{Arith, Detail, Kind, Node};
+use super::ops::Code;
+use super::slots::TRUE;
+use super::translate::{Effect, Translator};
+use crate::exec::precision_of;
+use crate::isa::{
+    Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source,
+};
+
+/// A condition code as masks: less than, equal to, greater than zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CodeNodes {
+    less: Node,
+    equal: Node,
+    greater: Node,
+}
+
+/// The arithmetic of a precision.
+fn arith(precision: Precision) -> Arith {
+    match precision {
+        Precision::Full => Arith::Main,
+        Precision::Half => Arith::Half,
+        Precision::Fixed => Arith::Fixed,
+    }
+}
+
+/// The arithmetic whose numbers a file's registers hold.
+pub(crate) fn of_file(file: RegisterFile) -> Arith {
+    if file.is_half() { Arith::Half } else { Arith::Main }
+}
+
+impl Translator<'_> {
+    /// One instruction.
+    pub(crate) fn fragment(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
+        let value = match (instruction.opcode, instruction.opcode.info().class, instruction.destination) {
+            (Opcode::Kil, ..) => return self.kil(instruction, effects),
+            (_, OpcodeClass::Texture, Some(_)) => self.fragment_texture(instruction),
+            (_, OpcodeClass::Arithmetic, Some(_)) => match self.carried(instruction) {
+                Some(bits) => bits,
+                None => self.fragment_arithmetic(instruction),
+            },
+            _ => return,
+        };
+        self.fragment_writes(instruction, value, effects);
+    }
+
+    /// An operand in the format of its file: swizzled, absolute, negated.
+    fn loaded(&mut self, source: &Source, negate: u8) -> Vector {
+        let k = of_file(source.register.file);
+        std::array::from_fn(|i| {
+            let raw = match source.swizzle.0[i] {
+                4 => self.make.zero(),
+                5 => self.make.one(k),
+                c => {
+                    let held = self.held(&source.register, usize::from(c & 3));
+                    self.number(held)
+                }
+            };
+            let modified = self.make.modified(k, source.modifier, raw);
+            if negate >> i & 1 == 1 { self.make.neg(k, modified) } else { modified }
+        })
+    }
+
+    /// An operand in the format of the operation.
+    fn fragment_operand(&mut self, source: &Source, to: Arith, negate: u8) -> Vector {
+        let from = of_file(source.register.file);
+        self.loaded(source, negate).map(|x| self.make.convert(from, to, x))
+    }
+
+    /// What may be any bits, as the number that they are a pattern of.
+    pub(crate) fn number(&mut self, node: Node) -> Node {
+        if !self.words.contains(&node) {
+            return node;
+        }
+        self.make.graph.node(Kind::Convert(Arith::Main, Arith::Main, node))
+    }
+
+    /// The bits of what a full precision register holds.
+    fn word(&mut self, node: Node) -> Node {
+        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, Code::ToBits, node) }
+    }
+
+    /// Whether full precision registers hold any 32 bits.
+    fn keeps_words(&self) -> bool {
+        let format = self.make.formats.format(Arith::Main);
+        format.width() == 32 && !format.is_fixed()
+    }
+
+    /// What is carried as bits: packed words, and what a plain `MOV` finds in `R#`.
+    fn carried(&mut self, instruction: &Instruction) -> Option<Vector> {
+        let destination = instruction.destination?;
+        let source = instruction.sources.first()?;
+        if destination.register.file.is_half() || destination.saturate {
+            return None;
+        }
+        let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
+        match instruction.opcode {
+            Opcode::Mov if plain && precision_of(instruction) == Precision::Full => {
+                Some(source.swizzle.0.map(|c| self.held(&source.register, usize::from(c & 3))))
+            }
+            Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
+                let word = self.packed(instruction.opcode, source);
+                Some([self.kept(word); 4])
+            }
+            _ => None,
+        }
+    }
+
+    /// A word as full precision registers keep it.
+    fn kept(&mut self, word: Node) -> Node {
+        if self.keeps_words() {
+            self.words.insert(word);
+            return word;
+        }
+        let mask = self.make.formats.format(Arith::Main).mask();
+        let mask = self.make.graph.constant(mask);
+        let low = self.make.binary(Arith::Single, Code::And, word, mask);
+        self.make.unary(Arith::Main, Code::FromBits, low)
+    }
+
+    /// The word that a packing instruction makes.
+    fn packed(&mut self, opcode: Opcode, source: &Source) -> Node {
+        let value = self.fragment_operand(source, Arith::Main, 0);
+        let mut word = self.make.zero();
+        if opcode == Opcode::Pk2h {
+            for (i, shift) in [0, 16].into_iter().enumerate() {
+                let half = self.make.convert(Arith::Main, Arith::Half, value[i]);
+                word = self.make.binary(Arith::Half, Code::JoinPattern(shift), word, half);
+            }
+            return word;
+        }
+        let (parts, code): (u8, fn(u8) -> Code) = match opcode {
+            Opcode::Pk2us => (2, Code::JoinShort),
+            Opcode::Pk4ub => (4, Code::JoinByte),
+            _ => (4, Code::JoinSignedByte),
+        };
+        for i in 0..parts {
+            let single = self.make.convert(Arith::Main, Arith::Single, value[usize::from(i)]);
+            word = self.make.binary(Arith::Single, code(i * (32 / parts)), word, single);
+        }
+        word
+    }
+
+    fn unpacked(&mut self, opcode: Opcode, source: &Source) -> Vector {
+        let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
+        let word = match plain {
+            true => {
+                let held = self.held(&source.register, usize::from(source.swizzle.0[0] & 3));
+                self.word(held)
+            }
+            false => {
+                let value = self.fragment_operand(source, Arith::Main, 0)[0];
+                self.make.unary(Arith::Main, Code::ToBits, value)
+            }
+        };
+        let mut part = |code| self.make.unary(Arith::Main, code, word);
+        match opcode {
+            Opcode::Up2us => {
+                let (x, y) = (part(Code::SplitShort(0)), part(Code::SplitShort(16)));
+                [x, y, x, y]
+            }
+            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(Code::SplitByte(shift))),
+            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(Code::SplitSignedByte(shift))),
+            _ => {
+                let [x, y] = [0, 16].map(|shift| {
+                    let half = self.make.unary(Arith::Half, Code::SplitPattern(shift), word);
+                    self.make.convert(Arith::Half, Arith::Main, half)
+                });
+                [x, y, x, y]
+            }
+        }
+    }
+
+    /// The result in the format of the destination.
+    fn fragment_arithmetic(&mut self, instruction: &Instruction) -> Vector {
+        let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
+        let k = arith(precision_of(instruction));
+        let raw = self.fragment_raw(instruction, k);
+        let to = of_file(destination.register.file);
+        raw.map(|x| {
+            let clamped = if destination.saturate { self.make.unary(k, Code::Saturate, x) } else { x };
+            self.make.convert(k, to, clamped)
+        })
+    }
+
+    /// The result in the format of the operation.
+    fn fragment_raw(&mut self, instruction: &Instruction, k: Arith) -> Vector {
+        let zero = self.make.zero();
+        let opcode = instruction.opcode;
+        match (opcode, instruction.sources.first()) {
+            (Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub, Some(source)) => {
+                let word = self.packed(opcode, source);
+                let kept = self.kept(word);
+                let number = self.number(kept);
+                return [self.make.convert(Arith::Main, k, number); 4];
+            }
+            (Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub, Some(source)) => {
+                return self.unpacked(opcode, source).map(|x| self.make.convert(Arith::Main, k, x));
+            }
+            _ => {}
+        }
+        let mut s = [[zero; 4]; 3];
+        for (slot, source) in s.iter_mut().zip(&instruction.sources) {
+            *slot = self.fragment_operand(source, k, instruction.fragment.negate);
+        }
+        match opcode {
+            Opcode::Dsx => s[0].map(|x| self.make.unary(k, Code::DifferenceX, x)),
+            Opcode::Dsy => s[0].map(|x| self.make.unary(k, Code::DifferenceY, x)),
+            Opcode::Cmp => std::array::from_fn(|i| {
+                let below = self.make.holds(k, Code::Less, s[0][i], zero);
+                self.make.select(below, s[1][i], s[2][i])
+            }),
+            _ => self.make.operation(k, opcode, &s, &[zero; 4]),
+        }
+    }
+
+    fn fragment_texture(&mut self, instruction: &Instruction) -> Vector {
+        let zero = self.make.zero();
+        let (Some(destination), [source, sampler, rest @ ..]) = (instruction.destination, &*instruction.sources) else {
+            return [zero; 4];
+        };
+        let mut coordinates = self.place(source);
+        if instruction.opcode == Opcode::TexLdP {
+            let w = coordinates[3];
+            for c in &mut coordinates[..3] {
+                *c = self.make.div(Arith::Single, *c, w);
+            }
+        }
+        let detail = match (instruction.opcode, rest) {
+            (Opcode::TexLdB, _) => Detail::Biased(coordinates[3]),
+            (Opcode::TexLdD, [x, y]) => Detail::Gradients(self.place(x), self.place(y)),
+            _ => Detail::Implicit,
+        };
+        let texel = self.fetch(usize::from(sampler.register.index), coordinates, detail);
+        let to = of_file(destination.register.file);
+        texel.map(|x| {
+            let clamped = if destination.saturate { self.make.unary(Arith::Main, Code::Saturate, x) } else { x };
+            self.make.convert(Arith::Main, to, clamped)
+        })
+    }
+
+    /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
+    fn place(&mut self, source: &Source) -> Vector {
+        if source.register.file == RegisterFile::Texture {
+            return source.swizzle.0.map(|c| {
+                let own = self.coordinate(source.register.index, usize::from(c & 3));
+                self.make.modified(Arith::Single, source.modifier, own)
+            });
+        }
+        let from = of_file(source.register.file);
+        self.loaded(source, 0).map(|x| self.make.convert(from, Arith::Single, x))
+    }
+
+    /// The mask of a condition for a component.
+    fn passes(&mut self, condition: &Condition, component: usize) -> Node {
+        let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
+        let all = self.make.graph.constant(TRUE);
+        let mut either = |a, b| self.make.binary(Arith::Single, Code::Or, a, b);
+        match condition.test {
+            ConditionTest::Eq => code.equal,
+            ConditionTest::Lt => code.less,
+            ConditionTest::Gt => code.greater,
+            ConditionTest::Le => either(code.less, code.equal),
+            ConditionTest::Ge => either(code.greater, code.equal),
+            ConditionTest::Ne => self.inverted(code.equal),
+            ConditionTest::Tr => all,
+            ConditionTest::Fl => self.make.zero(),
+        }
+    }
+
+    /// `condition ? a : b`, where constants and equals need no choosing.
+    fn chosen(&mut self, condition: Node, a: Node, b: Node) -> Node {
+        match self.make.graph.kind(condition) {
+            Kind::Constant(TRUE) => a,
+            Kind::Constant(0) => b,
+            _ if a == b => a,
+            _ => self.make.select(condition, a, b),
+        }
+    }
+
+    /// Of two values of a register the one that a condition chooses; words stay words.
+    fn merged(&mut self, condition: Node, new: Node, old: Node) -> Node {
+        let words = self.words.contains(&new) || self.words.contains(&old);
+        if !words {
+            return self.chosen(condition, new, old);
+        }
+        let (new, old) = (self.word(new), self.word(old));
+        let merged = self.chosen(condition, new, old);
+        self.words.insert(merged);
+        merged
+    }
+
+    /// Writes under mask and condition, and the condition codes.
+    fn fragment_writes(&mut self, instruction: &Instruction, value: Vector, effects: &mut Vec<Effect>) {
+        let Some(destination) = &instruction.destination else { return };
+        let (file, index) = (destination.register.file, destination.register.index);
+        let condition = instruction.fragment.condition;
+        let mut allowed = [self.make.graph.constant(TRUE); 4];
+        if let Some(condition) = &condition {
+            allowed = std::array::from_fn(|i| self.passes(condition, i));
+        }
+        if instruction.fragment.updates {
+            for i in destination.mask.components() {
+                self.update(of_file(file), i, allowed[i], value[i]);
+            }
+        }
+        if matches!(file, RegisterFile::Discard | RegisterFile::HalfDiscard) {
+            return;
+        }
+        for i in destination.mask.components() {
+            let depth = file == RegisterFile::DepthOut;
+            let place = if depth { (file, 0, 0) } else { (file, index, i as u8) };
+            let zero = self.make.zero();
+            let old = self.registers.get(&place).copied().unwrap_or(zero);
+            let mut merged = self.merged(allowed[i], value[i], old);
+            if depth {
+                merged = self.number(merged);
+            }
+            effects.push(Effect::Write(place, merged, None));
+            if depth {
+                return;
+            }
+        }
+    }
+
+    fn update(&mut self, k: Arith, component: usize, allowed: Node, value: Node) {
+        let value = self.number(value);
+        let zero = self.make.zero();
+        let new = CodeNodes {
+            less: self.make.holds(k, Code::Less, value, zero),
+            equal: self.make.holds(k, Code::Equal, value, zero),
+            greater: self.make.holds(k, Code::Less, zero, value),
+        };
+        let old = self.codes[component];
+        self.codes[component] = CodeNodes {
+            less: self.chosen(allowed, new.less, old.less),
+            equal: self.chosen(allowed, new.equal, old.equal),
+            greater: self.chosen(allowed, new.greater, old.greater),
+        };
+    }
+
+    /// The condition codes before anything ran.
+    pub(crate) fn first_codes(make: &mut super::arith::Maker<'_>) -> [CodeNodes; 4] {
+        let (zero, all) = (make.zero(), make.graph.constant(TRUE));
+        [CodeNodes { less: zero, equal: all, greater: zero }; 4]
+    }
+
+    fn kil(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
+        if let Some(condition) = &instruction.fragment.condition {
+            for i in 0..4 {
+                let mask = self.passes(condition, i);
+                effects.push(Effect::Kill(mask));
+            }
+        }
+        if let Some(source) = instruction.sources.first() {
+            let zero = self.make.zero();
+            let k = of_file(source.register.file);
+            for x in self.loaded(source, 0) {
+                let below = self.make.holds(k, Code::Less, x, zero);
+                effects.push(Effect::Kill(below));
+            }
+        }
+    }
+
+    /// The colour at the end, in the register format.
+    pub(crate) fn fragment_color(&mut self, half: bool) -> Vector {
+        let file = if half { RegisterFile::HalfColorOut } else { RegisterFile::ColorOut };
+        std::array::from_fn(|c| {
+            let zero = self.make.zero();
+            let held = self.registers.get(&(file, 0, c as u8)).copied().unwrap_or(zero);
+            let number = self.number(held);
+            self.make.convert(of_file(file), Arith::Main, number)
+        })
+    }
+}
