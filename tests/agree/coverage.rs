@@ -8,7 +8,8 @@ use crate::shapes::PRIMITIVES;
 use crate::suite::{self, Kind};
 use refsim::device::Profile;
 use refsim::isa::{
-    Comparison, Instruction, Modifier, Opcode, Program, RegisterFile, Relative, Source, Stage, Usage, Version,
+    Comparison, ConditionTest, Instruction, Modifier, Opcode, Precision, Program, RegisterFile, Relative, Source,
+    Stage, TextureTarget, Usage, Version,
 };
 use refsim::output::{BlendFactor, BlendOp, CompareFunction, DepthFormat};
 use refsim::raster::{ClipSpace, Cull, PixelCenter};
@@ -85,6 +86,11 @@ fn note(seen: &mut Seen, version: Version, instruction: &Instruction) {
         seen.add(&format!("{version} partial"), d.partial_precision);
         seen.add(&format!("{version} writes"), d.register.file);
     }
+    let part = &instruction.fragment;
+    seen.add(&format!("{version} precision"), part.precision);
+    seen.add(&format!("{version} updates"), part.updates);
+    seen.add(&format!("{version} condition"), part.condition.map(|c| c.test));
+    seen.add(&format!("{version} target"), part.target);
     seen.add(&format!("{version} co-issued"), instruction.coissue);
     if let Some(predicate) = instruction.predicate {
         seen.add(&format!("{version} predicate"), (predicate.not, predicate.swizzle.0));
@@ -107,6 +113,7 @@ fn wanted(version: Version) -> Vec<String> {
         }
         v if v.is_ps_1_x() => &[M::Negate, M::Invert, M::Bias, M::BiasNegate, M::Bx2, M::Bx2Negate],
         Version::Ps2A | Version::Vs2_0 => &[M::Negate, M::Not],
+        Version::Fp1_0 => &[M::Negate, M::Absolute, M::AbsoluteNegate],
         _ => &[M::Negate],
     };
     out.extend(each(&named("modifier"), modifiers));
@@ -122,7 +129,20 @@ fn wanted(version: Version) -> Vec<String> {
     if version.stage() == Stage::Pixel {
         out.extend(each(&named("saturate"), [false, true]));
     }
-    if version.is_ps_2() {
+    if version.is_fragment_program() {
+        out.extend(each(&named("writes"), [RegisterFile::Temp, RegisterFile::ColorOut, RegisterFile::DepthOut]));
+        let targets =
+            [TextureTarget::D1, TextureTarget::D2, TextureTarget::D3, TextureTarget::Cube, TextureTarget::Rect];
+        out.extend(each(&named("target"), targets.map(Some)));
+        if version == Version::Fp1_0 {
+            let halves =
+                [RegisterFile::Half, RegisterFile::HalfColorOut, RegisterFile::Discard, RegisterFile::HalfDiscard];
+            out.extend(each(&named("writes"), halves));
+            out.extend(each(&named("precision"), Precision::ALL.map(Some).into_iter().chain([None])));
+            out.extend(each(&named("updates"), [false, true]));
+            out.extend(each(&named("condition"), ConditionTest::ALL.map(Some).into_iter().chain([None])));
+        }
+    } else if version.is_ps_2() {
         out.extend(each(&named("partial"), [false, true]));
         out.extend(each(&named("writes"), [RegisterFile::ColorOut, RegisterFile::DepthOut]));
         out.extend(each(&named("swizzle"), ["xxxx", "yyyy", "zzzz", "wwww", "yzxw", "zxyw", "wzyx"]));
@@ -158,7 +178,7 @@ fn wanted(version: Version) -> Vec<String> {
 
 #[test]
 fn programs_reach_every_opcode_modifier_and_swizzle() {
-    for version in Version::ALL {
+    for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
         let mut seen = Seen::default();
         let all = programs(version, 1500);
         assert!(all.len() > 500, "{version}: only {} of 1500 programs are legal", all.len());

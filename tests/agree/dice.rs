@@ -176,7 +176,7 @@ pub(crate) fn textures(
 fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFormat> {
     let formats = target_formats(profile);
     let most = profile.limits.render_targets.unwrap_or(4).clamp(1, 4) as usize;
-    let count = if options.is_ps_1() { 1 } else { 1 + r.below(most) };
+    let count = if options.is_ps_1() || options.version.is_fragment_program() { 1 } else { 1 + r.below(most) };
     let wide = [TexelFormat::Rgba32f, TexelFormat::Rgba16f];
     (0..count)
         .map(|i| match options.target {

@@ -55,6 +55,7 @@ macro_rules! versions {
 /// Random programs: version, family of formats, group of rules.
 mod programs {
     versions! { { arithmetic sampling pipeline together } ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b }
+    versions! { { arithmetic sampling pipeline together } fp_1_0 arbfp_1_0 }
     versions! { { arithmetic together } vs_1_1 vs_2_0 }
 }
 
@@ -64,11 +65,11 @@ mod cards {
     mod nv20 { suites! { ps_1_1 vs_1_1 } }
     mod r200 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 vs_1_1 } }
     mod nv25 { suites! { ps_1_1 ps_1_2 ps_1_3 vs_1_1 } }
-    mod r300 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 vs_1_1 vs_2_0 } }
-    mod nv30 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a vs_1_1 vs_2_0 } }
-    mod r350 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 vs_1_1 vs_2_0 } }
-    mod nv35 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a vs_1_1 vs_2_0 } }
-    mod gt200 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0 } }
+    mod r300 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 vs_1_1 vs_2_0 arbfp_1_0 } }
+    mod nv30 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a vs_1_1 vs_2_0 fp_1_0 arbfp_1_0 } }
+    mod r350 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 vs_1_1 vs_2_0 arbfp_1_0 } }
+    mod nv35 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a vs_1_1 vs_2_0 fp_1_0 arbfp_1_0 } }
+    mod gt200 { suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0 arbfp_1_0 } }
 }
 
 /// Every texel format as a texture.

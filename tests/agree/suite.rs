@@ -206,17 +206,26 @@ pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
     lines
 }
 
+/// A version as suites are named after it.
+pub(crate) fn version_name(version: Version) -> &'static str {
+    match version {
+        Version::Fp1_0 => "fp_1_0",
+        Version::ArbFp1_0 => "arbfp_1_0",
+        _ => version.token(),
+    }
+}
+
 /// Every suite, in the order of their modules in `main`.
 pub(crate) fn all() -> Vec<Suite> {
     let mut out = Vec::new();
-    for version in Version::ALL {
+    for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
         let vertex = version.stage() == Stage::Vertex;
         for family in Family::ALL {
             for group in Group::ALL {
                 if vertex && matches!(group, Group::Sampling | Group::Pipeline) {
                     continue;
                 }
-                let name = format!("programs::{}::{}::{}", version.token(), family.name(), group.name());
+                let name = format!("programs::{}::{}::{}", version_name(version), family.name(), group.name());
                 let seeds = if vertex { 16 } else { 21 };
                 out.push(Suite::new(name, Kind::Program(version, family, group), seeds));
             }
@@ -224,7 +233,7 @@ pub(crate) fn all() -> Vec<Suite> {
     }
     for card in Profile::card_names() {
         for version in &rules::profile(card).limits.versions {
-            out.push(Suite::new(format!("cards::{card}::{}", version.token()), Kind::Card(card, *version), 10));
+            out.push(Suite::new(format!("cards::{card}::{}", version_name(*version)), Kind::Card(card, *version), 10));
         }
     }
     for &format in TexelFormat::ALL {

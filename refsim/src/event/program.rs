@@ -1,7 +1,7 @@
 //! What a program is made of, as the issue units of a card see it.
 
 use crate::isa::{
-    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile, Stage, Version,
+    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile, Stage, Version,
 };
 
 /// Passes through a loop, at most: as executors have it.
@@ -159,6 +159,7 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
         Opcode::TexCoord
             | Opcode::TexCrd
             | Opcode::TexKill
+            | Opcode::Kil
             | Opcode::TexDepth
             | Opcode::TexM3x2Pad
             | Opcode::TexM3x3Pad
@@ -167,7 +168,7 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
             | Opcode::TexM3x3
     );
     let sampler = match instruction.sources.get(1) {
-        Some(sampler) if program.version.is_ps_2() => Some(sampler.register.index),
+        Some(sampler) if program.version.reads_coordinates() => Some(sampler.register.index),
         _ => instruction.destination.map(|d| d.register.index),
     };
     // From ps_1_4 on a source names the coordinates; before, what reads another stage's result depends on it.
@@ -309,42 +310,49 @@ impl Walk<'_> {
     }
 }
 
+/// Temporaries that a program can name: 64 of `r#`, and 64 of half precision after them.
+const TEMPORARIES: usize = 128;
+
+/// Where a temporary stands among them; `None` for every other register.
+fn temporary(register: Register) -> Option<usize> {
+    let number = usize::from(register.index);
+    match register.file {
+        RegisterFile::Temp if number < 64 => Some(number),
+        RegisterFile::Half if number < 64 => Some(64 + number),
+        _ => None,
+    }
+}
+
 /// Temporaries live at once, in halves, taking the program as a straight line (loops do not lengthen lives).
 fn live_halves(program: &Program) -> u32 {
-    let is_temp = |file: RegisterFile| file == RegisterFile::Temp;
-    let mut full = [false; 64];
+    let mut full = [false; TEMPORARIES];
     for destination in program.instructions.iter().filter_map(|i| i.destination) {
-        if let Some(slot) =
-            full.get_mut(usize::from(destination.register.index)).filter(|_| is_temp(destination.register.file))
-        {
-            *slot |= !destination.partial_precision;
+        if let Some(slot) = temporary(destination.register) {
+            full[slot] |= !destination.partial_precision && !destination.register.file.is_half();
         }
     }
     // Components live after the last instruction: ps_1_x leaves its result in r0.
-    let mut live = [0_u8; 64];
+    let mut live = [0_u8; TEMPORARIES];
     if program.version.is_ps_1_x() && program.version.stage() == Stage::Pixel {
         live[0] = 0b1111;
     }
-    let halves = |live: &[u8; 64]| {
+    let halves = |live: &[u8; TEMPORARIES]| {
         live.iter().zip(&full).filter(|(l, _)| **l != 0).map(|(_, full)| 1 + u32::from(*full)).sum::<u32>()
     };
     let mut most = halves(&live);
     for instruction in program.instructions.iter().rev() {
         let read_back = instruction.opcode.info().destination == crate::isa::DestinationRule::Read;
-        if let Some(d) = instruction.destination.filter(|d| is_temp(d.register.file))
-            && let Some(slot) = live.get_mut(usize::from(d.register.index))
-        {
+        let always = instruction.predicate.is_none() && instruction.fragment.condition.is_none();
+        if let Some((d, slot)) = instruction.destination.and_then(|d| Some((d, temporary(d.register)?))) {
             if read_back || matches!(instruction.opcode, Opcode::TexDepth) {
-                *slot |= 0b1111;
-            } else if instruction.predicate.is_none() {
-                *slot &= !d.mask.0;
+                live[slot] |= 0b1111;
+            } else if always {
+                live[slot] &= !d.mask.0;
             }
         }
-        for source in instruction.sources.iter().filter(|s| is_temp(s.register.file)) {
-            if let Some(slot) = live.get_mut(usize::from(source.register.index)) {
-                let lanes = lanes_read(instruction);
-                *slot |= lanes.components().fold(0, |mask, lane| mask | 1 << (source.swizzle.0[lane] & 3));
-            }
+        for (source, slot) in instruction.sources.iter().filter_map(|s| Some((s, temporary(s.register)?))) {
+            let lanes = lanes_read(instruction);
+            live[slot] |= lanes.components().fold(0, |mask, lane| mask | 1 << (source.swizzle.0[lane] & 3));
         }
         most = most.max(halves(&live));
     }
@@ -356,6 +364,14 @@ fn lanes_read(instruction: &Instruction) -> Mask {
     match instruction.opcode {
         Opcode::Dp3 | Opcode::Crs | Opcode::Nrm | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
         Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow | Opcode::SinCos => Mask(0b0001),
+        Opcode::Cos | Opcode::Sin | Opcode::Scs | Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub => {
+            Mask(0b0001)
+        }
+        Opcode::Rfl => Mask::RGB,
+        Opcode::Pk2h | Opcode::Pk2us => Mask(0b0011),
+        Opcode::Flr | Opcode::Seq | Opcode::Sne | Opcode::Sgt | Opcode::Sle => {
+            instruction.destination.map_or(Mask::ALL, |d| d.mask)
+        }
         Opcode::Mov
         | Opcode::Add
         | Opcode::Sub

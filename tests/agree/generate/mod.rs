@@ -1,6 +1,7 @@
 //! Random programs of every version, legal by construction as far as that is easy; the checker says no to the rest.
 
 mod flow;
+mod fp;
 mod ps_1;
 mod ps_1_4;
 mod ps_2;
@@ -31,6 +32,7 @@ pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
         Version::Ps1_1 | Version::Ps1_2 | Version::Ps1_3 => ps_1::program(version, layout, size, r, &mut lines),
         Version::Ps1_4 => ps_1_4::program(layout, size, r, &mut lines),
         Version::Ps2_0 | Version::Ps2A | Version::Ps2B => ps_2::program(version, layout, size, r, &mut lines),
+        Version::Fp1_0 | Version::ArbFp1_0 => fp::program(version, layout, size, r, &mut lines),
         Version::Vs1_1 | Version::Vs2_0 => vs::program(version, layout, size, r, &mut lines),
     }
     lines

@@ -1,13 +1,454 @@
-//! `!!ARBfp1.0`: GL_ARB_fragment_program.
+//! `!!ARBfp1.0`: GL_ARB_fragment_program. State of the fixed pipeline (`state.*`) is not known here.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
 
 use super::super::error::{AssembleErrors, ErrorKind, SyntaxError};
-use crate::isa::{Program, Span};
+use super::super::parser::Parsed;
+use super::build::Build;
+use super::operand::{self, Mnemonic};
+use super::token::{Cursor, Kind, Token};
+use crate::isa::{
+    Destination, FIRST_ENVIRONMENT, FragmentPart, Instruction, Mask, Modifier, Opcode, OpcodeClass, Program, Register,
+    RegisterFile, Source, Span, Swizzle, Version,
+};
+
+/// Names of temporaries that a program can declare; how many it may use is the checker's business.
+const MOST_TEMPORARIES: u16 = 256;
+/// The highest `program.local` and `program.env`.
+const MOST_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
+
+/// Options that change nothing here: every instruction is computed in full precision.
+const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nicest"];
 
 /// Reads a program whose first word is `!!ARBfp1.0` at `header`.
-pub(super) fn assemble(_: &str, header: Span) -> Result<Program, AssembleErrors> {
-    let error = SyntaxError::new(ErrorKind::UnknownVersion, header, "`!!FP1.0`", "`!!ARBfp1.0`", "not read yet");
-    Err(AssembleErrors { errors: vec![error] })
+pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
+    let cursor = Cursor::new(text, header.end);
+    let mut parser = Parser { cursor, build: Build::default(), names: BTreeMap::new(), temporaries: 0 };
+    while parser.cursor.goes_on() {
+        let token = parser.cursor.peek();
+        if token.kind == Kind::End || token.text == "END" {
+            parser.cursor.end();
+            break;
+        }
+        if let Err(error) = parser.statement() {
+            parser.cursor.record(error);
+            parser.cursor.skip_statement();
+        }
+    }
+    match parser.cursor.finish() {
+        Some(errors) => Err(errors),
+        None => Ok(parser.build.finish(Version::ArbFp1_0, header)),
+    }
 }
 
-/// The statements in front of a program's instructions.
-pub(super) fn declarations(_: &Program, _: &mut String) {}
+/// The statement that declares a program's temporaries: `R0` to the highest that it names.
+pub(super) fn declarations(program: &Program, out: &mut String) {
+    let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
+    let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
+    let temporaries = written.chain(read).filter(|r| r.file == RegisterFile::Temp);
+    let Some(most) = temporaries.map(|r| r.index).max() else { return };
+    let names: Vec<String> = (0..=most).map(|n| format!("R{n}")).collect();
+    if writeln!(out, "TEMP {};", names.join(", ")).is_err() {
+        unreachable!("a string takes everything");
+    }
+}
+
+/// What a name stands for.
+#[derive(Clone, Debug)]
+enum Name {
+    Register(Register),
+    Constant([u32; 4]),
+    /// `PARAM name[n]`.
+    Array(Vec<Name>),
+}
+
+struct Parser<'a> {
+    cursor: Cursor<'a>,
+    build: Build,
+    names: BTreeMap<&'a str, Name>,
+    temporaries: u16,
+}
+
+impl<'a> Parser<'a> {
+    fn statement(&mut self) -> Parsed<()> {
+        let token = self.cursor.next();
+        match token.text {
+            "OPTION" => self.option()?,
+            "TEMP" => self.temporaries()?,
+            "ATTRIB" => self.bound(Self::attribute)?,
+            "OUTPUT" => self.bound(Self::output)?,
+            "PARAM" => self.parameter()?,
+            "ALIAS" => self.alias()?,
+            _ => {
+                let mnemonic = operand::mnemonic(token, false)?;
+                let instruction = self.instruction(token, mnemonic)?;
+                self.build.instructions.push(instruction);
+            }
+        }
+        self.cursor.expect(";", "a statement ends with `;`")
+    }
+
+    fn option(&mut self) -> Parsed<()> {
+        let token = self.cursor.next();
+        if HINTS.contains(&token.text) {
+            return Ok(());
+        }
+        Err(SyntaxError::new(
+            ErrorKind::UnknownOption,
+            token.span,
+            format!("one of {}", HINTS.join(", ")),
+            token.found(),
+            "other options change what a program means",
+        ))
+    }
+
+    /// A name that means nothing yet.
+    fn new_name(&mut self) -> Parsed<&'a str> {
+        let token = self.cursor.next();
+        let reserved = matches!(token.text, "fragment" | "result" | "program" | "state" | "texture" | "vertex" | "END");
+        if token.kind == Kind::Word && !reserved && !self.names.contains_key(token.text) {
+            return Ok(token.text);
+        }
+        let help = "names start with a letter and stand for one thing";
+        Err(SyntaxError::new(ErrorKind::Name, token.span, "a name of its own", token.found(), help))
+    }
+
+    fn temporaries(&mut self) -> Parsed<()> {
+        loop {
+            let name = self.new_name()?;
+            if self.temporaries >= MOST_TEMPORARIES {
+                return Err(self.cursor.unexpected("fewer temporaries", "256 names of temporaries are the most"));
+            }
+            self.names.insert(name, Name::Register(Register::new(RegisterFile::Temp, self.temporaries)));
+            self.temporaries += 1;
+            if !self.cursor.accept(",") {
+                return Ok(());
+            }
+        }
+    }
+
+    /// `ATTRIB name = fragment.color`, `OUTPUT name = result.color`
+    fn bound(&mut self, what: fn(&mut Self) -> Parsed<Register>) -> Parsed<()> {
+        let name = self.new_name()?;
+        self.cursor.expect("=", "the name stands for something")?;
+        let register = what(self)?;
+        self.names.insert(name, Name::Register(register));
+        Ok(())
+    }
+
+    fn alias(&mut self) -> Parsed<()> {
+        let name = self.new_name()?;
+        self.cursor.expect("=", "the name stands for another")?;
+        let token = self.cursor.next();
+        let old = self.names.get(token.text).cloned().ok_or_else(|| unknown(token, "a name", "declare it first"))?;
+        self.names.insert(name, old);
+        Ok(())
+    }
+
+    /// `PARAM a = {1, 2};`, `PARAM b[2] = { program.local[0..1] };`
+    fn parameter(&mut self) -> Parsed<()> {
+        let name = self.new_name()?;
+        if !self.cursor.accept("[") {
+            self.cursor.expect("=", "a parameter stands for a constant or for something that the host sets")?;
+            let value = self.element()?;
+            self.names.insert(name, value);
+            return Ok(());
+        }
+        let counted = self.cursor.peek();
+        let count = if counted.text == "]" { None } else { Some(operand::index(&mut self.cursor, MOST_PARAMETER)?) };
+        self.cursor.expect("]", "close the brackets")?;
+        self.cursor.expect("=", "an array stands for several constants")?;
+        self.cursor.expect("{", "an array's elements stand between braces")?;
+        let mut all = Vec::new();
+        loop {
+            self.elements(&mut all)?;
+            if !self.cursor.accept(",") {
+                break;
+            }
+        }
+        self.cursor.expect("}", "close the array")?;
+        if let Some(count) = count.filter(|&n| usize::from(n) != all.len()) {
+            return Err(SyntaxError::new(
+                ErrorKind::ValueCount,
+                counted.span,
+                format!("{count} elements"),
+                format!("{} elements", all.len()),
+                "an array has as many elements as it says",
+            ));
+        }
+        self.names.insert(name, Name::Array(all));
+        Ok(())
+    }
+
+    /// One constant or bound parameter.
+    fn element(&mut self) -> Parsed<Name> {
+        if self.cursor.peek().text != "program" {
+            self.no_state()?;
+            return operand::constant(&mut self.cursor).map(Name::Constant);
+        }
+        let (first, last) = self.program_range()?;
+        if first.index == last {
+            return Ok(Name::Register(first));
+        }
+        Err(self.cursor.unexpected("one parameter", "a range of parameters belongs into an array"))
+    }
+
+    /// One element of an array, or a range of them.
+    fn elements(&mut self, all: &mut Vec<Name>) -> Parsed<()> {
+        if self.cursor.peek().text != "program" {
+            let one = self.element()?;
+            all.push(one);
+            return Ok(());
+        }
+        let (first, last) = self.program_range()?;
+        all.extend((first.index..=last).map(|n| Name::Register(Register::new(first.file, n))));
+        Ok(())
+    }
+
+    /// `program.local[3]` or `program.env[0..4]`: the first register and the number of the last.
+    fn program_range(&mut self) -> Parsed<(Register, u16)> {
+        self.cursor.next();
+        self.cursor.expect(".", "parameters are program.local[0] or program.env[0]")?;
+        let token = self.cursor.next();
+        let base = match token.text {
+            "local" => 0,
+            "env" => FIRST_ENVIRONMENT,
+            _ => return Err(unknown(token, "local or env", "parameters are program.local[0] or program.env[0]")),
+        };
+        self.cursor.expect("[", "parameters are numbered")?;
+        let first = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+        let mut last = first;
+        if self.cursor.accept("..") {
+            let place = self.cursor.peek();
+            last = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            if last < first {
+                return Err(unknown(place, "a number not below the first", "a range goes up"));
+            }
+        }
+        self.cursor.expect("]", "close the brackets")?;
+        Ok((Register::new(RegisterFile::Constant, base + first), base + last))
+    }
+
+    fn no_state(&mut self) -> Parsed<()> {
+        let token = self.cursor.peek();
+        if token.text != "state" {
+            return Ok(());
+        }
+        let help = "this card has no fixed pipeline: set program.local or program.env from outside";
+        Err(unknown(token, "a constant or program.*", help))
+    }
+
+    fn instruction(&mut self, token: Token<'a>, mnemonic: Mnemonic) -> Parsed<Instruction> {
+        let opcode = mnemonic.spelling.opcode;
+        let info = opcode.info();
+        let Some(count) = info.source_count(Version::ArbFp1_0) else {
+            let help = "it belongs to !!FP1.0";
+            return Err(SyntaxError::new(ErrorKind::UnknownOpcode, token.span, "an instruction", token.found(), help));
+        };
+        let mut fragment = FragmentPart::default();
+        let mut sources = Vec::new();
+        let mut destination = None;
+        let texture = info.class == OpcodeClass::Texture && opcode != Opcode::Kil;
+        if opcode != Opcode::Kil {
+            destination = Some(self.destination(mnemonic.saturate)?);
+            self.comma()?;
+        }
+        for i in 0..usize::from(count) - usize::from(texture) {
+            if i > 0 {
+                self.comma()?;
+            }
+            sources.push(self.source()?);
+        }
+        if texture {
+            self.comma()?;
+            let unit = self.unit()?;
+            sources.insert(1, unit);
+            self.comma()?;
+            fragment.target = Some(operand::target(&mut self.cursor)?);
+        }
+        if let (Opcode::Swz, [source]) = (opcode, &mut *sources) {
+            self.extended(source, &mut fragment)?;
+        }
+        Ok(Instruction {
+            opcode,
+            comparison: None,
+            destination,
+            sources,
+            coissue: false,
+            predicate: None,
+            fragment,
+            span: Span::new(token.span.start, self.cursor.last_end()),
+        })
+    }
+
+    fn comma(&mut self) -> Parsed<()> {
+        self.cursor.expect(",", "operands stand apart by commas")
+    }
+
+    /// `, x, -y, 0, 1` after the operand of `SWZ`.
+    fn extended(&mut self, source: &mut Source, fragment: &mut FragmentPart) -> Parsed<()> {
+        for (i, slot) in source.swizzle.0.iter_mut().enumerate() {
+            self.cursor.expect(",", "SWZ chooses four components")?;
+            if self.cursor.accept("-") {
+                fragment.negate |= 1 << i;
+            } else {
+                self.cursor.accept("+");
+            }
+            let token = self.cursor.next();
+            *slot = match token.text {
+                "x" | "r" => 0,
+                "y" | "g" => 1,
+                "z" | "b" => 2,
+                "w" | "a" => 3,
+                "0" => 4,
+                "1" => 5,
+                _ => {
+                    let help = "each component of SWZ is chosen on its own";
+                    let expected = "x, y, z, w, 0 or 1";
+                    return Err(SyntaxError::new(ErrorKind::Swizzle, token.span, expected, token.found(), help));
+                }
+            };
+        }
+        source.span.end = self.cursor.last_end();
+        Ok(())
+    }
+
+    fn destination(&mut self, saturate: bool) -> Parsed<Destination> {
+        let token = self.cursor.peek();
+        let register = match (token.text, self.names.get(token.text)) {
+            ("result", _) => self.output()?,
+            (_, Some(&Name::Register(register))) if is_written(register.file) => {
+                self.cursor.next();
+                register
+            }
+            _ => return Err(unknown(token, "a temporary or result.*", "declare temporaries with TEMP")),
+        };
+        let mut mask = operand::mask(&mut self.cursor)?;
+        if register.file == RegisterFile::DepthOut && mask.contains(2) {
+            // Depth is the third component, whatever else the mask names.
+            mask = Mask(0b0100);
+        }
+        let span = Span::new(token.span.start, self.cursor.last_end());
+        Ok(Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span })
+    }
+
+    fn output(&mut self) -> Parsed<Register> {
+        let start = self.cursor.next();
+        if start.text != "result" {
+            return Err(unknown(start, "result.color or result.depth", "these are the outputs of a fragment program"));
+        }
+        self.cursor.expect(".", "outputs are result.color and result.depth")?;
+        let token = self.cursor.next();
+        match token.text {
+            "color" => Ok(Register::new(RegisterFile::ColorOut, 0)),
+            "depth" => Ok(Register::new(RegisterFile::DepthOut, 0)),
+            _ => Err(unknown(token, "color or depth", "these are the outputs of a fragment program")),
+        }
+    }
+
+    /// `texture[3]`, or `texture` for the first image unit.
+    fn unit(&mut self) -> Parsed<Source> {
+        let token = self.cursor.next();
+        if token.text != "texture" {
+            return Err(unknown(token, "texture[0] to texture[15]", "texture image units are numbered"));
+        }
+        let mut number = 0;
+        if self.cursor.accept("[") {
+            number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            self.cursor.expect("]", "close the brackets")?;
+        }
+        let register = Register::new(RegisterFile::Sampler, number);
+        let span = Span::new(token.span.start, self.cursor.last_end());
+        Ok(Source { register, swizzle: Swizzle::IDENTITY, modifier: Modifier::None, span })
+    }
+
+    fn source(&mut self) -> Parsed<Source> {
+        let start = self.cursor.peek().span.start;
+        let negative = self.cursor.accept("-");
+        if !negative {
+            self.cursor.accept("+");
+        }
+        let register = self.register()?;
+        let swizzle = operand::swizzle(&mut self.cursor)?;
+        let modifier = if negative { Modifier::Negate } else { Modifier::None };
+        Ok(Source { register, swizzle, modifier, span: Span::new(start, self.cursor.last_end()) })
+    }
+
+    fn register(&mut self) -> Parsed<Register> {
+        let token = self.cursor.peek();
+        if token.text == "{" || token.kind == Kind::Number {
+            let value = operand::constant(&mut self.cursor)?;
+            return self.build.literal(value, Span::new(token.span.start, self.cursor.last_end()));
+        }
+        match token.text {
+            "fragment" => return self.attribute(),
+            "program" => {
+                return match self.element()? {
+                    Name::Register(register) => Ok(register),
+                    _ => Err(unknown(token, "a parameter", "write program.local[0]")),
+                };
+            }
+            _ => self.no_state()?,
+        }
+        self.cursor.next();
+        let mut name = self.names.get(token.text).cloned();
+        if let Some(Name::Array(all)) = name {
+            self.cursor.expect("[", "an element of an array is chosen by its number")?;
+            let place = self.cursor.peek();
+            let number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            self.cursor.expect("]", "close the brackets")?;
+            let Some(element) = all.get(usize::from(number)) else {
+                return Err(unknown(place, &format!("a number below {}", all.len()), "count from 0"));
+            };
+            name = Some(element.clone());
+        }
+        match name {
+            Some(Name::Register(register)) if !is_written(register.file) || register.file == RegisterFile::Temp => {
+                Ok(register)
+            }
+            Some(Name::Constant(value)) => self.build.literal(value, token.span),
+            _ => Err(unknown(
+                token,
+                "a temporary, fragment.*, program.*, a constant or a name of one",
+                "names are made by TEMP, ATTRIB and PARAM before they are used",
+            )),
+        }
+    }
+
+    /// `fragment.color.secondary`, `fragment.texcoord[1]`
+    fn attribute(&mut self) -> Parsed<Register> {
+        let start = self.cursor.next();
+        let help = "attributes are fragment.color, fragment.texcoord[0] and so on";
+        if start.text != "fragment" {
+            return Err(unknown(start, "fragment.*", help));
+        }
+        self.cursor.expect(".", help)?;
+        let token = self.cursor.next();
+        Ok(match token.text {
+            "fogcoord" => Register::new(RegisterFile::FogIn, 0),
+            "position" => Register::new(RegisterFile::WindowPosition, 0),
+            "texcoord" => {
+                let mut number = 0;
+                if self.cursor.accept("[") {
+                    number = operand::index(&mut self.cursor, 7)?;
+                    self.cursor.expect("]", "close the brackets")?;
+                }
+                Register::new(RegisterFile::Texture, number)
+            }
+            "color" => {
+                let which = self.cursor.after_point(&["primary", "secondary"]);
+                Register::new(RegisterFile::Input, u16::from(which == Some("secondary")))
+            }
+            _ => return Err(unknown(token, "color, texcoord, fogcoord or position", help)),
+        })
+    }
+}
+
+fn is_written(file: RegisterFile) -> bool {
+    matches!(file, RegisterFile::Temp | RegisterFile::ColorOut | RegisterFile::DepthOut)
+}
+
+fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
+    SyntaxError::new(ErrorKind::UnknownRegister, token.span, expected, token.found(), help)
+}

@@ -130,6 +130,14 @@ impl<'a> Cursor<'a> {
         SyntaxError::new(ErrorKind::UnexpectedToken, token.span, expected, token.found(), help)
     }
 
+    /// One of these words after a point, if it stands there.
+    pub(super) fn after_point(&mut self, words: &[&'static str]) -> Option<&'static str> {
+        let word = self.tokens.get(self.at + 1).filter(|_| self.peek().text == ".")?.text;
+        let found = words.iter().copied().find(|w| *w == word)?;
+        self.at += 2;
+        Some(found)
+    }
+
     /// The end of the token before.
     pub(super) fn last_end(&self) -> u32 {
         self.tokens[self.at.saturating_sub(1)].span.end

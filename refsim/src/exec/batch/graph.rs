@@ -92,7 +92,11 @@ impl Kind {
                 a.into_iter().take(terms.into()).for_each(&mut visit);
                 b.into_iter().take(terms.into()).for_each(visit);
             }
-            Kind::Circle(_, _, a) | Kind::Convert(_, _, a) | Kind::Steps(_, a) | Kind::Texel(a, _) | Kind::Relative(_, _, a) => visit(a),
+            Kind::Circle(_, _, a)
+            | Kind::Convert(_, _, a)
+            | Kind::Steps(_, a)
+            | Kind::Texel(a, _)
+            | Kind::Relative(_, _, a) => visit(a),
             Kind::Fetch(_, coordinates, detail) => {
                 coordinates.into_iter().for_each(&mut visit);
                 match detail {

@@ -71,7 +71,7 @@ mod tests {
     fn pi_is_pi() {
         // 3.14159265358979323846264338327950288419716939937510582097494459230781640628620899
         let digits = "314159265358979323846264338327950288419716939937510582097494";
-        let scaled = (pi(256) * BigInt::from(10).pow(59)) >> 256;
+        let scaled: BigInt = (pi(256) * BigInt::from(10).pow(59)) >> 256;
         assert_eq!(scaled.to_string(), digits);
     }
 

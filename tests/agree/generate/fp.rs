@@ -1,0 +1,236 @@
+//! Random programs of OpenGL's two languages.
+
+use super::{Layout, component, mask, values};
+use crate::random::Random;
+use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, Version};
+use refsim::texture::TextureKind;
+
+/// A program under way.
+struct Writer<'a> {
+    nv: bool,
+    layout: &'a Layout,
+    r: &'a mut Random,
+    lines: &'a mut Vec<String>,
+    /// Temporaries in use, of each precision.
+    temps: usize,
+    /// The attribute and the constant that the instruction under way may read.
+    attribute: String,
+    constant: String,
+}
+
+pub(super) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random, lines: &mut Vec<String>) {
+    let temps = 2 + r.below(4);
+    let nv = version == Version::Fp1_0;
+    let mut w = Writer { nv, layout, r, lines, temps, attribute: String::new(), constant: String::new() };
+    w.begin();
+    let spellings: Vec<&Spelling> = Spelling::ALL.iter().filter(|s| s.opcode.info().available(version)).collect();
+    let count = [3, 8, 16, 28][size.min(3)];
+    for _ in 0..1 + w.r.below(count) {
+        let line = w.instruction(version, &spellings);
+        w.lines.push(line);
+    }
+    w.outputs();
+    w.lines.push("END".to_owned());
+}
+
+impl Writer<'_> {
+    fn begin(&mut self) {
+        if !self.nv {
+            if self.r.one_in(8) {
+                self.lines.push("OPTION ARB_precision_hint_nicest;".to_owned());
+            }
+            for n in 0..self.temps {
+                self.lines.push(format!("TEMP R{n};"));
+            }
+        }
+        let value = values(self.r, 2.0);
+        self.lines.push(if self.nv {
+            format!("DEFINE half = {{{value}}};")
+        } else {
+            format!("PARAM half = {{{value}}};")
+        });
+        for n in 0..self.temps {
+            self.choose();
+            let attribute = self.attribute.clone();
+            self.lines.push(format!("MOV R{n}, {attribute};"));
+            if self.nv {
+                let constant = self.constant.clone();
+                self.lines.push(format!("MOV H{n}, {constant};"));
+            }
+        }
+    }
+
+    /// Chooses what the next instruction may read besides temporaries.
+    fn choose(&mut self) {
+        let n = self.r.below(8);
+        let nv = self.nv;
+        self.attribute = match self.r.below(6) {
+            0 if nv => "f[COL0]".to_owned(),
+            1 if nv => "f[COL1]".to_owned(),
+            2 if nv => "f[FOGC]".to_owned(),
+            0 => "fragment.color".to_owned(),
+            1 => "fragment.color.secondary".to_owned(),
+            2 => "fragment.fogcoord".to_owned(),
+            _ if nv => format!("f[TEX{n}]"),
+            _ => format!("fragment.texcoord[{n}]"),
+        };
+        let p = self.r.below(12);
+        self.constant = match self.r.below(6) {
+            0 => "half".to_owned(),
+            1 => format!("{{{}}}", values(self.r, 2.0)),
+            2 => format!("{}", self.r.below(17) as f32 / 8.0),
+            _ if nv => format!("p[{p}]"),
+            _ => format!("program.local[{p}]"),
+        };
+    }
+
+    fn register(&mut self) -> String {
+        let n = self.r.below(self.temps);
+        match self.r.below(8) {
+            0 => self.attribute.clone(),
+            1 => self.constant.clone(),
+            2..=4 if self.nv => format!("H{n}"),
+            _ => format!("R{n}"),
+        }
+    }
+
+    fn source(&mut self, scalar: bool) -> String {
+        let register = self.register();
+        let swizzle = match self.r.below(3) {
+            _ if scalar => format!(".{}", component(self.r)),
+            0 => format!(".{}", component(self.r)),
+            1 => {
+                let four: String = (0..4).map(|_| component(self.r)).collect();
+                format!(".{four}")
+            }
+            _ => String::new(),
+        };
+        let swizzle =
+            if register.starts_with(|c: char| c.is_ascii_digit()) && !scalar { String::new() } else { swizzle };
+        match self.r.below(6) {
+            0 => format!("-{register}{swizzle}"),
+            1 if self.nv => format!("|{register}{swizzle}|"),
+            2 if self.nv => format!("-|{register}{swizzle}|"),
+            _ => format!("{register}{swizzle}"),
+        }
+    }
+
+    fn condition(&mut self) -> String {
+        let test = ConditionTest::ALL[self.r.below(8)].name();
+        let swizzle = match self.r.below(3) {
+            0 => format!(".{}", component(self.r)),
+            1 => (0..4).fold(".".to_owned(), |s, _| s + component(self.r)),
+            _ => String::new(),
+        };
+        format!("{test}{swizzle}")
+    }
+
+    fn destination(&mut self, full: bool) -> String {
+        let n = self.r.below(self.temps);
+        let register = match self.r.below(8) {
+            0 if self.nv => self.r.pick(&["RC", "HC"]).to_owned(),
+            1..=3 if self.nv => format!("H{n}"),
+            _ => format!("R{n}"),
+        };
+        let register = if full && !register.starts_with('R') { format!("R{n}") } else { register };
+        let mask = mask(self.r);
+        let condition = if self.nv && self.r.one_in(3) { format!(" ({})", self.condition()) } else { String::new() };
+        format!("{register}{mask}{condition}")
+    }
+
+    fn name(&mut self, s: &Spelling) -> String {
+        let mut name = s.name.to_owned();
+        if self.nv {
+            let all: &[&str] = match (s.floats, s.fixed) {
+                (true, true) => &["R", "H", "X", ""],
+                (true, false) => &["R", "H", ""],
+                _ => &[""],
+            };
+            name += self.r.pick(all);
+            if s.result && self.r.one_in(3) {
+                name.push('C');
+            }
+        }
+        if s.result && self.r.one_in(5) {
+            name += "_SAT";
+        }
+        name
+    }
+
+    fn instruction(&mut self, version: Version, all: &[&Spelling]) -> String {
+        self.choose();
+        let sampling = self.layout.sampling && self.r.one_in(2);
+        let texture = |s: &&&Spelling| s.opcode.info().class == OpcodeClass::Texture && s.opcode != Opcode::Kil;
+        let s = match sampling {
+            true => {
+                let reads: Vec<&&Spelling> = all.iter().filter(texture).collect();
+                *reads[self.r.below(reads.len())]
+            }
+            false => all[self.r.below(all.len())],
+        };
+        let is_texture = texture(&&s);
+        if s.opcode == Opcode::Kil {
+            // One in many, or nothing is left.
+            if !self.r.one_in(4) {
+                return format!("MOV R0, R{};", self.r.below(self.temps));
+            }
+            return match self.nv {
+                true => format!("KIL {};", self.condition()),
+                false => format!("KIL {};", self.source(false)),
+            };
+        }
+        let full = s.name.starts_with("PK");
+        let mut line = format!("{} {}", self.name(s), self.destination(full));
+        if s.opcode == Opcode::Swz {
+            let parts: Vec<String> = (0..4)
+                .map(|_| self.r.pick(&["", "-"]).to_owned() + self.r.pick(&["x", "y", "z", "w", "0", "1"]))
+                .collect();
+            return format!("{line}, R{}, {};", self.r.below(self.temps), parts.join(", "));
+        }
+        let count = usize::from(s.opcode.info().source_count(version).unwrap_or(0)) - usize::from(is_texture);
+        for _ in 0..count {
+            let source = match s.name.starts_with("UP") {
+                true => format!("R{}.{}", self.r.below(self.temps), component(self.r)),
+                false => self.source(s.scalar),
+            };
+            line += &format!(", {source}");
+        }
+        if is_texture {
+            let (unit, kind) = match self.layout.samplers.len() {
+                0 => (0, TextureKind::D2),
+                n => self.layout.samplers[self.r.below(n)],
+            };
+            let target = match kind {
+                TextureKind::D1 => "1D",
+                TextureKind::D2 => "2D",
+                TextureKind::Rectangle => "RECT",
+                TextureKind::Cube => "CUBE",
+                TextureKind::Volume => "3D",
+            };
+            let unit = if self.nv { format!("TEX{unit}") } else { format!("texture[{unit}]") };
+            line += &format!(", {unit}, {target}");
+        }
+        line + ";"
+    }
+
+    fn outputs(&mut self) {
+        let n = self.r.below(self.temps);
+        let (color, depth) = if self.nv { ("o[COLR]", "o[DEPR].z") } else { ("result.color", "result.depth.z") };
+        let half = self.nv && self.r.one_in(3);
+        let line = match half {
+            true => format!("MOV{} o[COLH], H{n};", self.r.pick(&["", "R", "H", "X", "C"])),
+            false => format!("MOV{} {color}, R{n};", if self.nv { self.r.pick(&["", "R", "H", "X"]) } else { "" }),
+        };
+        self.lines.push(line);
+        if self.r.one_in(3) {
+            let (n, c) = (self.r.below(self.temps), component(self.r));
+            self.lines.push(format!("MOV {depth}, R{n}.{c};"));
+        }
+        if self.nv && self.r.one_in(4) {
+            let (condition, color) = (self.condition(), if half { "o[COLH]" } else { color });
+            let mask = mask(self.r);
+            let source = self.r.below(self.temps);
+            self.lines.push(format!("ADDR {color}{mask} ({condition}), R{source}, R0;"));
+        }
+    }
+}
