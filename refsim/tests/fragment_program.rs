@@ -1,6 +1,7 @@
 //! OpenGL's fragment programs: the facts of the two specifications, on the scalar executor.
 
 mod fragment_program {
+    mod agree;
     mod arb;
     mod numbers;
     mod text;

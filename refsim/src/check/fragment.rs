@@ -7,8 +7,8 @@ use super::allowed::Limit;
 use super::context::{Context, ordinal};
 use super::{RuleId, Violation};
 use crate::isa::{
-    FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Opcode, OpcodeClass, Precision, Register, RegisterFile, Span,
-    Spelling, Version,
+    ConstantValue, FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Opcode, OpcodeClass, Precision, Register, RegisterFile,
+    Source, Span, Spelling, Version,
 };
 
 /// Registers of full and half precision that there are names for.
@@ -27,6 +27,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         }
         registers(context, instruction);
         operands(context, instruction);
+        attributes(context, instruction);
         if nv {
             suffixes(context, instruction);
             packing(context, instruction);
@@ -99,15 +100,30 @@ fn written_name(register: Register, number: u16) -> String {
 /// V42: operands of scalar instructions name one component.
 fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.scalar) else { return };
-    for source in &instruction.sources {
-        if source.swizzle.replicated().is_none() {
-            let message = format!("`{}` reads one component, found four", spelling.name);
-            context.add(
-                Violation::new(RuleId::V42, source.span, message)
-                    .label("which component?")
-                    .help("choose one: `.x`, `.y`, `.z` or `.w`"),
-            );
-        }
+    // A number that stands in the text for all components is as good as one component.
+    let plain = |register: &Register| {
+        let defined = context.program.constants.iter().find(|d| d.register == *register);
+        defined.is_some_and(|d| matches!(d.value, ConstantValue::Float([x, y, z, w]) if x == y && y == z && z == w))
+    };
+    let vague: Vec<Source> = instruction
+        .sources
+        .iter()
+        .filter(|s| s.swizzle.replicated().is_none() && !plain(&s.register))
+        .copied()
+        .collect();
+    for source in vague {
+        let message = format!("`{}` reads one component, found four", spelling.name);
+        let advice = "choose one: `.x`, `.y`, `.z` or `.w`";
+        context.add(Violation::new(RuleId::V42, source.span, message).label("which component?").help(advice));
+    }
+}
+
+/// V67: what this rasteriser hands over.
+fn attributes(context: &mut Context<'_>, instruction: &Instruction) {
+    for source in instruction.sources.iter().filter(|s| s.register.file == RegisterFile::WindowPosition) {
+        let message = "the window position is not handed to programs by this emulator";
+        let advice = "pass the position as texture coordinates";
+        context.add(Violation::new(RuleId::V67, source.span, message).label("this attribute").help(advice));
     }
 }
 

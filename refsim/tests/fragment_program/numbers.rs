@@ -35,12 +35,14 @@ fn fx12_saturates_and_has_no_nan() {
 fn every_half_passes_through_h() {
     let half = nv35().rules.partial.unwrap();
     let single = nv35().rules.format;
-    for base in (0..0x1_0000_u32).step_by(4) {
-        let patterns = [0, 1, 2, 3].map(|i| base + i);
-        let value = patterns.map(|h| f32::from_bits(ops::convert(&half, single, h).bits));
-        let ran = run("MOVH H0, p[0]; MOVR R0, H0;", &[value]);
-        let want = patterns.map(|h| if half.is_nan(h) { half.canonical_nan().unwrap() } else { h });
-        assert_eq!(ran.value(0), want);
+    for base in (0..0x1_0000_u32).step_by(16) {
+        let patterns = [0, 4, 8, 12].map(|first| [0, 1, 2, 3].map(|i| base + first + i));
+        let value = patterns.map(|p| p.map(|h| f32::from_bits(ops::convert(&half, single, h).bits)));
+        let ran = run("MOVH H0, p[0]; MOVH H1, p[1]; MOVH H2, p[2]; MOVH H3, p[3];", &value);
+        for (at, want) in patterns.iter().enumerate() {
+            let clean = |h| if half.is_nan(h) { half.canonical_nan().unwrap() } else { h };
+            assert_eq!(ran.value(at), want.map(clean));
+        }
     }
 }
 

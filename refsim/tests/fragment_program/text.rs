@@ -5,10 +5,14 @@ use refsim::asm::{MAX_ERRORS, assemble, print};
 use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, TextureTarget, Version};
 
 /// Picks by a list of numbers, so that proptest can shrink it.
-struct Choices<'a>(std::slice::Iter<'a, u32>);
+pub(crate) struct Choices<'a>(std::slice::Iter<'a, u32>);
 
-impl Choices<'_> {
-    fn below(&mut self, n: usize) -> usize {
+impl<'a> Choices<'a> {
+    pub(crate) fn new(list: &'a [u32]) -> Self {
+        Self(list.iter())
+    }
+
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         *self.0.next().unwrap_or(&0) as usize % n
     }
 
@@ -49,7 +53,7 @@ fn source(c: &mut Choices<'_>, nv: bool, scalar: bool) -> String {
     }
 }
 
-fn statement(c: &mut Choices<'_>, version: Version) -> String {
+pub(crate) fn statement(c: &mut Choices<'_>, version: Version) -> String {
     let nv = version == Version::Fp1_0;
     let all: Vec<&Spelling> = Spelling::ALL.iter().filter(|s| s.opcode.info().available(version)).collect();
     let s = all[c.below(all.len())];

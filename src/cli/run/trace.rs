@@ -1,7 +1,7 @@
 //! What every instruction wrote at one pixel, as text and as JSON.
 
 use refsim::{
-    exec::{Step, inputs_read},
+    exec::{FragmentFormats, Step, inputs_read},
     isa::{Register, RegisterFile},
     machine::FragmentTrace,
     num::{Flags, Format},
@@ -80,10 +80,12 @@ impl Traced<'_> {
     fn written(&self, step: &Step) -> Vec<Row> {
         let instruction = self.setup.pixel.instructions.get(step.instruction);
         let Some(destination) = instruction.and_then(|i| i.destination) else { return Vec::new() };
-        let truth = destination.register.file == RegisterFile::Predicate;
+        let file = destination.register.file;
+        let truth = file == RegisterFile::Predicate;
+        let format = FragmentFormats::new(&self.setup.profile.rules).of_file(file);
         let shown = |c: usize| {
             let one = if step.value[c] != 0 { self.format().one() } else { 0 };
-            Row::new(&destination.register, c, self.format(), if truth { one } else { step.value[c] })
+            Row::new(&destination.register, c, format, if truth { one } else { step.value[c] })
         };
         step.mask.components().map(shown).collect()
     }

@@ -16,7 +16,7 @@ use crate::isa::{
 /// Names of temporaries that a program can declare; how many it may use is the checker's business.
 const MOST_TEMPORARIES: u16 = 256;
 /// The highest `program.local` and `program.env`.
-const MOST_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
+pub(super) const MOST_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
 
 /// Options that change nothing here: every instruction is computed in full precision.
 const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nicest"];
@@ -56,17 +56,17 @@ pub(super) fn declarations(program: &Program, out: &mut String) {
 
 /// What a name stands for.
 #[derive(Clone, Debug)]
-enum Name {
+pub(super) enum Name {
     Register(Register),
     Constant([u32; 4]),
     /// `PARAM name[n]`.
     Array(Vec<Name>),
 }
 
-struct Parser<'a> {
-    cursor: Cursor<'a>,
+pub(super) struct Parser<'a> {
+    pub(super) cursor: Cursor<'a>,
     build: Build,
-    names: BTreeMap<&'a str, Name>,
+    pub(super) names: BTreeMap<&'a str, Name>,
     temporaries: u16,
 }
 
@@ -104,7 +104,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A name that means nothing yet.
-    fn new_name(&mut self) -> Parsed<&'a str> {
+    pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
         let token = self.cursor.next();
         let reserved = matches!(token.text, "fragment" | "result" | "program" | "state" | "texture" | "vertex" | "END");
         if token.kind == Kind::Word && !reserved && !self.names.contains_key(token.text) {
@@ -144,99 +144,6 @@ impl<'a> Parser<'a> {
         let old = self.names.get(token.text).cloned().ok_or_else(|| unknown(token, "a name", "declare it first"))?;
         self.names.insert(name, old);
         Ok(())
-    }
-
-    /// `PARAM a = {1, 2};`, `PARAM b[2] = { program.local[0..1] };`
-    fn parameter(&mut self) -> Parsed<()> {
-        let name = self.new_name()?;
-        if !self.cursor.accept("[") {
-            self.cursor.expect("=", "a parameter stands for a constant or for something that the host sets")?;
-            let value = self.element()?;
-            self.names.insert(name, value);
-            return Ok(());
-        }
-        let counted = self.cursor.peek();
-        let count = if counted.text == "]" { None } else { Some(operand::index(&mut self.cursor, MOST_PARAMETER)?) };
-        self.cursor.expect("]", "close the brackets")?;
-        self.cursor.expect("=", "an array stands for several constants")?;
-        self.cursor.expect("{", "an array's elements stand between braces")?;
-        let mut all = Vec::new();
-        loop {
-            self.elements(&mut all)?;
-            if !self.cursor.accept(",") {
-                break;
-            }
-        }
-        self.cursor.expect("}", "close the array")?;
-        if let Some(count) = count.filter(|&n| usize::from(n) != all.len()) {
-            return Err(SyntaxError::new(
-                ErrorKind::ValueCount,
-                counted.span,
-                format!("{count} elements"),
-                format!("{} elements", all.len()),
-                "an array has as many elements as it says",
-            ));
-        }
-        self.names.insert(name, Name::Array(all));
-        Ok(())
-    }
-
-    /// One constant or bound parameter.
-    fn element(&mut self) -> Parsed<Name> {
-        if self.cursor.peek().text != "program" {
-            self.no_state()?;
-            return operand::constant(&mut self.cursor).map(Name::Constant);
-        }
-        let (first, last) = self.program_range()?;
-        if first.index == last {
-            return Ok(Name::Register(first));
-        }
-        Err(self.cursor.unexpected("one parameter", "a range of parameters belongs into an array"))
-    }
-
-    /// One element of an array, or a range of them.
-    fn elements(&mut self, all: &mut Vec<Name>) -> Parsed<()> {
-        if self.cursor.peek().text != "program" {
-            let one = self.element()?;
-            all.push(one);
-            return Ok(());
-        }
-        let (first, last) = self.program_range()?;
-        all.extend((first.index..=last).map(|n| Name::Register(Register::new(first.file, n))));
-        Ok(())
-    }
-
-    /// `program.local[3]` or `program.env[0..4]`: the first register and the number of the last.
-    fn program_range(&mut self) -> Parsed<(Register, u16)> {
-        self.cursor.next();
-        self.cursor.expect(".", "parameters are program.local[0] or program.env[0]")?;
-        let token = self.cursor.next();
-        let base = match token.text {
-            "local" => 0,
-            "env" => FIRST_ENVIRONMENT,
-            _ => return Err(unknown(token, "local or env", "parameters are program.local[0] or program.env[0]")),
-        };
-        self.cursor.expect("[", "parameters are numbered")?;
-        let first = operand::index(&mut self.cursor, MOST_PARAMETER)?;
-        let mut last = first;
-        if self.cursor.accept("..") {
-            let place = self.cursor.peek();
-            last = operand::index(&mut self.cursor, MOST_PARAMETER)?;
-            if last < first {
-                return Err(unknown(place, "a number not below the first", "a range goes up"));
-            }
-        }
-        self.cursor.expect("]", "close the brackets")?;
-        Ok((Register::new(RegisterFile::Constant, base + first), base + last))
-    }
-
-    fn no_state(&mut self) -> Parsed<()> {
-        let token = self.cursor.peek();
-        if token.text != "state" {
-            return Ok(());
-        }
-        let help = "this card has no fixed pipeline: set program.local or program.env from outside";
-        Err(unknown(token, "a constant or program.*", help))
     }
 
     fn instruction(&mut self, token: Token<'a>, mnemonic: Mnemonic) -> Parsed<Instruction> {
@@ -415,40 +322,12 @@ impl<'a> Parser<'a> {
             )),
         }
     }
-
-    /// `fragment.color.secondary`, `fragment.texcoord[1]`
-    fn attribute(&mut self) -> Parsed<Register> {
-        let start = self.cursor.next();
-        let help = "attributes are fragment.color, fragment.texcoord[0] and so on";
-        if start.text != "fragment" {
-            return Err(unknown(start, "fragment.*", help));
-        }
-        self.cursor.expect(".", help)?;
-        let token = self.cursor.next();
-        Ok(match token.text {
-            "fogcoord" => Register::new(RegisterFile::FogIn, 0),
-            "position" => Register::new(RegisterFile::WindowPosition, 0),
-            "texcoord" => {
-                let mut number = 0;
-                if self.cursor.accept("[") {
-                    number = operand::index(&mut self.cursor, 7)?;
-                    self.cursor.expect("]", "close the brackets")?;
-                }
-                Register::new(RegisterFile::Texture, number)
-            }
-            "color" => {
-                let which = self.cursor.after_point(&["primary", "secondary"]);
-                Register::new(RegisterFile::Input, u16::from(which == Some("secondary")))
-            }
-            _ => return Err(unknown(token, "color, texcoord, fogcoord or position", help)),
-        })
-    }
 }
 
 fn is_written(file: RegisterFile) -> bool {
     matches!(file, RegisterFile::Temp | RegisterFile::ColorOut | RegisterFile::DepthOut)
 }
 
-fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
+pub(super) fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
     SyntaxError::new(ErrorKind::UnknownRegister, token.span, expected, token.found(), help)
 }

@@ -1,9 +1,10 @@
 //! OpenGL's fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
 //!
 //! - `token`: the text in pieces; `operand`: what both languages share of operands and numbers; `build`: the program as it
-//!   grows; `nv`, `arb`: the two languages; `print`: back to text.
+//!   grows; `nv`, `arb` with `arb_names`: the two languages; `print`: back to text.
 
 mod arb;
+mod arb_names;
 mod build;
 mod nv;
 mod operand;

@@ -19,7 +19,7 @@ const SINGLE: u32 = 2u;
 const WRAPPED: u32 = 3u;
 const ITERATOR: u32 = 4u;
 
-// The format of an index above; from 5 on those of the draw's own.
+// The format of an index above; from 5 on those of the draw's own, 9 and 10 the half and fixed precision of OpenGL's programs.
 fn format(k: u32) -> Format {
     let at = 8u * k;
     return Format(

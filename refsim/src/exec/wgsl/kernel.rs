@@ -3,6 +3,7 @@
 use super::number::{Operation, format_words, source_word};
 use super::{INTERFACE, target};
 use crate::device::Rules;
+use crate::exec::FragmentFormats;
 use crate::num::{Format, Kind, Overflow, ops};
 use crate::output::{BlendEquation, BlendFactor, BlendOp, CompareFunction, DepthFormat, OutputRules, OutputState};
 use crate::raster::{COMPONENTS, ComponentMask, TriangleSetup};
@@ -28,46 +29,46 @@ pub const SAVED_ROWS: usize = 21;
 /// The comparison of [`DrawWords`] that stands for no depth test.
 const NO_TEST: u32 = 16;
 
-/// Where things lie in `draw`: after nine formats of eight words.
+/// Where things lie in `draw`: after eleven formats of eight words.
 const FIELDS: [(&str, usize); 25] = [
-    ("D_STRIDE", 72),
-    ("D_SETUP_WORDS", 73),
-    ("D_GROUPS", 74),
-    ("D_TILES", 75),
+    ("D_STRIDE", 88),
+    ("D_SETUP_WORDS", 89),
+    ("D_GROUPS", 90),
+    ("D_TILES", 91),
     // Set of orders, reference.
-    ("D_ALPHA", 76),
+    ("D_ALPHA", 92),
     // Set of orders, whether it writes.
-    ("D_DEPTH", 78),
-    ("D_DEPTH_FORMAT", 80),
-    ("D_DEPTH_SCALE", 81),
-    ("D_DEPTH_BASE", 82),
-    ("D_DEPTH_WIDTH", 83),
-    ("D_DEPTH_NEAREST", 84),
-    ("D_NEAREST", 85),
+    ("D_DEPTH", 94),
+    ("D_DEPTH_FORMAT", 96),
+    ("D_DEPTH_SCALE", 97),
+    ("D_DEPTH_BASE", 98),
+    ("D_DEPTH_WIDTH", 99),
+    ("D_DEPTH_NEAREST", 100),
+    ("D_NEAREST", 101),
     // Whether it is on, the equation of colours, that of alpha.
-    ("D_BLEND", 86),
-    ("D_CONVERTS", 94),
+    ("D_BLEND", 102),
+    ("D_CONVERTS", 110),
     // How many conversions of weights, of values, and the format that those come from.
-    ("D_CONVERTS_BACK", 95),
+    ("D_CONVERTS_BACK", 111),
     // Steps of interpolation.
-    ("D_STEPS", 97),
+    ("D_STEPS", 113),
     // Row of `scratch`, whether this goes on with a dispatch, loop passes of an invocation, of a triangle.
-    ("D_SAVE", 128),
-    ("D_RESUMES", 129),
-    ("D_BUDGET", 130),
-    ("D_COST", 131),
+    ("D_SAVE", 144),
+    ("D_RESUMES", 145),
+    ("D_BUDGET", 146),
+    ("D_COST", 147),
     // Two numbers to multiply by adding.
-    ("D_PROOF", 132),
+    ("D_PROOF", 148),
     // How many, then their numbers.
-    ("D_COMPONENTS", 134),
-    ("D_TARGETS", 176),
+    ("D_COMPONENTS", 150),
+    ("D_TARGETS", 192),
     // Where records begin in `video`, words of each, how many words of steps are kept, and from which on.
-    ("D_FOLLOW", 176 + 4 * target::WORDS),
-    ("D_END", 180 + 4 * target::WORDS),
+    ("D_FOLLOW", 192 + 4 * target::WORDS),
+    ("D_END", 196 + 4 * target::WORDS),
 ];
 
 /// Words of `draw` that the kernel reads.
-pub const DRAW_WORDS: usize = 180 + 4 * target::WORDS;
+pub const DRAW_WORDS: usize = 196 + 4 * target::WORDS;
 
 /// Loop passes of finding out whether a triangle covers anything.
 const LOOK_COST: u32 = 12;
@@ -199,6 +200,7 @@ impl DrawWords {
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| state.components.has(c)).collect();
         let mut words = Self { words: vec![0; DRAW_WORDS], components, iterator: rules.iterator_format };
         let main = rules.format;
+        let fragment = FragmentFormats::new(rules);
         let formats = [
             main,
             rules.partial.unwrap_or(main),
@@ -209,6 +211,8 @@ impl DrawWords {
             Format::FP24,
             Format::FP32,
             rules.vertex_format,
+            fragment.half,
+            fragment.fixed,
         ];
         for (k, format) in formats.iter().enumerate() {
             words.put(8 * k, &format_words(format));

@@ -64,6 +64,12 @@ pub enum ProgramError {
         /// Constants.
         constants: usize,
     },
+    /// An operation that no shader of ours carries out.
+    #[error("{operation} is not computed on GPUs; use another executor")]
+    Operation {
+        /// What it is.
+        operation: &'static str,
+    },
     /// The rules name a format that no executor computes in.
     #[error("no arithmetic for the register format {format}; choose another profile")]
     Format {
@@ -96,7 +102,7 @@ impl PixelShader {
     /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`.
     ///
     /// # Errors
-    /// [`ProgramError::Format`].
+    /// [`ProgramError::Format`], [`ProgramError::Operation`].
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>) -> Result<Self, ProgramError> {
         Self::prepare(checked, rules, bindings, false)
     }
@@ -104,7 +110,7 @@ impl PixelShader {
     /// As [`Self::new`], and what each instruction writes in the followed lane is put down ([`trace_steps`]).
     ///
     /// # Errors
-    /// [`ProgramError::Format`].
+    /// [`ProgramError::Format`], [`ProgramError::Operation`].
     pub fn traced(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>) -> Result<Self, ProgramError> {
         Self::prepare(checked, rules, bindings, true)
     }
@@ -116,7 +122,11 @@ impl PixelShader {
         traced: bool,
     ) -> Result<Self, ProgramError> {
         let formats = pixel_formats(rules).ok_or(ProgramError::Format { format: rules.format })?;
-        Ok(Self { lowered: Lowered::pixel(program(checked), rules, &formats, bindings, traced) })
+        let lowered = Lowered::pixel(program(checked), rules, &formats, bindings, traced);
+        match lowered.missing() {
+            Some(operation) => Err(ProgramError::Operation { operation }),
+            None => Ok(Self { lowered }),
+        }
     }
 
     /// The words for [`machine`].

@@ -1,12 +1,13 @@
 //! What a followed lane put down, as steps.
 
 use crate::device::Rules;
+use crate::exec::batch::fragment::of_file;
 use crate::exec::batch::graph::Arith;
 use crate::exec::batch::program::pixel_formats;
 use crate::exec::trace::as_written;
 use crate::exec::{CheckedProgram, Step, inputs_read, program};
 use crate::isa::{Mask, Program, Register, RegisterFile};
-use crate::num::Flags;
+use crate::num::{Flags, ops};
 use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
 
 /// Words that an executed instruction puts down: its number, the components written, four raw values. Input registers come
@@ -18,14 +19,18 @@ pub const TRACE_WORDS: usize = 6;
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
     let Some(formats) = pixel_formats(rules) else { return Vec::new() };
-    let main = formats.lane(Arith::Main);
+    let fragment = source.version.is_fragment_program();
     let step = |words: &[u32]| {
         let (instruction, mask) = (words[0] as usize, Mask((words[1] & 15) as u8));
         let destination = source.instructions.get(instruction).and_then(|i| i.destination);
+        let arith = destination.map_or(Arith::Main, |d| of_file(d.register.file));
+        let (lane_of, format) = (formats.lane(arith), formats.format(arith));
         let is_predicate = destination.is_some_and(|d| d.register.file == RegisterFile::Predicate);
         let value = [2, 3, 4, 5].map(|i| match words[i] {
             raw if is_predicate => u32::from(raw != 0),
-            raw => main.encode(raw),
+            // A packed word is shown as the number that it is a pattern of.
+            raw if fragment => ops::convert(&format, format, lane_of.encode(raw)).bits,
+            raw => lane_of.encode(raw),
         });
         as_written(Step { instruction, lane, mask, value, flags: Flags::empty() }, source)
     };
@@ -50,7 +55,7 @@ pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -
 pub(super) fn delivered_registers(program: &Program) -> Vec<Register> {
     let reads = inputs_read(program);
     let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
-    let sets = (0u16..8).filter(|_| program.version.is_ps_2());
+    let sets = (0u16..8).filter(|_| program.version.reads_coordinates());
     let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
     let read = |(register, first): &(Register, usize)| reads.has(first + 4 * usize::from(register.index));
     colors.chain(sets).filter(read).map(|(register, _)| register).collect()
