@@ -1,6 +1,6 @@
 //! Facts about the opcode table and the other types of `refsim::isa`.
 
-use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Span, Stage, Version};
+use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Span, Spelling, Stage, Version};
 use std::collections::BTreeMap;
 
 #[test]
@@ -73,6 +73,19 @@ fn versions_have_as_many_operations_as_the_reference_lists() {
         ("vs_2_0", 45),
     ];
     assert_eq!(counts, want);
+}
+
+#[test]
+fn fragment_programs_have_the_instructions_of_their_specifications() {
+    let names = |version| -> Vec<&str> {
+        Spelling::ALL.iter().filter(|s| s.opcode.info().available(version)).map(|s| s.name).collect()
+    };
+    assert_eq!((names(Version::Fp1_0).len(), names(Version::ArbFp1_0).len()), (45, 33));
+    for version in Version::FRAGMENT {
+        let spelt = Opcode::ALL.iter().filter(|o| o.info().available(version)).all(|&o| Spelling::of(o).is_some());
+        assert!(spelt, "{version}");
+    }
+    assert!(Spelling::ALL.iter().map(|s| s.name).is_sorted(), "in the order of the names");
 }
 
 #[test]
