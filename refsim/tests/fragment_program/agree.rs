@@ -17,7 +17,9 @@ const DEVICES: [&str; 5] = ["nv35", "ideal-e8m23", "ideal-e5m10", "ideal-s3.12",
 /// Statements in front of every program.
 fn header(version: Version) -> String {
     let rest = match version {
-        Version::Fp1_0 => "DEFINE half = 0.5;\nDECLARE gain = {1, 2};\nDECLARE none;\n".to_owned() + &fill("f[TEX", "p["),
+        Version::Fp1_0 => {
+            "DEFINE half = 0.5;\nDECLARE gain = {1, 2};\nDECLARE none;\n".to_owned() + &fill("f[TEX", "p[")
+        }
         _ => {
             let names: Vec<String> = (0..8).map(|n| format!("R{n}")).collect();
             let temporaries = format!("TEMP {};\nPARAM half = 0.5;\nPARAM gain = {{1, 2}};\n", names.join(", "));
