@@ -39,14 +39,16 @@ const CROSSBAR: Law = (
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
+        ("radiosity", &["card", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
         ("renderer", &["geom", "scene", "linalg"]),
-        ("study", &["ray_engine", "renderer", "report", "card", "geom", "scene", "linalg", "io"]),
+        ("study", &["ray_engine", "radiosity", "renderer", "report", "card", "geom", "scene", "linalg", "io"]),
         (
             "cli",
             &[
                 "study",
                 "ray_engine",
+                "radiosity",
                 "renderer",
                 "case",
                 "compare",

@@ -7,18 +7,22 @@
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
 //! - [`angle`]: sine and cosine with the same bits everywhere;
 //! - [`cast`]: whoever finds first hits, seen from those who ask;
+//! - [`elementary`]: logarithm and arc tangent with the same bits everywhere;
+//! - [`vector`]: three f64;
 //! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
 
 pub mod aimed;
 pub mod angle;
 pub mod cast;
 pub mod classify;
+pub mod elementary;
 pub mod exact;
 pub mod mesh;
 pub mod random;
 pub mod ray;
 pub mod teapot;
 mod teapot_table;
+pub mod vector;
 
 pub use cast::{CastError, Caster, Hit};
 pub use exact::{ExactT, NearestHit, Sides};

@@ -18,6 +18,7 @@ mod mutation;
 mod octree;
 mod oracle;
 mod outputs;
+mod radiosity;
 mod ray_tree;
 mod scene_files;
 mod timing;

@@ -1,5 +1,6 @@
 //! What the papers print, and what follows from it.
 
+mod radiosity;
 mod ray_cache;
 mod ray_engine;
 mod reproduce;

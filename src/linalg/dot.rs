@@ -1,0 +1,37 @@
+//! The inner product.
+
+/// Partial sums side by side: enough to keep a processor's adders busy.
+const LANES: usize = 8;
+
+/// The inner product of two vectors, as long as the shorter one. Element k goes to partial sum k mod 8; the eight are folded
+/// as a tree. With n elements the result is within `(n / 8 + 4) 2^-53` of the sum of the products' magnitudes.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    for (x, y) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    for (lane, (x, y)) in a_rest.iter().zip(b_rest).enumerate() {
+        sums[lane] += x * y;
+    }
+    let [s0, s1, s2, s3, s4, s5, s6, s7] = sums;
+    ((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_come_out_exact_at_any_length() {
+        for n in 0..40 {
+            let a: Vec<f64> = (0..n).map(f64::from).collect();
+            let b: Vec<f64> = (0..n).map(|k| f64::from(k % 5) - 2.0).collect();
+            let sum: f64 = a.iter().zip(&b).map(|(x, y)| x * y).sum();
+            assert_eq!(dot(&a, &b), sum);
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! Equation 4 in f32, operation by operation in the order of a card's passes: what the fragment programs have to give, to the bit.
+//!
+//! With `A = diag(M)^-1 M` and `e = diag(M)^-1 E`, both made in f64 and rounded once, row i of a step is
+//!
+//! - pass 0 starts from `B_i + e_i`, later passes from what the pass before left;
+//! - each takes `A_ij B_j` off for its block of texels, j rising: a product, rounded, then a difference, rounded;
+//! - with four elements a texel the four partial sums of a block start from 0, are added up from the left at its end, and then to
+//!   what was there.
+
+use rayon::prelude::*;
+
+use super::System;
+use super::packing::{self, Packing, Texels, TooLarge};
+use crate::linalg::Matrix;
+
+/// Rows that one worker takes at a time.
+const ROWS: usize = 16;
+
+/// A system as it lies in the card's textures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CardSystem {
+    packing: Packing,
+    /// Patches.
+    size: usize,
+    /// Texels of a block.
+    block: usize,
+    matrix: Texels,
+    emittance: Texels,
+}
+
+impl CardSystem {
+    /// All three channels of a system, one texel an element. `block` texels a pass, at least 1; textures of at most `limit` texels a side.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, TooLarge> {
+        let size = system.factors().len();
+        let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
+        let matrices = [0, 1, 2].map(|c| {
+            let (matrix, diagonal) = divided(system.matrix(c));
+            right.iter_mut().zip(diagonal).for_each(|(e, d)| e[c] /= d);
+            matrix
+        });
+        let matrix = packing::rgb_matrix([&matrices[0], &matrices[1], &matrices[2]], limit)?;
+        let emittance = packing::rgb_vector(&right, limit)?;
+        Ok(Self { packing: Packing::Rgb, size, block: block.max(1), matrix, emittance })
+    }
+
+    /// One channel, given as matrix and right side, four elements a texel.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
+        let size = matrix.size();
+        let (matrix, diagonal) = divided(matrix);
+        let right: Vec<f64> = right.iter().zip(diagonal).map(|(e, d)| e / d).collect();
+        let matrix = packing::luminance_matrix(&matrix, limit)?;
+        let emittance = packing::luminance_vector(&right, limit)?;
+        Ok(Self { packing: Packing::Luminance, size, block: block.max(1), matrix, emittance })
+    }
+
+    /// How elements lie in texels.
+    #[must_use]
+    pub fn packing(&self) -> Packing {
+        self.packing
+    }
+
+    /// How many patches.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.size
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.size == 0
+    }
+
+    /// Texels of a block.
+    #[must_use]
+    pub fn block(&self) -> usize {
+        self.block
+    }
+
+    /// A's texture.
+    #[must_use]
+    pub fn matrix(&self) -> &Texels {
+        &self.matrix
+    }
+
+    /// e's texture.
+    #[must_use]
+    pub fn emittance(&self) -> &Texels {
+        &self.emittance
+    }
+
+    /// Passes an iteration: the matrix's width over the block's.
+    #[must_use]
+    pub fn passes(&self) -> usize {
+        self.matrix.width.div_ceil(self.block)
+    }
+
+    /// A texture of zeros, where an iteration begins.
+    #[must_use]
+    pub fn zero(&self) -> Texels {
+        Texels { width: self.emittance.width, height: 1, texels: vec![[0.0; 4]; self.emittance.width] }
+    }
+
+    /// One pass: `radiosity` is the last iteration's, `partial` what the pass before left (pass 0 does not read it).
+    ///
+    /// # Panics
+    /// If a texture is too small, or there is no such pass.
+    #[must_use]
+    pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
+        self.watched(radiosity, partial, pass, |_| ()).0
+    }
+
+    /// One iteration: all passes.
+    #[must_use]
+    pub fn step(&self, radiosity: &Texels) -> Texels {
+        (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
+    }
+
+    /// A pass, and what `watch` made of the results of each row's operations.
+    pub(super) fn watched<W: Watch>(
+        &self,
+        radiosity: &Texels,
+        partial: &Texels,
+        pass: usize,
+        new_watch: impl Fn(usize) -> W + Sync,
+    ) -> (Texels, Vec<W>) {
+        let from = pass * self.block;
+        let to = (from + self.block).min(self.matrix.width);
+        let row = |i: usize| {
+            let mut watch = new_watch(i);
+            let matrix = &self.matrix.row(i)[from..to];
+            let b = &radiosity.texels[from..to];
+            let value = match self.packing {
+                Packing::Rgb => {
+                    let begin =
+                        begin(pass, radiosity.texels[i], self.emittance.texels[i], partial.texels[i], &mut watch);
+                    rgb_row(begin, matrix, b, &mut watch)
+                }
+                Packing::Luminance => {
+                    let (x, c) = (i / 4, i % 4);
+                    let pick = |texels: &Texels| [texels.texels[x][c]; 4];
+                    let begin = begin(pass, pick(radiosity), pick(&self.emittance), pick(partial), &mut watch);
+                    [luminance_row(begin[0], matrix, b, &mut watch); 4]
+                }
+            };
+            (value, watch)
+        };
+        let rows = self.matrix.height;
+        let (values, watches): (Vec<[f32; 4]>, Vec<W>) = (0..rows).into_par_iter().with_min_len(ROWS).map(row).unzip();
+        let texels = match self.packing {
+            Packing::Rgb => values,
+            Packing::Luminance => {
+                values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
+            }
+        };
+        (Texels { width: self.emittance.width, height: 1, texels }, watches)
+    }
+}
+
+/// Hears the result of every rounded operation of a row, four at a time, one a channel.
+pub(super) trait Watch: Send {
+    /// Of a product.
+    fn product(&mut self, value: [f32; 4]);
+    /// Of a sum or difference.
+    fn sum(&mut self, value: [f32; 4]);
+}
+
+impl Watch for () {
+    fn product(&mut self, _: [f32; 4]) {}
+    fn sum(&mut self, _: [f32; 4]) {}
+}
+
+fn begin<W: Watch>(pass: usize, b: [f32; 4], e: [f32; 4], partial: [f32; 4], watch: &mut W) -> [f32; 4] {
+    if pass > 0 {
+        return partial;
+    }
+    let sum = [0, 1, 2, 3].map(|c| b[c] + e[c]);
+    watch.sum(sum);
+    sum
+}
+
+/// `MAD acc, -m, b, acc` a texel.
+fn rgb_row<W: Watch>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]], watch: &mut W) -> [f32; 4] {
+    for (m, b) in matrix.iter().zip(b) {
+        let product = [m[0] * b[0], m[1] * b[1], m[2] * b[2], m[3] * b[3]];
+        acc = [acc[0] - product[0], acc[1] - product[1], acc[2] - product[2], acc[3] - product[3]];
+        watch.product(product);
+        watch.sum(acc);
+    }
+    acc
+}
+
+/// The same on four elements of the row at a time; then their sum from the left (`DP4` with ones), and what was there.
+fn luminance_row<W: Watch>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], watch: &mut W) -> f32 {
+    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b, watch);
+    let (two, three, four) = (x + y, (x + y) + z, ((x + y) + z) + w);
+    let sum = begin + four;
+    watch.sum([two, three, four, sum]);
+    sum
+}
+
+/// A matrix with each row over its diagonal element, and the diagonal.
+fn divided(mut matrix: Matrix) -> (Matrix, Vec<f64>) {
+    let diagonal = matrix.diagonal();
+    for (i, &d) in diagonal.iter().enumerate() {
+        matrix.row_mut(i).iter_mut().for_each(|value| *value /= d);
+    }
+    (matrix, diagonal)
+}

@@ -1,0 +1,127 @@
+//! What form factors must satisfy, and how they are made to.
+
+use rayon::prelude::*;
+
+use super::{FormFactorError, FormFactors, mirror};
+
+/// Rounds of scaling before giving up; each halves the logarithm of what is left, or better.
+const MOST_ROUNDS: u32 = 500;
+/// Rows within this of 1 count as scaled.
+const SCALED: f64 = 1e-13;
+
+/// How rows sum up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowSums {
+    /// The smallest sum.
+    pub least: f64,
+    /// The largest sum.
+    pub most: f64,
+    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the areas.
+    pub escaping: f64,
+    /// Patches that see nothing at all, such as those under a block.
+    pub blind: usize,
+}
+
+impl FormFactors {
+    /// The sum of each row: 1 for a patch from which all light arrives somewhere.
+    #[must_use]
+    pub fn row_sums(&self) -> Vec<f64> {
+        self.matrix.times(&vec![1.0; self.len()])
+    }
+
+    /// What the row sums say of the room. All zero for no patches.
+    #[must_use]
+    pub fn summary(&self) -> RowSums {
+        let sums = self.row_sums();
+        let fold = |start: f64, f: fn(f64, f64) -> f64| {
+            if sums.is_empty() { 0.0 } else { sums.iter().copied().fold(start, f) }
+        };
+        let (area, leaving) =
+            self.areas.iter().zip(&sums).fold((0.0, 0.0), |(a, l), (x, s)| (a + x, l + x * (1.0 - s)));
+        RowSums {
+            least: fold(f64::INFINITY, f64::min),
+            most: fold(f64::NEG_INFINITY, f64::max),
+            escaping: if area > 0.0 { leaving / area } else { 0.0 },
+            blind: sums.iter().filter(|&&sum| sum == 0.0).count(),
+        }
+    }
+
+    /// The largest difference between A_i F_ij and A_j F_ji, as a share of the larger of the two.
+    #[must_use]
+    pub fn reciprocity_error(&self) -> f64 {
+        let of_row = |i: usize| {
+            let row = self.matrix.row(i);
+            let pairs = (0..i).map(|j| (self.areas[i] * row[j], self.areas[j] * self.matrix.row(j)[i]));
+            pairs.filter(|(a, b)| a != b).map(|(a, b)| (a - b).abs() / a.max(b)).fold(0.0, f64::max)
+        };
+        (0..self.len()).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
+    }
+
+    /// Every row within `tolerance` of 1.
+    ///
+    /// # Errors
+    /// [`FormFactorError::Open`] names the patch farthest from it.
+    pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
+        let sums = self.row_sums();
+        let open = sums.iter().filter(|&&sum| !((sum - 1.0).abs() <= tolerance)).count();
+        if open == 0 {
+            return Ok(());
+        }
+        let (patch, sum) = farthest(&sums);
+        Err(FormFactorError::Open { patch, sum, open, patches: sums.len(), tolerance })
+    }
+
+    /// Makes A_i F_ij and A_j F_ji equal: both become their mean.
+    pub fn enforce_reciprocity(&mut self) {
+        let n = self.len();
+        for i in 0..n {
+            for j in i + 1..n {
+                let (a, b) = (self.areas[i], self.areas[j]);
+                let mean = 0.5 * (a * self.matrix.row(i)[j] + b * self.matrix.row(j)[i]);
+                self.matrix.row_mut(i)[j] = mean / a;
+                self.matrix.row_mut(j)[i] = mean / b;
+            }
+        }
+    }
+
+    /// Makes every row sum to 1 and keeps reciprocity: factors are scaled by d_i d_j, the d found by Sinkhorn and Knopp's iteration
+    /// (1967) in its symmetric form. Rows without any light stay as they are.
+    ///
+    /// # Errors
+    /// [`FormFactorError::NoScaling`] if there is no such scaling, or none was found. The factors are then as they were.
+    pub fn enforce_closure(&mut self) -> Result<(), FormFactorError> {
+        self.enforce_reciprocity();
+        let mut scale = vec![1.0; self.len()];
+        let mut sums = Vec::new();
+        for _ in 0..MOST_ROUNDS {
+            sums = self.matrix.times(&scale);
+            sums.iter_mut().zip(&scale).for_each(|(sum, d)| *sum = if *sum > 0.0 { *sum * d } else { 1.0 });
+            if sums.iter().all(|sum| (sum - 1.0).abs() <= SCALED) {
+                self.scale(&scale);
+                return Ok(());
+            }
+            scale.iter_mut().zip(&sums).for_each(|(d, sum)| *d /= sum.sqrt());
+        }
+        let (patch, sum) = farthest(&sums);
+        Err(FormFactorError::NoScaling { rounds: MOST_ROUNDS, patch, sum })
+    }
+
+    /// F_ij becomes d_i F_ij d_j; reciprocal to the last bit but one.
+    fn scale(&mut self, scale: &[f64]) {
+        let areas = &self.areas;
+        self.matrix.par_rows_mut().enumerate().for_each(|(i, row)| {
+            for (value, d) in row.iter_mut().zip(scale).skip(i) {
+                *value = *value * areas[i] * (scale[i] * d);
+            }
+        });
+        mirror(&mut self.matrix);
+        self.matrix.par_rows_mut().zip(areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
+    }
+}
+
+/// The row farthest from 1, the first of equals, and its sum. Zero and zero for no rows.
+fn farthest(sums: &[f64]) -> (usize, f64) {
+    let off = |sum: f64| if sum.is_nan() { f64::INFINITY } else { (sum - 1.0).abs() };
+    let start = (0, sums.first().copied().unwrap_or(0.0));
+    sums.iter().copied().enumerate().fold(start, |best, here| if off(here.1) > off(best.1) { here } else { best })
+}

@@ -1,0 +1,104 @@
+//! The exchange of two polygons that see all of each other, as integrals around their outlines (Stokes' theorem, twice):
+//!
+//! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, a and b the unit directions of the sides.
+//!
+//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the logarithm has its pole,
+//! are done in closed form altogether. See docs/papers/radiosity.md for the error.
+
+use std::f64::consts::PI;
+
+use super::gauss::EIGHT;
+use crate::geom::elementary::{atan2, ln};
+use crate::geom::vector::{Vec3, add, dot, length, scale, sub, unit};
+
+/// Directions nearer to a right angle than this add nothing.
+const ACROSS: f64 = 1e-14;
+/// Sides are on one line if they are no farther from it than this, in shares of their length.
+const ON_LINE: f64 = 1e-9;
+
+/// A side of a polygon.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    start: Vec3,
+    direction: Vec3,
+    length: f64,
+}
+
+/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from its front, and
+/// lies wholly in front of the other's plane.
+pub(super) fn exchange(one: &[Vec3], other: &[Vec3]) -> f64 {
+    let others: Vec<Side> = sides(other).collect();
+    let mut sum = 0.0;
+    for a in sides(one) {
+        for b in &others {
+            let along = dot(a.direction, b.direction);
+            if along.abs() > ACROSS {
+                sum += along * logarithm_between(&a, b);
+            }
+        }
+    }
+    sum / (2.0 * PI)
+}
+
+fn sides(polygon: &[Vec3]) -> impl Iterator<Item = Side> + '_ {
+    (0..polygon.len()).filter_map(|i| {
+        let (start, end) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+        let vector = sub(end, start);
+        Some(Side { start, direction: unit(vector)?, length: length(vector) })
+    })
+}
+
+/// The integral of ln r over both sides.
+fn logarithm_between(a: &Side, b: &Side) -> f64 {
+    let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
+    let off = ON_LINE * a.length.max(b.length);
+    if near[1] <= off && far[1] <= off {
+        // The integral does not ask which way b runs.
+        return on_one_line(a.length, near[0].min(far[0]), near[0].max(far[0]));
+    }
+    let inner = |t: f64| {
+        let [along, away] = a.seen_from(b.at(t));
+        from_point(a.length - along, away) - from_point(-along, away)
+    };
+    let sum = |value: &dyn Fn(f64) -> f64| EIGHT.iter().map(|&(t, weight)| weight * value(t)).sum::<f64>();
+    // From where sides meet the inner integral goes like s ln s: points gather there, so that eight are enough.
+    b.length
+        * match [near, far].map(|[along, away]| away <= off && along >= -off && along <= a.length + off) {
+            [true, _] => sum(&|t| 2.0 * t * inner(t * t)),
+            [_, true] => sum(&|t| 2.0 * t * inner(1.0 - t * t)),
+            _ => sum(&inner),
+        }
+}
+
+impl Side {
+    fn at(&self, t: f64) -> Vec3 {
+        add(self.start, scale(t * self.length, self.direction))
+    }
+
+    fn end(&self) -> Vec3 {
+        self.at(1.0)
+    }
+
+    /// Where a point is as this side sees it: along its line from the start, and away from the line.
+    fn seen_from(&self, point: Vec3) -> [f64; 2] {
+        let to = sub(point, self.start);
+        let along = dot(to, self.direction);
+        [along, length(sub(to, scale(along, self.direction)))]
+    }
+}
+
+/// The integral of `ln sqrt(u^2 + away^2)` from 0 to u.
+fn from_point(u: f64, away: f64) -> f64 {
+    let square = u * u + away * away;
+    if square == 0.0 { 0.0 } else { 0.5 * u * ln(square) - u + away * atan2(u, away) }
+}
+
+/// The integral of `ln |s - t|` for s from 0 to `length` and t from `t0` to `t1`.
+fn on_one_line(length: f64, t0: f64, t1: f64) -> f64 {
+    (twice(t1) - twice(t1 - length)) - (twice(t0) - twice(t0 - length))
+}
+
+/// What `ln |u|` is the second derivative of.
+fn twice(u: f64) -> f64 {
+    if u == 0.0 { 0.0 } else { u * u * (0.5 * ln(u.abs()) - 0.75) }
+}

@@ -1,0 +1,111 @@
+//! The exchange of two patches: area times form factor, the same from either side.
+
+use std::f64::consts::PI;
+
+use super::gauss::{FIVE, Node, THREE};
+use super::{contour, polygon};
+use crate::geom::vector::{Vec3, dot, sub};
+use crate::radiosity::Patch;
+
+/// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points a direction.
+const FAR: f64 = 8.0;
+/// Between this and [`FAR`] they take five; nearer, the contour integral.
+const NEAR: f64 = 3.0;
+/// Corners may lie this far behind a plane, in shares of the patch's radius, and still count as in front of it or on it.
+const ON_PLANE: f64 = 1e-9;
+
+/// A patch with the points at which its far field is integrated.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared<'a> {
+    pub(super) patch: &'a Patch,
+    three: Vec<Weighted>,
+    five: Vec<Weighted>,
+}
+
+/// A point and the area for which it stands.
+type Weighted = (Vec3, f64);
+
+impl<'a> Prepared<'a> {
+    pub(super) fn new(patch: &'a Patch) -> Self {
+        Self { patch, three: points(patch, &THREE), five: points(patch, &FIVE) }
+    }
+}
+
+fn points(patch: &Patch, rule: &[Node]) -> Vec<Weighted> {
+    let mut points = Vec::with_capacity(rule.len() * rule.len());
+    for &(v, across) in rule {
+        for &(u, along) in rule {
+            let point = patch.at(u, v);
+            points.push((point.at, point.density * across * along));
+        }
+    }
+    points
+}
+
+/// How two patches lie to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Facing {
+    /// All of each is in front of the other.
+    Wholly,
+    /// The plane of one cuts the other.
+    Partly,
+    /// One is behind the other.
+    Not,
+}
+
+fn facing(one: &Patch, other: &Patch) -> Facing {
+    if one.face == other.face {
+        return Facing::Not;
+    }
+    let mut found = Facing::Wholly;
+    for (from, to) in [(one, other), (other, one)] {
+        let tolerance = ON_PLANE * to.radius();
+        let heights = to.corners().iter().map(|&corner| from.height(corner));
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+        if high <= tolerance {
+            return Facing::Not;
+        }
+        if low < -tolerance {
+            found = Facing::Partly;
+        }
+    }
+    found
+}
+
+/// Area of one patch times its form factor to the other, with nothing between them.
+pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
+    let (p, q) = (one.patch, other.patch);
+    let facing = facing(p, q);
+    if facing == Facing::Not {
+        return 0.0;
+    }
+    if facing == Facing::Partly {
+        let (p_part, q_part) = (polygon::in_front_of(p.corners(), q), polygon::in_front_of(q.corners(), p));
+        return if p_part.len() < 3 || q_part.len() < 3 { 0.0 } else { contour::exchange(&p_part, &q_part).max(0.0) };
+    }
+    let apart = sub(q.centre(), p.centre());
+    let (square, radii) = (dot(apart, apart), p.radius() + q.radius());
+    if square >= FAR * FAR * radii * radii {
+        kernel_sum([p, q], &one.three, &other.three)
+    } else if square >= NEAR * NEAR * radii * radii {
+        kernel_sum([p, q], &one.five, &other.five)
+    } else {
+        contour::exchange(p.corners(), q.corners()).max(0.0)
+    }
+}
+
+fn kernel_sum([p, q]: [&Patch; 2], from: &[Weighted], to: &[Weighted]) -> f64 {
+    let mut sum = 0.0;
+    for &(x, weight) in from {
+        sum += weight * to.iter().map(|&(y, area)| area * kernel([p, q], x, y)).sum::<f64>();
+    }
+    sum
+}
+
+/// What a point of one patch and a point of the other exchange an area squared: the cosines at both over pi times the distance squared;
+/// 0 behind either.
+pub(super) fn kernel([p, q]: [&Patch; 2], x: Vec3, y: Vec3) -> f64 {
+    let to = sub(y, x);
+    let (cosines, square) = (dot(p.normal(), to).max(0.0) * (-dot(q.normal(), to)).max(0.0), dot(to, to));
+    if square > 0.0 { cosines / (PI * square * square) } else { 0.0 }
+}

@@ -1,0 +1,87 @@
+//! Form factors of rectangles in closed form: parallel ones, and ones at right angles. The contour integral of [`super::contour`] with
+//! both integrals done, which leaves a sum over the corners of both.
+//!
+//! The corner sums cancel: between small patches far apart, sixteen numbers of order 1 leave one of the order of the patches' areas
+//! multiplied. So each result comes with how far it can be from the truth (docs/papers/radiosity.md derives it), and whole matrices
+//! are not computed this way.
+
+use std::f64::consts::PI;
+
+use crate::geom::elementary::{atan2, ln};
+
+/// An interval, low end first.
+pub type Interval = [f64; 2];
+
+/// A number and how far it can be from the true one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded {
+    /// What was computed.
+    pub value: f64,
+    /// No less than the distance to the truth.
+    pub error: f64,
+}
+
+/// Roundings between the corners and the sum: 12 in a term, 16 in adding up; in units of 2^-53.
+const ROUNDINGS: f64 = 28.0;
+
+/// From the rectangle `one` (x and y intervals) at z = 0 to the rectangle `other` at height `apart`, above 0.
+#[must_use]
+pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded {
+    let part = |u: f64, v: f64| {
+        let away = (v * v + apart * apart).sqrt();
+        u * away * atan2(u, away)
+    };
+    corner_sum(one, other, |x, y, x2, y2| {
+        let (u, v) = (x - x2, y - y2);
+        let before = 0.5 * apart * apart;
+        ([part(u, v), part(v, u), -before * ln(u * u + v * v + apart * apart)], before)
+    })
+}
+
+/// From a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it, `other` at `up` (intervals
+/// that may begin at 0); each runs along y over an interval.
+#[must_use]
+pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounded {
+    corner_sum([out, y], [up, y2], |x, y, z, y2| {
+        let (square, v) = (x * x + z * z, y - y2);
+        let away = square.sqrt();
+        let all = square + v * v;
+        let logarithm = if all > 0.0 { 0.25 * ln(all) } else { 0.0 };
+        ([v * away * atan2(v, away), -square * logarithm, v * v * logarithm], 0.25 * all)
+    })
+}
+
+/// The signed sum of a corner function over all corners, over 2 pi and the area of the first; and the error that rounding can make.
+/// The function gives its terms, and what stands before its logarithm: near 1 a logarithm's rounding is not in proportion to it.
+fn corner_sum(
+    one: [Interval; 2],
+    other: [Interval; 2],
+    terms: impl Fn(f64, f64, f64, f64) -> ([f64; 3], f64),
+) -> Bounded {
+    let (mut sum, mut size) = (0.0, 0.0);
+    for corner in 0..16_usize {
+        let pick = |interval: Interval, bit: usize| interval[corner >> bit & 1];
+        let (found, before) = terms(pick(one[0], 0), pick(one[1], 1), pick(other[0], 2), pick(other[1], 3));
+        let [a, b, c] = if corner.count_ones() % 2 == 0 { found } else { found.map(|term| -term) };
+        sum += a + b + c;
+        size += a.abs() + b.abs() + c.abs() + before;
+    }
+    let area = (one[0][1] - one[0][0]) * (one[1][1] - one[1][0]);
+    let unit = 0.5 * f64::EPSILON;
+    Bounded { value: sum / (2.0 * PI * area), error: ROUNDINGS * unit * size / (2.0 * PI * area) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIDE: Interval = [0.0, 1.0];
+
+    #[test]
+    fn the_unit_cube() {
+        let (lid, wall) = (parallel([SIDE; 2], [SIDE; 2], 1.0), perpendicular([SIDE; 2], [SIDE; 2]));
+        assert!((lid.value - 0.199_824_895_698_387).abs() < 1e-15, "{lid:?}");
+        assert!((wall.value - 0.200_043_776_075_403).abs() < 1e-15, "{wall:?}");
+        assert!((lid.value + 4.0 * wall.value - 1.0).abs() <= lid.error + 4.0 * wall.error, "{lid:?} {wall:?}");
+    }
+}

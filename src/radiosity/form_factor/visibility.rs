@@ -1,0 +1,154 @@
+//! How much of what two patches could exchange gets through: rays between stratified points, weighted with the kernel of the integral.
+//!
+//! The weights make the share the right one for large samples, and exactly 1 where every ray gets through: a room without anything
+//! in it keeps its closed-form factors to the bit.
+
+use rayon::prelude::*;
+
+use super::exchange::kernel;
+use super::{FormFactorError, Patches};
+use crate::geom::random::Keyed;
+use crate::geom::vector::{Vec3, add, dot, length, scale, sub};
+use crate::geom::{Caster, Hit, Ray};
+use crate::linalg::Matrix;
+use crate::radiosity::Patch;
+
+/// Rays start this far in front of their patch, in shares of the scene's diagonal: farther than f32 corners and a tracer's
+/// rounding can be off, nearer than anything that one would model.
+const LIFT: f64 = 1.0 / 65_536.0;
+
+/// How visibility is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VisibilityParameters {
+    /// Strata along a side of a patch: the square of this many rays a pair. At least 1.
+    pub side: u32,
+    /// Names the random numbers.
+    pub seed: u64,
+    /// Rays that are traced at a time, about.
+    pub bundle: usize,
+}
+
+impl Default for VisibilityParameters {
+    fn default() -> Self {
+        Self { side: 3, seed: 1, bundle: 1 << 18 }
+    }
+}
+
+/// A ray between two patches, and what it counts for.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    weight: f64,
+    ray: Option<Ray>,
+    /// Hits from here on are at the far end.
+    arrives: f32,
+}
+
+/// Multiplies the factors above the diagonal with the share that gets through.
+pub(super) fn hide(
+    patches: &Patches,
+    factors: &mut Matrix,
+    caster: &mut dyn Caster,
+    parameters: VisibilityParameters,
+    done: &mut dyn FnMut(usize, usize),
+) -> Result<(), FormFactorError> {
+    if parameters.side == 0 {
+        return Err(FormFactorError::NoSamples);
+    }
+    let pairs: Vec<[u32; 2]> = factors
+        .rows()
+        .enumerate()
+        .flat_map(|(i, row)| (i + 1..row.len()).filter(|&j| row[j] > 0.0).map(move |j| [i as u32, j as u32]))
+        .collect();
+    let rays_a_pair = (parameters.side as usize).saturating_mul(parameters.side as usize);
+    let at_a_time = (parameters.bundle / rays_a_pair).max(1);
+    for (round, bundle) in pairs.chunks(at_a_time).enumerate() {
+        let samples: Vec<Sample> =
+            bundle.par_iter().flat_map_iter(|&pair| samples(patches, pair, parameters)).collect();
+        let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
+        let mut hits = caster.cast(&rays)?.into_iter();
+        for (&[i, j], samples) in bundle.iter().zip(samples.chunks(rays_a_pair)) {
+            let faces = [i, j].map(|patch| patches.list()[patch as usize].face);
+            factors.row_mut(i as usize)[j as usize] *= share(patches, faces, samples, &mut hits);
+        }
+        done((round * at_a_time + bundle.len()).min(pairs.len()), pairs.len());
+    }
+    Ok(())
+}
+
+/// The rays of a pair: a jittered point in each stratum of one patch, each with one of a stratum of the other, dealt out at random.
+fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<Sample> {
+    let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
+    let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
+    let (side, lift) = (parameters.side as usize, LIFT * patches.extent());
+    let at = |patch: &Patch, stratum: usize, sample: u64, dimension: u64| {
+        let along = |k: usize, d| (k as f64 + random.unit(index, sample, dimension + d)) / side as f64;
+        let point = patch.at(along(stratum % side, 0), along(stratum / side, 1));
+        (point.at, point.density)
+    };
+    let mut far: Vec<usize> = (0..side * side).collect();
+    let mut dealt = Vec::with_capacity(far.len());
+    for sample in 0..side * side {
+        let number = sample as u64;
+        let left = (far.len() - sample) as u64;
+        far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
+        let ((x, dx), (y, dy)) = (at(pair[0], sample, number, 0), at(pair[1], far[sample], number, 2));
+        let (ray, arrives) = ray_between(add(x, scale(lift, pair[0].normal())), y, lift);
+        dealt.push(Sample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
+    }
+    dealt
+}
+
+/// The ray from a point to another, and the share of the way after which a hit is at its end.
+fn ray_between(start: Vec3, end: Vec3, lift: f64) -> (Option<Ray>, f32) {
+    let to = sub(end, start);
+    let ray = Ray::new(start.map(|x| x as f32), to.map(|x| x as f32)).ok();
+    (ray, (1.0 - 2.0 * lift / length(to)) as f32)
+}
+
+/// The share of the samples' weight that gets through; takes a hit for each ray.
+fn share(patches: &Patches, faces: [u32; 2], samples: &[Sample], hits: &mut impl Iterator<Item = Option<Hit>>) -> f64 {
+    let (mut open, mut all) = (0.0, 0.0);
+    for sample in samples {
+        all += sample.weight;
+        // Nothing in the way, the far end itself, or a face that the ray starts or ends on: their planes cannot hide each other.
+        let passes = |hit: Hit| hit.t >= sample.arrives || faces.contains(&patches.face_of(hit.triangle));
+        let hit = if sample.ray.is_some() { hits.next().flatten() } else { None };
+        if hit.is_none_or(passes) {
+            open += sample.weight;
+        }
+    }
+    if open == all { 1.0 } else { open / all }
+}
+
+/// The share of each of some patches that a point with a normal sees, of what it would see with nothing in the way.
+pub(in crate::radiosity) fn point_share(
+    patches: &Patches,
+    [point, normal]: [Vec3; 2],
+    targets: &[usize],
+    caster: &mut dyn Caster,
+    parameters: VisibilityParameters,
+) -> Result<Vec<f64>, FormFactorError> {
+    if parameters.side == 0 {
+        return Err(FormFactorError::NoSamples);
+    }
+    let (side, lift) = (u64::from(parameters.side), LIFT * patches.extent());
+    let (random, start) = (Keyed::new(parameters.seed), add(point, scale(lift, normal)));
+    let count = side.saturating_mul(side);
+    let sample = |target: usize, k: u64| {
+        let patch = &patches.list()[target];
+        let along = |stratum: u64, d| ((stratum as f64) + random.unit(target as u64, k, d)) / side as f64;
+        let there = patch.at(along(k % side, 0), along(k / side, 1));
+        let to = sub(there.at, point);
+        let (cosines, square) = (dot(normal, to).max(0.0) * (-dot(patch.normal(), to)).max(0.0), dot(to, to));
+        let (ray, arrives) = ray_between(start, there.at, lift);
+        let weight = if square > 0.0 { there.density * cosines / (square * square) } else { 0.0 };
+        Sample { weight, ray, arrives }
+    };
+    let samples: Vec<Sample> =
+        targets.iter().flat_map(|&target| (0..count).map(move |k| (target, k))).map(|(t, k)| sample(t, k)).collect();
+    let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
+    let mut hits = caster.cast(&rays)?.into_iter();
+    let face = |target: usize| patches.list()[target].face;
+    let parts = targets.iter().zip(samples.chunks(count as usize));
+    Ok(parts.map(|(&target, samples)| share(patches, [face(target); 2], samples, &mut hits)).collect())
+}

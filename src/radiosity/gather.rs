@@ -1,0 +1,39 @@
+//! Irradiance at points, gathered from all patches of a solution.
+
+use super::Patches;
+use super::form_factor::point_to_polygon;
+use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
+use crate::geom::Caster;
+use crate::geom::vector::Vec3;
+
+/// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the point in closed form,
+/// and the share of sample rays that get through. `caster` traces [`Patches::mesh`] from both sides.
+///
+/// # Errors
+/// [`FormFactorError`] for no samples, or rays that could not be traced.
+///
+/// # Panics
+/// If there is not one radiosity a patch.
+pub fn irradiance(
+    patches: &Patches,
+    radiosity: &[[f64; 3]],
+    [point, normal]: [Vec3; 2],
+    caster: &mut dyn Caster,
+    parameters: VisibilityParameters,
+) -> Result<[f64; 3], FormFactorError> {
+    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
+    let seen: Vec<(usize, f64)> = patches
+        .list()
+        .iter()
+        .enumerate()
+        .map(|(j, patch)| (j, point_to_polygon(point, normal, patch.corners())))
+        .filter(|&(_, factor)| factor > 0.0)
+        .collect();
+    let targets: Vec<usize> = seen.iter().map(|&(j, _)| j).collect();
+    let shares = point_share(patches, [point, normal], &targets, caster, parameters)?;
+    let mut sum = [0.0; 3];
+    for ((j, factor), share) in seen.into_iter().zip(shares) {
+        sum = [0, 1, 2].map(|c| sum[c] + factor * share * radiosity[j][c]);
+    }
+    Ok(sum)
+}

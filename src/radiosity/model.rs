@@ -1,0 +1,54 @@
+//! The paper's counts (sections 3 and 3.1): instructions and passes, floating-point operations, and what they say of the size of its scene.
+
+/// Instructions of a GeForce FX fragment program, at most.
+pub const MOST_INSTRUCTIONS: u32 = 1024;
+/// Instructions a texel: fetch the matrix, fetch the vector, multiply and subtract, step the texture coordinates.
+pub const PER_TEXEL: u32 = 4;
+/// Instructions of a pass for all the rest: 1024 = 254 x 4 + 8.
+pub const OVERHEAD: u32 = 8;
+/// Texels of a block on a card of [`MOST_INSTRUCTIONS`]: the paper's 254.
+pub const BLOCK: u32 = block(MOST_INSTRUCTIONS);
+
+/// Texels of a block that a program of so many instructions can take, at least 1.
+#[must_use]
+pub const fn block(instructions: u32) -> u32 {
+    let fits = instructions.saturating_sub(OVERHEAD) / PER_TEXEL;
+    if fits == 0 { 1 } else { fits }
+}
+
+/// Passes of an iteration: ceil(N / 254) with one element a texel, ceil(N / 1016) with four.
+#[must_use]
+pub const fn passes(patches: u32, elements_a_texel: u32, block: u32) -> u32 {
+    patches.div_ceil(elements_a_texel).div_ceil(block)
+}
+
+/// Floating-point operations of an iteration as the paper counts them: 2 N^2, indexing not included, one channel.
+#[must_use]
+pub fn operations(patches: u32) -> f64 {
+    2.0 * f64::from(patches) * f64::from(patches)
+}
+
+/// MFLOP/s of so many iterations a second.
+#[must_use]
+pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
+    operations(patches) * iterations_per_s / 1e6
+}
+
+/// Bytes of matrix that an iteration reads, `bytes` a texel.
+#[must_use]
+pub fn matrix_bytes(patches: u32, elements_a_texel: u32, bytes: u32) -> f64 {
+    f64::from(patches) * f64::from(patches.div_ceil(elements_a_texel)) * f64::from(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_is_254_texels() {
+        assert_eq!((BLOCK, BLOCK * PER_TEXEL + OVERHEAD), (254, MOST_INSTRUCTIONS));
+        assert_eq!([1, 254, 255, 1540].map(|n| passes(n, 1, BLOCK)), [1, 1, 2, 7]);
+        assert_eq!([4, 1016, 1017, 2048].map(|n| passes(n, 4, BLOCK)), [1, 1, 2, 3]);
+        assert_eq!((block(96), block(0)), (22, 1));
+    }
+}

@@ -1,0 +1,197 @@
+//! Matrices and vectors as textures of four f32 a texel (section 3): pure layouts, each with its way back.
+//!
+//! | layout | texel (x, y) of a matrix | texel x of a vector |
+//! |---|---|---|
+//! | RGB | elements (y, x) of the red, green and blue matrix, 0 | elements x of the three vectors, 0 |
+//! | luminance | elements (y, 4x) to (y, 4x + 3) of one matrix | elements 4x to 4x + 3 |
+//! | block-channel | elements (y, x), (y, x + h), (y + h, x), (y + h, x + h), h half the size | |
+//!
+//! Each value is rounded once, from f64. Elements beyond the matrix are 0; a luminance matrix has rows up to a multiple of four.
+
+use thiserror::Error;
+
+use crate::linalg::Matrix;
+
+/// Texels of four f32, row by row. A vector is one row: a 1-D texture.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Texels {
+    /// Texels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green, blue, alpha; `width * height` of them.
+    pub texels: Vec<[f32; 4]>,
+}
+
+/// How elements lie in texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packing {
+    /// One texel an element, three systems at once.
+    Rgb,
+    /// Four elements a texel, one system.
+    Luminance,
+}
+
+/// A texture that the card does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "expected {what} that fits a texture of {limit} x {limit} texels, the card's largest, found {width} x {height}; use fewer patches"
+)]
+pub struct TooLarge {
+    /// `a matrix` or `a vector`.
+    pub what: &'static str,
+    /// The most texels a side.
+    pub limit: usize,
+    /// Texels across.
+    pub width: usize,
+    /// Texels down.
+    pub height: usize,
+}
+
+impl Texels {
+    /// A texture whose texels a function gives, by column and row.
+    fn filled(
+        what: &'static str,
+        [width, height]: [usize; 2],
+        limit: usize,
+        texel: impl Fn(usize, usize) -> [f32; 4],
+    ) -> Result<Self, TooLarge> {
+        if width > limit || height > limit {
+            return Err(TooLarge { what, limit, width, height });
+        }
+        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+        Ok(Self { width, height, texels })
+    }
+
+    /// A row of texels.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn row(&self, y: usize) -> &[[f32; 4]] {
+        &self.texels[y * self.width..(y + 1) * self.width]
+    }
+}
+
+/// An element, or 0 outside.
+fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
+    if row < matrix.size() && column < matrix.size() { matrix.row(row)[column] as f32 } else { 0.0 }
+}
+
+/// Three matrices of one size, one texel an element. `limit` is the card's largest texture side.
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLarge> {
+    let n = matrices[0].size();
+    Texels::filled("a matrix", [n, n], limit, |x, y| {
+        let [r, g, b] = matrices.map(|m| element(m, y, x));
+        [r, g, b, 0.0]
+    })
+}
+
+/// Three vectors, one texel an element.
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge> {
+    Texels::filled("a vector", [values.len(), 1], limit, |x, _| {
+        let [r, g, b] = values[x].map(|value| value as f32);
+        [r, g, b, 0.0]
+    })
+}
+
+/// Columns in fours. Rows are filled up to a multiple of four, so that a vector of four a texel has a row for each of its elements.
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
+    let width = matrix.size().div_ceil(4);
+    Texels::filled("a matrix", [width, 4 * width], limit, |x, y| [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c)))
+}
+
+/// A vector, four elements a texel.
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge> {
+    let value = |i: usize| values.get(i).map_or(0.0, |&value| value as f32);
+    Texels::filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
+}
+
+/// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8 of the paper).
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
+    let half = matrix.size().div_ceil(2);
+    Texels::filled("a matrix", [half, half], limit, |x, y| {
+        [(0, 0), (0, half), (half, 0), (half, half)].map(|(down, across)| element(matrix, y + down, x + across))
+    })
+}
+
+/// Back from [`rgb_matrix`]: the matrix of a channel, `size` rows of it, as rows of f32.
+///
+/// # Panics
+/// If the texture is smaller.
+#[must_use]
+pub fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<f32>> {
+    (0..size).map(|y| texels.row(y)[..size].iter().map(|texel| texel[channel]).collect()).collect()
+}
+
+/// Back from [`rgb_vector`].
+#[must_use]
+pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
+    texels.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
+}
+
+/// Back from [`luminance_matrix`].
+///
+/// # Panics
+/// If the texture is smaller.
+#[must_use]
+pub fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
+    (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
+}
+
+/// Back from [`luminance_vector`]: the first `size` elements.
+///
+/// # Panics
+/// If the texture is smaller.
+#[must_use]
+pub fn from_luminance_vector(texels: &Texels, size: usize) -> Vec<f32> {
+    texels.texels.as_flattened()[..size].to_vec()
+}
+
+/// Back from [`block_channel_matrix`].
+///
+/// # Panics
+/// If the texture is smaller.
+#[must_use]
+pub fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
+    let half = texels.width;
+    let at = |y: usize, x: usize| texels.row(y % half)[x % half][2 * (y / half) + x / half];
+    (0..size).map(|y| (0..size).map(|x| at(y, x)).collect()).collect()
+}
+
+/// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`, then
+/// `a.yyww * b.zwzw`, each a multiplication and an addition with a rounding of its own.
+///
+/// # Panics
+/// If the two differ in size.
+#[must_use]
+pub fn block_channel_product(a: &Texels, b: &Texels) -> Texels {
+    let half = a.width;
+    assert_eq!([a.height, b.width, b.height], [half; 3], "two block-channel matrices of one size");
+    let texel = |x: usize, y: usize| {
+        let mut sum = [0.0_f32; 4];
+        for (k, &[ax, ay, az, aw]) in a.row(y).iter().enumerate() {
+            let [bx, by, bz, bw] = b.row(k)[x];
+            let (first, second) = ([ax * bx, ax * by, az * bx, az * by], [ay * bz, ay * bw, aw * bz, aw * bw]);
+            sum = [0, 1, 2, 3].map(|c| (sum[c] + first[c]) + second[c]);
+        }
+        sum
+    };
+    let texels = (0..half).flat_map(|y| (0..half).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+    Texels { width: half, height: half, texels }
+}

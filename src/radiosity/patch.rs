@@ -1,0 +1,142 @@
+//! One patch: a flat convex polygon of three or four corners.
+
+use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub, unit};
+
+/// A flat convex patch of constant radiosity. Its front is the side from which the corners run counter-clockwise; its back is black.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    corners: [Vec3; 4],
+    sides: usize,
+    area: f64,
+    centre: Vec3,
+    normal: Vec3,
+    radius: f64,
+    /// The face that it is a part of: patches of one face lie in one plane and never see each other.
+    pub face: u32,
+    /// The place of its material in the scene.
+    pub material: u32,
+}
+
+/// A point of a patch, and the area for which it stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchPoint {
+    /// Where it is.
+    pub at: Vec3,
+    /// Area for the part of the unit square that it stands for.
+    pub density: f64,
+}
+
+impl Patch {
+    /// A patch of three or four corners; `None` for any other number, or if it has no area.
+    #[must_use]
+    pub fn new(outline: &[Vec3], face: u32, material: u32) -> Option<Self> {
+        let sides = outline.len();
+        let corners = match *outline {
+            [a, b, c] => [a, b, c, c],
+            [a, b, c, d] => [a, b, c, d],
+            _ => return None,
+        };
+        let doubled = cross(sub(corners[2], corners[0]), sub(corners[sides - 1], corners[1]));
+        let normal = if sides == 3 { cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])) } else { doubled };
+        let area = 0.5 * length(normal);
+        let longest = (0..sides).map(|i| length(sub(corners[(i + 1) % sides], corners[i]))).fold(0.0, f64::max);
+        // Corners come from f32: a height of 2^-40 of the longest side is rounding, not area.
+        if !(area > longest * longest * f64::EPSILON * 4096.0) {
+            return None;
+        }
+        let centre = centroid(&corners[..sides], normal);
+        let radius = corners[..sides].iter().map(|&c| length(sub(c, centre))).fold(0.0, f64::max);
+        Some(Self { corners, sides, area, centre, normal: unit(normal)?, radius, face, material })
+    }
+
+    /// Its corners, counter-clockwise from the front: three or four.
+    #[must_use]
+    pub fn corners(&self) -> &[Vec3] {
+        &self.corners[..self.sides]
+    }
+
+    /// Its area, above 0, in the square of the scene's unit.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Its centre of gravity.
+    #[must_use]
+    pub fn centre(&self) -> Vec3 {
+        self.centre
+    }
+
+    /// Its normal, of length 1.
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
+    /// The distance of the farthest corner from the centre.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// How far a point lies in front of its plane (behind it: below 0).
+    #[must_use]
+    pub fn height(&self, point: Vec3) -> f64 {
+        dot(self.normal, sub(point, self.centre))
+    }
+
+    /// The unit square laid over the patch: four corners bilinearly, three with one side of the square drawn together. Integrals over
+    /// the patch are integrals over the square of value times density.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> PatchPoint {
+        let [a, b, c, d] = self.corners;
+        if self.sides == 3 {
+            let along = add(sub(b, a), scale(v, sub(c, b)));
+            return PatchPoint { at: add(a, scale(u, along)), density: 2.0 * self.area * u };
+        }
+        let (near, far) = (sub(b, a), sub(c, d));
+        let (left, right) = (sub(d, a), sub(c, b));
+        let du = add(scale(1.0 - v, near), scale(v, far));
+        let dv = add(scale(1.0 - u, left), scale(u, right));
+        let at = add(add(a, scale(u, near)), scale(v, dv));
+        PatchPoint { at, density: dot(self.normal, cross(du, dv)) }
+    }
+}
+
+/// The centre of gravity of a flat convex polygon.
+fn centroid(corners: &[Vec3], normal: Vec3) -> Vec3 {
+    let first = corners[0];
+    let (mut sum, mut weight) = ([0.0; 3], 0.0);
+    for pair in corners[1..].windows(2) {
+        let (a, b) = (sub(pair[0], first), sub(pair[1], first));
+        let part = dot(cross(a, b), normal);
+        sum = add(sum, scale(part / 3.0, add(a, b)));
+        weight += part;
+    }
+    add(first, scale(1.0 / weight, sum))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trapezoid_has_its_area_and_centre() {
+        let outline = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [3.0, 3.0, 1.0], [1.0, 3.0, 1.0]];
+        let patch = Patch::new(&outline, 0, 0).expect("a patch");
+        assert_eq!((patch.area(), patch.normal()), (9.0, [0.0, 0.0, 1.0]));
+        let [x, y, z] = patch.centre();
+        assert!((x - 2.0).abs() < 1e-15 && (y - 4.0 / 3.0).abs() < 1e-15 && z == 1.0, "{x} {y} {z}");
+        let middle = patch.at(0.5, 0.5);
+        assert_eq!((middle.at, middle.density), ([2.0, 1.5, 1.0], 9.0));
+        assert_eq!(patch.at(1.0, 1.0).at, outline[2]);
+    }
+
+    #[test]
+    fn what_has_no_area_is_no_patch() {
+        let line = [[0.0; 3], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]];
+        assert_eq!(Patch::new(&line, 0, 0), None);
+        assert_eq!(Patch::new(&line[..2], 0, 0), None);
+        assert_eq!(Patch::new(&[[f64::NAN; 3]; 3], 0, 0), None);
+    }
+}

@@ -1,0 +1,156 @@
+//! A scene cut into patches.
+
+use thiserror::Error;
+
+use super::patch::Patch;
+use super::subdivide::{Face, faces_of, steps_for_at_most};
+use crate::geom::Mesh;
+use crate::geom::vector::{length, sub};
+use crate::linalg::MOST_ROWS;
+use crate::scene::{Scene, Surface};
+
+/// The most patches: those of the largest matrix.
+pub const MOST_PATCHES: usize = MOST_ROWS;
+
+/// How finely faces are cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Subdivision {
+    /// Every side of every face into so many parts, at least 1: n^2 patches a face.
+    PerSide(u32),
+    /// Into parts as equal in length as whole numbers allow, as many patches as fit within this number. At least one a face.
+    AtMost(usize),
+}
+
+/// Why a scene makes no patches.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum PatchError {
+    /// No triangles.
+    #[error("expected a scene with surfaces, found none")]
+    Empty,
+    /// A triangle without area.
+    #[error("triangle {triangle} (counted from 0) has no area; remove it, or merge its corners")]
+    ZeroArea {
+        /// The triangle.
+        triangle: u32,
+    },
+    /// More patches than the largest matrix has rows.
+    #[error("expected at most {MOST_PATCHES} patches, found {found}; cut the faces into fewer")]
+    TooMany {
+        /// How many it would be.
+        found: usize,
+    },
+    /// Sides cut into no parts.
+    #[error("expected sides cut into 1 part or more, found 0")]
+    NoParts,
+    /// A surface that is not diffuse.
+    #[error("material `{name}` is {found}, expected a diffuse surface: radiosity knows no other")]
+    NotDiffuse {
+        /// The material.
+        name: String,
+        /// What it is.
+        found: &'static str,
+    },
+}
+
+/// The patches of a scene, with what visibility needs to know of the faces that they are parts of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patches {
+    list: Vec<Patch>,
+    mesh: Mesh,
+    face_of: Vec<u32>,
+    extent: f64,
+    /// Of each material: reflectance and radiance.
+    materials: Vec<([f64; 3], [f64; 3])>,
+}
+
+impl Patches {
+    /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex quadrilateral.
+    ///
+    /// # Errors
+    /// [`PatchError`].
+    pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, PatchError> {
+        let mesh = scene.mesh();
+        let Some(bounds) = mesh.bounds() else { return Err(PatchError::Empty) };
+        let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
+        let (faces, face_of) = faces_of(scene)?;
+        let steps: Vec<[u32; 2]> = match subdivision {
+            Subdivision::PerSide(0) => return Err(PatchError::NoParts),
+            Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
+            Subdivision::AtMost(most) => steps_for_at_most(&faces, most),
+        };
+        let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
+        if found > MOST_PATCHES {
+            return Err(PatchError::TooMany { found });
+        }
+        let mut list = Vec::with_capacity(found);
+        for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
+            face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
+        }
+        let [low, high] = bounds.map(|corner| corner.map(f64::from));
+        Ok(Self { list, mesh: mesh.clone(), face_of, extent: length(sub(high, low)), materials: materials? })
+    }
+
+    /// All patches; a patch's place is its row in the matrix.
+    #[must_use]
+    pub fn list(&self) -> &[Patch] {
+        &self.list
+    }
+
+    /// The triangles of the scene, for whoever traces; its hits are to be told by these.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The face that a triangle of [`Patches::mesh`] is a part of.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    #[must_use]
+    pub fn face_of(&self, triangle: u32) -> u32 {
+        self.face_of[triangle as usize]
+    }
+
+    /// The diagonal of the scene's bounding box.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// The area of each patch.
+    #[must_use]
+    pub fn areas(&self) -> Vec<f64> {
+        self.list.iter().map(Patch::area).collect()
+    }
+
+    /// The reflectance of each patch: red, green, blue.
+    #[must_use]
+    pub fn reflectances(&self) -> Vec<[f64; 3]> {
+        self.list.iter().map(|patch| self.materials[patch.material as usize].0).collect()
+    }
+
+    /// The emittance of each patch: pi times its material's radiance.
+    #[must_use]
+    pub fn emittances(&self) -> Vec<[f64; 3]> {
+        let emittance = |patch: &Patch| self.materials[patch.material as usize].1.map(|l| std::f64::consts::PI * l);
+        self.list.iter().map(emittance).collect()
+    }
+}
+
+/// Reflectance and radiance of a material.
+fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), PatchError> {
+    let found = match material.surface {
+        Surface::Diffuse { albedo } => return Ok((albedo.map(f64::from), material.emission.map(f64::from))),
+        Surface::Glossy { .. } => "glossy",
+        Surface::Mirror { .. } => "a mirror",
+        Surface::Glass { .. } => "glass",
+    };
+    Err(PatchError::NotDiffuse { name: material.name.clone(), found })
+}
+
+impl Face {
+    /// How many patches it makes.
+    fn count(&self, [u, v]: [u32; 2]) -> usize {
+        u as usize * v as usize
+    }
+}

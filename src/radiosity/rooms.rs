@@ -1,0 +1,144 @@
+//! Rooms to try radiosity on: a cube that sees only itself, and the Cornell box. z is up, y goes back, walls face inwards.
+
+use crate::geom::Mesh;
+use crate::scene::{Color, Material, Scene, Surface, View};
+
+/// Floor, ceiling, left (x = 0), right, front (y = 0) and back wall.
+pub const WALLS: [&str; 6] = ["floor", "ceiling", "left", "right", "front", "back"];
+
+/// Reflectances that renderers use for the Cornell box, after the spectra measured at Cornell.
+const WHITE: Color = [0.725, 0.71, 0.68];
+const RED: Color = [0.63, 0.065, 0.05];
+const GREEN: Color = [0.14, 0.45, 0.091];
+/// Radiance of its light.
+const LIGHT: Color = [17.0, 12.0, 4.0];
+
+/// Collects quadrilaterals.
+#[derive(Default)]
+struct Builder {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    materials: Vec<Material>,
+    material_of: Vec<u32>,
+}
+
+impl Builder {
+    /// Corners counter-clockwise from the front.
+    fn quad(&mut self, corners: [[f32; 3]; 4], material: u32) {
+        let first = self.positions.len() as u32;
+        self.positions.extend(corners);
+        self.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|corner| first + corner)));
+        self.material_of.extend([material; 2]);
+    }
+
+    /// The six walls of a box from the origin, in the order of [`WALLS`]; without those of material `None`.
+    fn walls(&mut self, [x, y, z]: [f32; 3], materials: [Option<u32>; 6]) {
+        let quads = [
+            [[0.0, 0.0, 0.0], [x, 0.0, 0.0], [x, y, 0.0], [0.0, y, 0.0]],
+            [[0.0, y, z], [x, y, z], [x, 0.0, z], [0.0, 0.0, z]],
+            [[0.0, 0.0, 0.0], [0.0, y, 0.0], [0.0, y, z], [0.0, 0.0, z]],
+            [[x, 0.0, z], [x, y, z], [x, y, 0.0], [x, 0.0, 0.0]],
+            [[0.0, 0.0, 0.0], [0.0, 0.0, z], [x, 0.0, z], [x, 0.0, 0.0]],
+            [[x, y, 0.0], [x, y, z], [0.0, y, z], [0.0, y, 0.0]],
+        ];
+        for (quad, material) in quads.into_iter().zip(materials) {
+            if let Some(material) = material {
+                self.quad(quad, material);
+            }
+        }
+    }
+
+    fn scene(self, eye: [f32; 3], target: [f32; 3], tan_half_height: f32) -> Scene {
+        let mesh = Mesh::new(self.positions, self.triangles).expect("corners of our own");
+        let mut scene = Scene::new(mesh, self.materials, self.material_of, Vec::new()).expect("a material a triangle");
+        scene.views = vec![View { name: "front".to_owned(), eye, target, up: [0.0, 0.0, 1.0], tan_half_height }];
+        scene
+    }
+}
+
+/// The closed unit cube, a material a wall in the order of [`WALLS`].
+#[must_use]
+pub fn cube(materials: [Material; 6]) -> Scene {
+    let mut room = Builder { materials: materials.into(), ..Builder::default() };
+    room.walls([1.0; 3], [0, 1, 2, 3, 4, 5].map(Some));
+    room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
+}
+
+/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1 everywhere.
+#[must_use]
+pub fn furnace(reflectance: f32) -> Scene {
+    let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
+    let surface = Surface::Diffuse { albedo: [reflectance; 3] };
+    cube(WALLS.map(|name| Material { name: name.to_owned(), surface, emission: [radiance; 3] }))
+}
+
+/// What a Cornell box has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CornellBox {
+    /// The short and the tall block.
+    pub blocks: bool,
+    /// No front wall, as in the photographs; otherwise the room is closed by a white one.
+    pub open: bool,
+}
+
+/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling, blocks as published.
+#[must_use]
+pub fn cornell(what: CornellBox) -> Scene {
+    let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
+    let painted =
+        [("white", WHITE), ("red", RED), ("green", GREEN)].map(|(name, albedo)| Material::diffuse(name, albedo));
+    let mut room = Builder { materials: painted.into_iter().chain([light]).collect(), ..Builder::default() };
+    let front = (!what.open).then_some(0);
+    room.walls([5.5; 3], [Some(0), None, Some(1), Some(2), front, Some(0)]);
+    ceiling_with_light(&mut room);
+    if what.blocks {
+        block(&mut room, [[1.3, 0.65], [0.82, 2.25], [2.4, 2.72], [2.9, 1.14]], 1.65);
+        block(&mut room, [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]], 3.3);
+    }
+    let eye = if what.open { [2.75, -8.0, 2.75] } else { [2.75, 0.05, 2.75] };
+    room.scene(eye, [2.75, 2.75, 2.75], if what.open { 0.345 } else { 0.8 })
+}
+
+/// Nine pieces, the middle one shines.
+fn ceiling_with_light(room: &mut Builder) {
+    let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
+    for j in 0..3 {
+        for i in 0..3 {
+            let ([x, x2], [y, y2]) = ([xs[i], xs[i + 1]], [ys[j], ys[j + 1]]);
+            room.quad([[x, y2, z], [x2, y2, z], [x2, y, z], [x, y, z]], if i == 1 && j == 1 { 3 } else { 0 });
+        }
+    }
+}
+
+/// Four sides and a top on a quadrilateral of the floor, whose corners run clockwise from above.
+fn block(room: &mut Builder, floor: [[f32; 2]; 4], height: f32) {
+    let at = |[x, y]: [f32; 2], z: f32| [x, y, z];
+    for i in 0..4 {
+        let (a, b) = (floor[i], floor[(i + 1) % 4]);
+        room.quad([at(b, 0.0), at(a, 0.0), at(a, height), at(b, height)], 0);
+    }
+    room.quad([floor[3], floor[2], floor[1], floor[0]].map(|corner| at(corner, height)), 0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn closed_rooms_are_watertight_and_face_inwards() {
+        let volume = |scene: &Scene| {
+            let six = |[a, b, c]: [[f32; 3]; 3]| {
+                let [a, b, c] = [a, b, c].map(|corner| corner.map(f64::from));
+                crate::geom::vector::dot(a, crate::geom::vector::cross(b, c))
+            };
+            scene.mesh().iter_corners().map(six).sum::<f64>() / 6.0
+        };
+        assert!((volume(&furnace(0.5)) + 1.0).abs() < 1e-12);
+        let empty = volume(&cornell(CornellBox::default()));
+        assert!((empty + 5.5 * 5.5 * 5.5).abs() < 1e-4, "{empty}");
+        // A block without a floor has the volume of a closed one, since its floor lies in the plane through the origin.
+        let blocks = volume(&cornell(CornellBox { blocks: true, open: false })) - empty;
+        assert!((9.0..14.0).contains(&blocks), "two blocks of 1.65 x 1.65, 1.65 and 3.3 high: {blocks}");
+        assert_eq!(cornell(CornellBox { blocks: true, open: true }).mesh().len(), 2 * (4 + 9 + 10));
+    }
+}

@@ -1,0 +1,235 @@
+//! Solvers of equation 2 on the host, in f64, each with the history that Figure 3 plots.
+
+mod direct;
+mod relax;
+mod shoot;
+
+use std::fmt;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use crate::linalg::{Matrix, Singular};
+
+/// How a system is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Solver {
+    /// Equations 3 and 4: all elements from the last round's.
+    Jacobi,
+    /// Each element from the newest of the others.
+    GaussSeidel,
+    /// Gauss-Seidel, each step so many times as long: above 0 and below 2.
+    OverRelaxation(f64),
+    /// Progressive refinement (Cohen and others, 1988): always the patch with the most light not yet sent on. An iteration is as many
+    /// patches as there are.
+    Shooting,
+    /// Elimination: no iterations.
+    Direct,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The residual's length as a share of the right side's at which an iteration stops.
+    pub tolerance: f64,
+    /// The most iterations.
+    pub most_iterations: u32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { tolerance: 1e-6, most_iterations: 1000 }
+    }
+}
+
+/// What is to be solved.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// M of equation 2. Its diagonal has no zero.
+    pub matrix: &'a Matrix,
+    /// E.
+    pub right: &'a [f64],
+    /// The areas of the patches: shooting picks by power.
+    pub areas: &'a [f64],
+    /// Where to begin; nothing means 0.
+    pub start: Option<&'a [f64]>,
+}
+
+/// A solution, and how it was reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// B.
+    pub radiosity: Vec<f64>,
+    /// The mean square of the residual E - M B at the start and after each iteration: Figure 3's error.
+    pub history: Vec<f64>,
+    /// Whether the tolerance was reached.
+    pub converged: bool,
+}
+
+impl Solution {
+    /// How many iterations it took.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.history.len() - 1
+    }
+}
+
+/// Why there is no solution.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum SolveError {
+    /// Not one element a row.
+    #[error("expected {rows} {what}, one a row of the matrix, found {found}")]
+    Count {
+        /// What there is too much or too little of.
+        what: &'static str,
+        /// Rows of the matrix.
+        rows: usize,
+        /// Elements found.
+        found: usize,
+    },
+    /// A step length for which over-relaxation cannot converge.
+    #[error("expected an over-relaxation above 0 and below 2, found {0}")]
+    Relaxation(f64),
+    /// A zero on the diagonal.
+    #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
+    Diagonal {
+        /// The row.
+        row: usize,
+    },
+    /// The iteration runs away, or the input holds what is no number.
+    #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
+    Diverged {
+        /// Iterations done.
+        iterations: usize,
+    },
+    /// No inverse.
+    #[error(transparent)]
+    Singular(#[from] Singular),
+}
+
+/// Solves.
+///
+/// # Errors
+/// [`SolveError`]. Reaching the most iterations is none: [`Solution::converged`] tells.
+pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
+    check(problem)?;
+    match solver {
+        Solver::Direct => direct::solve(problem, options),
+        Solver::Jacobi => relax::jacobi(problem, options),
+        Solver::GaussSeidel => relax::gauss_seidel(problem, 1.0, options),
+        Solver::OverRelaxation(step) if step > 0.0 && step < 2.0 => relax::gauss_seidel(problem, step, options),
+        Solver::OverRelaxation(step) => Err(SolveError::Relaxation(step)),
+        Solver::Shooting => shoot::shoot(problem, options),
+    }
+}
+
+fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
+    let rows = problem.matrix.size();
+    let lists = [("emittances", Some(problem.right)), ("areas", Some(problem.areas)), ("radiosities", problem.start)];
+    for (what, list) in lists {
+        if let Some(found) = list.map(<[f64]>::len).filter(|&found| found != rows) {
+            return Err(SolveError::Count { what, rows, found });
+        }
+    }
+    match problem.matrix.diagonal().iter().position(|&d| d == 0.0) {
+        Some(row) => Err(SolveError::Diagonal { row }),
+        None => Ok(()),
+    }
+}
+
+/// An iteration under way: its history, and whether it may stop.
+struct Progress {
+    history: Vec<f64>,
+    target: f64,
+    most: u32,
+}
+
+impl Progress {
+    fn new(problem: &Problem<'_>, options: &Options) -> Self {
+        let target = options.tolerance * options.tolerance * mean_square(problem.right);
+        Self { history: Vec::new(), target, most: options.most_iterations }
+    }
+
+    /// Notes a residual; `Some` if that was the last: whether the tolerance is reached.
+    fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, SolveError> {
+        let error = mean_square(residual);
+        if !error.is_finite() {
+            return Err(SolveError::Diverged { iterations: self.history.len() });
+        }
+        self.history.push(error);
+        let converged = error <= self.target;
+        Ok((converged || self.history.len() > self.most as usize).then_some(converged))
+    }
+
+    fn into_solution(self, radiosity: Vec<f64>, converged: bool) -> Solution {
+        Solution { radiosity, history: self.history, converged }
+    }
+}
+
+/// The mean of the squares; 0 of nothing.
+#[must_use]
+pub fn mean_square(values: &[f64]) -> f64 {
+    crate::linalg::dot(values, values) / values.len().max(1) as f64
+}
+
+/// E - M B.
+#[must_use]
+pub fn residual(matrix: &Matrix, right: &[f64], radiosity: &[f64]) -> Vec<f64> {
+    matrix.times(radiosity).iter().zip(right).map(|(mb, e)| e - mb).collect()
+}
+
+fn start(problem: &Problem<'_>) -> Vec<f64> {
+    problem.start.map_or_else(|| vec![0.0; problem.matrix.size()], <[f64]>::to_vec)
+}
+
+impl fmt::Display for Solver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Jacobi => f.write_str("jacobi"),
+            Self::GaussSeidel => f.write_str("gauss-seidel"),
+            Self::OverRelaxation(step) => write!(f, "sor:{step}"),
+            Self::Shooting => f.write_str("shooting"),
+            Self::Direct => f.write_str("direct"),
+        }
+    }
+}
+
+/// Why a name is no solver's.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("expected `jacobi`, `gauss-seidel`, `sor:STEP` (0 < STEP < 2), `shooting` or `direct`, found `{0}`")]
+pub struct UnknownSolver(pub String);
+
+impl FromStr for Solver {
+    type Err = UnknownSolver;
+
+    fn from_str(name: &str) -> Result<Self, UnknownSolver> {
+        let unknown = || UnknownSolver(name.to_owned());
+        match name {
+            "jacobi" => Ok(Self::Jacobi),
+            "gauss-seidel" => Ok(Self::GaussSeidel),
+            "shooting" => Ok(Self::Shooting),
+            "direct" => Ok(Self::Direct),
+            _ => {
+                let step = name.strip_prefix("sor:").and_then(|step| step.parse().ok());
+                step.filter(|&step: &f64| step > 0.0 && step < 2.0).map(Self::OverRelaxation).ok_or_else(unknown)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for solver in
+            [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.25), Solver::Shooting, Solver::Direct]
+        {
+            assert_eq!(solver.to_string().parse(), Ok(solver));
+        }
+        for name in ["", "sor", "sor:2", "sor:nan", "Jacobi"] {
+            assert_eq!(name.parse::<Solver>(), Err(UnknownSolver(name.to_owned())));
+        }
+    }
+}

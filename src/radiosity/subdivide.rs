@@ -1,0 +1,170 @@
+//! Faces, and how they are cut into patches.
+
+use super::PatchError;
+use super::patch::Patch;
+use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub};
+use crate::scene::Scene;
+
+/// How far out of its plane the fourth corner of a face may be, in shares of the longest diagonal: what f32 corners need.
+const FLAT: f64 = 1e-6;
+
+/// A flat convex part of the scene: a triangle, or two that make a quadrilateral.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Face {
+    /// Three corners or four, counter-clockwise from the front.
+    pub(super) corners: Vec<Vec3>,
+    /// The (first) triangle of the mesh.
+    pub(super) triangle: u32,
+    material: u32,
+}
+
+/// The faces of a scene, and the face of each triangle.
+pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchError> {
+    let triangles: Vec<[Vec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(|c| c.map(f64::from))).collect();
+    if let Some(flat) = triangles.iter().position(|t| Patch::new(t, 0, 0).is_none()) {
+        return Err(PatchError::ZeroArea { triangle: flat as u32 });
+    }
+    let materials = scene.material_of();
+    let (mut faces, mut face_of) = (Vec::new(), Vec::new());
+    let mut i = 0;
+    while i < triangles.len() {
+        let same = triangles.get(i + 1).filter(|_| materials[i] == materials[i + 1]);
+        let quad = same.and_then(|next| quadrilateral(&triangles[i], next));
+        let width = 1 + usize::from(quad.is_some());
+        face_of.extend(std::iter::repeat_n(faces.len() as u32, width));
+        let corners = quad.map_or_else(|| triangles[i].to_vec(), |quad| quad.to_vec());
+        faces.push(Face { corners, triangle: i as u32, material: materials[i] });
+        i += width;
+    }
+    Ok((faces, face_of))
+}
+
+/// The flat convex quadrilateral that two triangles with a common side make, if they do.
+fn quadrilateral(one: &[Vec3; 3], other: &[Vec3; 3]) -> Option<[Vec3; 4]> {
+    for i in 0..3 {
+        let [a, b, c] = [one[i], one[(i + 1) % 3], one[(i + 2) % 3]];
+        for j in 0..3 {
+            if other[j] == a && other[(j + 1) % 3] == c {
+                let quad = [a, b, c, other[(j + 2) % 3]];
+                return is_flat_and_convex(&quad).then_some(quad);
+            }
+        }
+    }
+    None
+}
+
+fn is_flat_and_convex(quad: &[Vec3; 4]) -> bool {
+    let diagonals = [sub(quad[2], quad[0]), sub(quad[3], quad[1])];
+    let normal = cross(diagonals[0], diagonals[1]);
+    let longest = length(diagonals[0]).max(length(diagonals[1]));
+    let lift = dot(normal, sub(quad[1], quad[0])).abs();
+    let turns = (0..4).all(|i| {
+        let side = |k: usize| sub(quad[(k + 1) % 4], quad[k % 4]);
+        dot(cross(side(i), side(i + 1)), normal) > FLAT * dot(normal, normal)
+    });
+    lift <= FLAT * longest * length(normal) && turns
+}
+
+/// Parts a side of each face so that all faces together make at most `most` patches, parts as short as that allows.
+pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
+    let longest = faces.iter().flat_map(Face::sides).fold(0.0, f64::max);
+    let count = |part: f64| faces.iter().map(|f| f.steps(part)).map(|[u, v]| f64::from(u) * f64::from(v)).sum::<f64>();
+    // The count falls as parts get longer: halve the interval until both ends are neighbours for all that counts.
+    let (mut short, mut long) = (longest / 4096.0, longest);
+    for _ in 0..60 {
+        let middle = 0.5 * (short + long);
+        if count(middle) > most as f64 {
+            short = middle;
+        } else {
+            long = middle;
+        }
+    }
+    faces.iter().map(|face| face.steps(long)).collect()
+}
+
+impl Face {
+    /// Lengths across and along: of opposite sides the longer one.
+    fn sides(&self) -> [f64; 2] {
+        let n = self.corners.len();
+        let side = |i: usize| length(sub(self.corners[(i + 1) % n], self.corners[i]));
+        if n == 3 { [side(0).max(side(1)).max(side(2)); 2] } else { [side(0).max(side(2)), side(1).max(side(3))] }
+    }
+
+    /// Parts across and along of at most this length.
+    fn steps(&self, part: f64) -> [u32; 2] {
+        // A hair less, so that what should come out whole does.
+        self.sides().map(|side| ((side / part - 1e-9).ceil() as u32).max(1))
+    }
+
+    /// Adds its patches; `None` if one of them has no area. Corners of neighbours are the same to the bit.
+    pub(super) fn cut(&self, id: u32, [across, along]: [u32; 2], into: &mut Vec<Patch>) -> Option<()> {
+        let part = |i: u32, n: u32| f64::from(i) / f64::from(n);
+        if let [a, b, c, d] = self.corners[..] {
+            let at = |i, j| mix(mix(a, b, part(i, across)), mix(d, c, part(i, across)), part(j, along));
+            for j in 0..along {
+                for i in 0..across {
+                    let outline = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                    into.push(Patch::new(&outline, id, self.material)?);
+                }
+            }
+            return Some(());
+        }
+        let (a, b, c, n) = (self.corners[0], self.corners[1], self.corners[2], across);
+        let at = |i, j| add(a, add(scale(part(i, n), sub(b, a)), scale(part(j, n), sub(c, a))));
+        for j in 0..n {
+            for i in 0..n - j {
+                into.push(Patch::new(&[at(i, j), at(i + 1, j), at(i, j + 1)], id, self.material)?);
+                if i + j + 1 < n {
+                    let downwards = [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                    into.push(Patch::new(&downwards, id, self.material)?);
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+/// A point between two; exactly the ends at 0 and 1.
+fn mix(a: Vec3, b: Vec3, t: f64) -> Vec3 {
+    add(scale(1.0 - t, a), scale(t, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [Vec3; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn two_halves_make_a_square_and_a_kink_does_not() {
+        let [a, b, c, d] = SQUARE;
+        assert_eq!(quadrilateral(&[b, c, a], &[c, d, a]), Some([a, b, c, d]));
+        assert_eq!(quadrilateral(&[a, b, c], &[a, c, [0.0, 1.0, 0.1]]), None);
+        assert_eq!(quadrilateral(&[a, b, c], &[c, a, d]), None, "it faces the other way");
+        assert_eq!(quadrilateral(&[a, b, c], &[a, c, [0.9, 0.8, 0.0]]), None, "not convex");
+    }
+
+    #[test]
+    fn parts_are_as_short_as_the_number_allows() {
+        let face = |corners: Vec<Vec3>| Face { corners, triangle: 0, material: 0 };
+        let long = SQUARE.map(|[x, y, z]| [2.0 * x, y, z]).to_vec();
+        let faces = [face(SQUARE.to_vec()), face(long)];
+        assert_eq!(steps_for_at_most(&faces, 12), [[2, 2], [4, 2]]);
+        assert_eq!(steps_for_at_most(&faces, 11), [[2, 2], [3, 2]]);
+        assert_eq!(steps_for_at_most(&faces, 3), [[1, 1], [2, 1]]);
+        assert_eq!(steps_for_at_most(&faces, 0), [[1, 1], [1, 1]]);
+    }
+
+    #[test]
+    fn areas_add_up_to_the_face() {
+        let triangle = Face { corners: SQUARE[..3].to_vec(), triangle: 0, material: 3 };
+        let square = Face { corners: SQUARE.to_vec(), triangle: 0, material: 3 };
+        for (face, steps, count, area) in [(triangle, [4, 4], 16, 0.5), (square, [4, 3], 12, 1.0)] {
+            let mut patches = Vec::new();
+            face.cut(7, steps, &mut patches).expect("patches");
+            let sum: f64 = patches.iter().map(Patch::area).sum();
+            assert!(patches.len() == count && (sum - area).abs() < 1e-14, "{} patches, {sum}", patches.len());
+            assert!(patches.iter().all(|p| p.normal() == [0.0, 0.0, 1.0] && (p.face, p.material) == (7, 3)));
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The linear system of equations 1 and 2, and what may change in it while the form factors stay.
+
+use thiserror::Error;
+
+use super::FormFactors;
+use super::solve::{self, Options, Solution, SolveError, Solver};
+use crate::linalg::Matrix;
+
+/// Why there is no system.
+#[derive(Debug, Error)]
+pub enum SystemError {
+    /// No patches.
+    #[error("expected patches, found none")]
+    Empty,
+    /// Not one value a patch.
+    #[error("expected {patches} {what}, one a patch, found {found}")]
+    Count {
+        /// `reflectances`, `emittances`, ...
+        what: &'static str,
+        /// The patches.
+        patches: usize,
+        /// How many values.
+        found: usize,
+    },
+    /// A reflectance of 1 or more, or below 0.
+    #[error(
+        "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
+         a surface that absorbs nothing has no solution"
+    )]
+    Reflectance {
+        /// The patch.
+        patch: usize,
+        /// What was found.
+        value: f64,
+    },
+    /// An emittance below 0, or none at all.
+    #[error("expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)")]
+    Emittance {
+        /// The patch.
+        patch: usize,
+        /// What was found.
+        value: f64,
+    },
+}
+
+/// A colour a patch: red, green, blue.
+type PerPatch = Vec<[f64; 3]>;
+
+/// Form factors with what patches reflect and emit. Both may change; the form factors stay.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System {
+    factors: FormFactors,
+    reflectance: PerPatch,
+    emittance: PerPatch,
+}
+
+/// The three channels' solutions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RgbSolution {
+    /// Red, green, blue.
+    pub channels: [Solution; 3],
+}
+
+impl RgbSolution {
+    /// The radiosity of each patch.
+    #[must_use]
+    pub fn radiosity(&self) -> PerPatch {
+        let [red, green, blue] = &self.channels;
+        (0..red.radiosity.len()).map(|i| [red, green, blue].map(|channel| channel.radiosity[i])).collect()
+    }
+}
+
+impl System {
+    /// A system of as many patches as there are form factors. Reflectances lie in [0, 1).
+    ///
+    /// # Errors
+    /// [`SystemError`].
+    pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, SystemError> {
+        if factors.is_empty() {
+            return Err(SystemError::Empty);
+        }
+        let mut system = Self { factors, reflectance: Vec::new(), emittance: Vec::new() };
+        system.set_reflectance(reflectance)?;
+        system.set_emittance(emittance)?;
+        Ok(system)
+    }
+
+    /// Changes what patches reflect; the matrix has to be made again, the form factors not.
+    ///
+    /// # Errors
+    /// [`SystemError`]; the system is then as it was.
+    pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), SystemError> {
+        self.count("reflectances", &reflectance)?;
+        if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
+            return Err(SystemError::Reflectance { patch, value });
+        }
+        self.reflectance = reflectance;
+        Ok(())
+    }
+
+    /// Changes what patches emit; the matrix stays.
+    ///
+    /// # Errors
+    /// [`SystemError`]; the system is then as it was.
+    pub fn set_emittance(&mut self, emittance: PerPatch) -> Result<(), SystemError> {
+        self.count("emittances", &emittance)?;
+        if let Some((patch, value)) = first(&emittance, |value| !(value >= 0.0 && value.is_finite())) {
+            return Err(SystemError::Emittance { patch, value });
+        }
+        self.emittance = emittance;
+        Ok(())
+    }
+
+    fn count(&self, what: &'static str, values: &PerPatch) -> Result<(), SystemError> {
+        let (patches, found) = (self.factors.len(), values.len());
+        if patches == found { Ok(()) } else { Err(SystemError::Count { what, patches, found }) }
+    }
+
+    /// The form factors.
+    #[must_use]
+    pub fn factors(&self) -> &FormFactors {
+        &self.factors
+    }
+
+    /// What each patch reflects.
+    #[must_use]
+    pub fn reflectance(&self) -> &[[f64; 3]] {
+        &self.reflectance
+    }
+
+    /// What each patch emits.
+    #[must_use]
+    pub fn emittance(&self) -> &[[f64; 3]] {
+        &self.emittance
+    }
+
+    /// The right side of equation 2 in a channel (0 red, 1 green, 2 blue).
+    ///
+    /// # Panics
+    /// For another channel.
+    #[must_use]
+    pub fn right(&self, channel: usize) -> Vec<f64> {
+        self.emittance.iter().map(|e| e[channel]).collect()
+    }
+
+    /// The matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor.
+    ///
+    /// # Panics
+    /// For a channel above 2.
+    #[must_use]
+    pub fn matrix(&self, channel: usize) -> Matrix {
+        let mut matrix = self.factors.matrix().clone();
+        for (i, rho) in self.reflectance.iter().enumerate() {
+            let row = matrix.row_mut(i);
+            row.iter_mut().for_each(|value| *value = -(rho[channel] * *value));
+            row[i] += 1.0;
+        }
+        matrix
+    }
+
+    /// Solves one channel, from `start` if there is one: the last solution after a change of light, say.
+    ///
+    /// # Errors
+    /// [`SolveError`].
+    pub fn solve_channel(
+        &self,
+        channel: usize,
+        solver: Solver,
+        options: &Options,
+        start: Option<&[f64]>,
+    ) -> Result<Solution, SolveError> {
+        let right = self.right(channel);
+        solve::solve(
+            solver,
+            &solve::Problem { matrix: &self.matrix(channel), right: &right, areas: self.factors.areas(), start },
+            options,
+        )
+    }
+
+    /// Solves all three channels, one after the other; `start` as the radiosities of an earlier solution.
+    ///
+    /// # Errors
+    /// [`SolveError`].
+    pub fn solve(
+        &self,
+        solver: Solver,
+        options: &Options,
+        start: Option<&[[f64; 3]]>,
+    ) -> Result<RgbSolution, SolveError> {
+        let channel = |c: usize| {
+            let start: Option<Vec<f64>> = start.map(|all| all.iter().map(|b| b[c]).collect());
+            self.solve_channel(c, solver, options, start.as_deref())
+        };
+        Ok(RgbSolution { channels: [channel(0)?, channel(1)?, channel(2)?] })
+    }
+
+    /// Power that a solution leaves unaccounted for in each channel: what is emitted, less what is absorbed and what leaves the room.
+    /// Reciprocal form factors and an exact solution give 0.
+    #[must_use]
+    pub fn imbalance(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
+        [0, 1, 2].map(|c| {
+            let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();
+            let arriving = self.factors.matrix().times(&b);
+            let sums = self.factors.row_sums();
+            let (mut emitted, mut gone) = (0.0, 0.0);
+            for (i, area) in self.factors.areas().iter().enumerate() {
+                emitted += area * self.emittance[i][c];
+                gone += area * ((1.0 - self.reflectance[i][c]) * arriving[i] + (1.0 - sums[i]) * b[i]);
+            }
+            emitted - gone
+        })
+    }
+}
+
+/// The first value that is `wrong`, with its patch.
+fn first(values: &PerPatch, wrong: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
+    let all = values.iter().enumerate().flat_map(|(patch, colour)| colour.map(|value| (patch, value)));
+    all.into_iter().find(|&(_, value)| wrong(value))
+}

@@ -1,0 +1,70 @@
+//! What makes no radiosity is refused, in words that help.
+
+use crossbar::geom::Mesh;
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::{FormFactors, MOST_PATCHES, PatchError, Patches, Subdivision, System, packing};
+use crossbar::scene::{Material, Scene, Surface};
+
+fn scene(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>, material: Material) -> Scene {
+    let count = triangles.len();
+    Scene::new(Mesh::new(positions, triangles).expect("a mesh"), vec![material], vec![0; count], Vec::new())
+        .expect("a scene")
+}
+
+fn white() -> Material {
+    Material::diffuse("white", [0.5; 3])
+}
+
+#[test]
+fn scenes_that_make_no_patches() {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]];
+    let one = Subdivision::PerSide(1);
+    assert_eq!(Patches::new(&Scene::default(), one), Err(PatchError::Empty));
+    let flat = scene(corners.clone(), vec![[0, 1, 2], [0, 1, 3]], white());
+    assert_eq!(Patches::new(&flat, one), Err(PatchError::ZeroArea { triangle: 1 }));
+    let good = scene(corners.clone(), vec![[0, 1, 2]], white());
+    assert_eq!(Patches::new(&good, Subdivision::PerSide(0)), Err(PatchError::NoParts));
+    assert_eq!(Patches::new(&good, Subdivision::PerSide(200)), Err(PatchError::TooMany { found: 40_000 }));
+    assert!(Patches::new(&good, Subdivision::AtMost(MOST_PATCHES)).is_ok());
+    let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..white() };
+    let found = Patches::new(&scene(corners, vec![[0, 1, 2]], mirror), one);
+    assert_eq!(found, Err(PatchError::NotDiffuse { name: "white".to_owned(), found: "a mirror" }));
+}
+
+#[test]
+fn an_open_room_says_how_open_it_is_and_is_allowed_on_request() {
+    let patches = Patches::new(&rooms::cornell(CornellBox { blocks: false, open: true }), Subdivision::AtMost(60))
+        .expect("patches");
+    let factors = FormFactors::unoccluded(&patches).expect("factors");
+    let refused = factors.require_closed(1e-3).expect_err("no front wall").to_string();
+    assert!(
+        refused.starts_with("expected a closed room, found patch ") && refused.ends_with("or allow light to leave it"),
+        "{refused}"
+    );
+    assert!(factors.clone().enforce_closure().is_ok() || factors.clone().enforce_closure().is_err(), "never a panic");
+    System::new(factors, patches.reflectances(), patches.emittances()).expect("open rooms have solutions");
+}
+
+#[test]
+fn systems_of_impossible_surfaces() {
+    let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(1)).expect("patches");
+    let factors = FormFactors::unoccluded(&patches).expect("factors");
+    let system = |rho: f64, e: f64| System::new(factors.clone(), vec![[rho, 0.5, 0.5]; 6], vec![[e; 3]; 6]).map(|_| ());
+    assert!(system(0.0, 0.0).is_ok());
+    for rho in [1.0, -0.1, f64::NAN] {
+        let refused = system(rho, 0.0).expect_err("impossible").to_string();
+        assert!(refused.contains("at least 0 and below 1") && refused.contains("patch 0"), "{refused}");
+    }
+    for e in [-1.0, f64::INFINITY] {
+        assert!(system(0.5, e).expect_err("impossible").to_string().starts_with("expected finite emittances"));
+    }
+    let short = System::new(factors, vec![[0.5; 3]; 5], vec![[0.0; 3]; 6]).expect_err("one too few").to_string();
+    assert_eq!(short, "expected 6 reflectances, one a patch, found 5");
+}
+
+#[test]
+fn a_matrix_beyond_the_cards_textures_names_the_limit() {
+    let refused = packing::rgb_vector(&[[0.0; 3]; 2049], 2048).expect_err("2049 > 2048").to_string();
+    let words = "expected a vector that fits a texture of 2048 x 2048 texels, the card's largest, found 2049 x 1; use fewer patches";
+    assert_eq!(refused, words);
+}

@@ -1,0 +1,242 @@
+//! Form factors against closed forms, and against what must hold of all of them.
+
+use crossbar::geom::Mesh;
+use crossbar::geom::random::Keyed;
+use crossbar::geom::vector::Vec3;
+use crossbar::radiosity::form_factor::rectangles::{Bounded, parallel, perpendicular};
+use crossbar::radiosity::form_factor::{VisibilityParameters, point_to_polygon};
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::{FormFactors, Patches, Subdivision};
+use crossbar::scene::{Material, Scene};
+
+use super::tracer;
+
+/// What quadrature leaves of the row sums of a cut room (docs/papers/radiosity.md derives it).
+const QUADRATURE: f64 = 2e-7;
+
+fn cube(per_side: u32) -> Patches {
+    Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(per_side)).expect("patches")
+}
+
+/// The closed form for two patches of the unit cube.
+fn closed_form(one: &[Vec3], other: &[Vec3]) -> Option<Bounded> {
+    let span = |corners: &[Vec3], axis: usize| {
+        let values = corners.iter().map(|corner| corner[axis]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    let flat =
+        |corners: &[Vec3]| (0..3).find(|&axis| span(corners, axis)[0] == span(corners, axis)[1]).expect("on a wall");
+    let (a, b) = (flat(one), flat(other));
+    if a == b {
+        let apart = (one[0][a] - other[0][a]).abs();
+        let across = |corners: &[Vec3]| [span(corners, (a + 1) % 3), span(corners, (a + 2) % 3)];
+        return (apart > 0.0).then(|| parallel(across(one), across(other), apart));
+    }
+    let (along, wall) = (3 - a - b, |corners: &[Vec3], axis: usize, at: f64| {
+        let [low, high] = span(corners, axis).map(|x| (x - at).abs());
+        [low.min(high), low.max(high)]
+    });
+    let one_side = [wall(one, b, other[0][b]), span(one, along)];
+    Some(perpendicular(one_side, [wall(other, a, one[0][a]), span(other, along)]))
+}
+
+#[test]
+fn the_six_walls_of_a_cube_have_the_printed_constants() {
+    let factors = FormFactors::unoccluded(&cube(1)).expect("factors");
+    for i in 0..6 {
+        for j in 0..6 {
+            let expected = match (i == j, i / 2 == j / 2) {
+                (true, _) => 0.0,
+                (_, true) => 0.199_824_895_698_387,
+                _ => 0.200_043_776_075_403,
+            };
+            let found = factors.matrix().row(i)[j];
+            assert!((found - expected).abs() < 1e-9, "{i} to {j}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn every_pair_of_a_cut_cube_agrees_with_the_corner_sums_within_their_error() {
+    for per_side in [2, 5, 9] {
+        let patches = cube(per_side);
+        let factors = FormFactors::unoccluded(&patches).expect("factors");
+        let (mut worst, mut loosest) = (0.0_f64, 0.0_f64);
+        for (i, one) in patches.list().iter().enumerate() {
+            for (j, other) in patches.list().iter().enumerate() {
+                let found = factors.matrix().row(i)[j];
+                let Some(exact) = closed_form(one.corners(), other.corners()) else {
+                    assert_eq!(found, 0.0, "one wall does not see itself");
+                    continue;
+                };
+                let off = (found - exact.value).abs();
+                assert!(off <= exact.error + 1e-7 * found, "{per_side}: {i} to {j}: {found} against {exact:?}");
+                worst = worst.max(off / exact.value);
+                loosest = loosest.max(exact.error / exact.value);
+            }
+        }
+        println!("{per_side} a side: off by {worst:.1e} at most; corner sums are good to {loosest:.1e}");
+    }
+}
+
+#[test]
+fn the_error_of_a_corner_sum_covers_what_cancels_and_says_not_much_more() {
+    let side = |i: u32, n: u32| [f64::from(i) / f64::from(n), f64::from(i + 1) / f64::from(n)];
+    for n in [16, 32, 64] {
+        // Far corners of opposite walls: a product rule without cancellation is the truth.
+        let (one, other) = ([side(0, n); 2], [side(n - 1, n); 2]);
+        let sum = parallel(one, other, 1.0);
+        let truth = product_rule(one, other);
+        let off = (sum.value - truth).abs();
+        assert!(off <= sum.error + 1e-12 * truth, "{n}: {sum:?}, truth {truth}");
+        // Sixteen terms of order 1 leave the areas' product.
+        assert!(sum.error < 1e-12 * f64::from(n * n * n * n) * truth, "{n}: {sum:?}");
+        println!("{n} a side: off by {:.1e} of it, error {:.1e}", off / truth, sum.error / truth);
+    }
+}
+
+/// Simpson's rule on 9 x 9 points is good to 1e-12 this far away.
+fn product_rule(one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> f64 {
+    let weights = [1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0].map(|w| w / 24.0);
+    let at = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / 8.0;
+    let mut sum = 0.0;
+    for i in 0..6561_usize {
+        let [a, b, c, d] = [i % 9, i / 9 % 9, i / 81 % 9, i / 729];
+        let (x, y) = (at(one[0], a) - at(other[0], b), at(one[1], c) - at(other[1], d));
+        let square = x * x + y * y + 1.0;
+        sum += weights[a] * weights[b] * weights[c] * weights[d] / (std::f64::consts::PI * square * square);
+    }
+    sum * (other[0][1] - other[0][0]) * (other[1][1] - other[1][0])
+}
+
+#[test]
+fn closed_rooms_close_and_pairs_are_reciprocal() {
+    let rooms = [
+        ("cube", Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(8))),
+        ("box", Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(300))),
+        ("tetrahedron", Patches::new(&tetrahedron(), Subdivision::PerSide(5))),
+    ];
+    for (name, patches) in rooms {
+        let factors = FormFactors::unoccluded(&patches.expect("patches")).expect("factors");
+        let sums = factors.summary();
+        println!("{name}: {sums:?}, {} patches", factors.len());
+        assert!((sums.least - 1.0).abs() < QUADRATURE && (sums.most - 1.0).abs() < QUADRATURE, "{name}: {sums:?}");
+        factors.require_closed(QUADRATURE).expect("closed");
+        assert!(factors.reciprocity_error() <= 4.0 * f64::EPSILON, "{name}: {}", factors.reciprocity_error());
+    }
+}
+
+/// A regular tetrahedron seen from inside: each wall sees the other three alike.
+fn tetrahedron() -> Scene {
+    let corners = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+    let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let mesh = Mesh::new(corners, triangles).expect("a mesh");
+    Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; 4], Vec::new()).expect("a scene")
+}
+
+#[test]
+fn a_tetrahedron_shares_its_light_evenly() {
+    let patches = Patches::new(&tetrahedron(), Subdivision::PerSide(1)).expect("patches");
+    let factors = FormFactors::unoccluded(&patches).expect("factors");
+    for i in 0..4 {
+        for j in 0..4 {
+            let expected = if i == j { 0.0 } else { 1.0 / 3.0 };
+            let found = factors.matrix().row(i)[j];
+            assert!((found - expected).abs() < 1e-5, "{i} to {j}: {found}");
+        }
+    }
+}
+
+#[test]
+fn enforcement_closes_rows_and_keeps_reciprocity() {
+    let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(200)).expect("patches");
+    let mut factors = FormFactors::unoccluded(&patches).expect("factors");
+    // Spoil them by up to a tenth.
+    let mut spoilt = factors.matrix().clone();
+    for i in 0..spoilt.size() {
+        for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
+            *value *= 0.9 + 0.2 * Keyed::new(3).unit(i as u64, j as u64, 0);
+        }
+    }
+    factors = FormFactors::from_values(factors.areas().to_vec(), spoilt).expect("factors");
+    assert!(factors.reciprocity_error() > 0.1 && factors.require_closed(1e-3).is_err());
+    factors.enforce_closure().expect("a scaling");
+    factors.require_closed(1e-12).expect("closed");
+    assert!(factors.reciprocity_error() < 1e-15, "{}", factors.reciprocity_error());
+}
+
+#[test]
+fn a_point_sees_of_a_patch_what_rays_find() {
+    let random = Keyed::new(8);
+    let patch = [[0.3, 2.0, -0.5], [1.4, 2.2, 0.6], [0.2, 1.9, 1.5], [-0.9, 1.7, 0.4]];
+    let factor = point_to_polygon([0.0; 3], [0.0, 1.0, 0.0], &patch);
+    // Uniform points of the disc are a cosine-distributed direction each (Nusselt's analogue).
+    let (mut hits, mut all) = (0_u32, 0_u32);
+    for i in 0..200_000 {
+        let [x, z] = [0, 1].map(|d| 2.0 * random.unit(i, 0, d) - 1.0);
+        let square = x * x + z * z;
+        if square < 1.0 {
+            all += 1;
+            hits += u32::from(pierces(&patch, [x, (1.0 - square).sqrt(), z]));
+        }
+    }
+    let (share, sigma) = (f64::from(hits) / f64::from(all), (factor * (1.0 - factor) / f64::from(all)).sqrt());
+    assert!((share - factor).abs() < 5.0 * sigma, "{factor} against {share} of {all} rays");
+}
+
+/// Whether the direction is on the same side of all planes through the origin and a side.
+fn pierces(corners: &[Vec3; 4], d: Vec3) -> bool {
+    (0..4).all(|i| {
+        let [a, b] = [corners[i], corners[(i + 1) % 4]];
+        let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        n[0] * d[0] + n[1] * d[1] + n[2] * d[2] <= 0.0
+    })
+}
+
+#[test]
+fn an_empty_room_keeps_its_factors_to_the_bit_when_rays_are_asked() {
+    let scene = rooms::cornell(CornellBox::default());
+    let patches = Patches::new(&scene, Subdivision::AtMost(150)).expect("patches");
+    let parameters = VisibilityParameters { bundle: 5000, ..VisibilityParameters::default() };
+    let mut calls = Vec::new();
+    let seen = FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |done, all| {
+        calls.push((done, all))
+    });
+    assert_eq!(seen.expect("factors"), FormFactors::unoccluded(&patches).expect("factors"));
+    let all = calls[0].1;
+    assert!(calls.last() == Some(&(all, all)) && calls.len() > 10 && calls.windows(2).all(|two| two[0].0 < two[1].0));
+}
+
+/// Two walls of a cube with a screen between them that hides all, then half.
+#[test]
+fn a_screen_hides_what_is_behind_it() {
+    let screen = |share: f32| {
+        let mut positions = vec![
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 1.0, 1.0],
+            [1.0, 1.0, 1.0],
+            [1.0, 0.0, 1.0],
+            [0.0, 0.0, 1.0],
+        ];
+        positions.extend([[-1.0, -1.0, 0.5], [share, -1.0, 0.5], [share, 2.0, 0.5], [-1.0, 2.0, 0.5]]);
+        let triangles =
+            (0..3).flat_map(|quad| [[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|k| 4 * quad + k))).collect();
+        let mesh = Mesh::new(positions, triangles).expect("a mesh");
+        Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; 6], Vec::new()).expect("a scene")
+    };
+    let parameters = VisibilityParameters { side: 40, ..VisibilityParameters::default() };
+    let factor = |share: f32| {
+        let scene = screen(share);
+        let patches = Patches::new(&scene, Subdivision::PerSide(1)).expect("patches");
+        let found = FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |_, _| ());
+        found.expect("factors").matrix().row(0)[1]
+    };
+    let open = 0.199_824_895_698_387;
+    assert_eq!(factor(2.0), 0.0, "all hidden");
+    let (none, half) = (factor(-0.5), factor(0.5));
+    assert!((none - open).abs() < 1e-9, "none hidden: {none}");
+    assert!((half - 0.5 * open).abs() < 0.02 * open, "half hidden, by symmetry: {half}");
+}

@@ -1,0 +1,146 @@
+//! Physics: furnaces, energy, and light that is gathered at points.
+
+use crossbar::geom::vector::Vec3;
+use crossbar::radiosity::form_factor::VisibilityParameters;
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::solve::{Options, Solver};
+use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, display, gather};
+
+use super::{cornell, tracer};
+
+const EXACT: Options = Options { tolerance: 1e-13, most_iterations: 2000 };
+
+#[test]
+fn a_white_furnace_is_as_bright_everywhere() {
+    for reflectance in [0.0, 0.25, 0.5, 0.96875] {
+        let patches = Patches::new(&rooms::furnace(reflectance), Subdivision::PerSide(5)).expect("patches");
+        let mut factors = FormFactors::unoccluded(&patches).expect("factors");
+        factors.enforce_closure().expect("closed");
+        let exact: Vec<[f64; 3]> = vec![[1.0 - f64::from(reflectance); 3]; factors.len()];
+        let system = System::new(factors, patches.reflectances(), exact).expect("a system");
+        for solver in
+            [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.1), Solver::Shooting, Solver::Direct]
+        {
+            let solution = system.solve_channel(1, solver, &EXACT, None).expect("a solution");
+            let off = solution.radiosity.iter().map(|b| (b - 1.0).abs()).fold(0.0, f64::max);
+            // Row sums are within 1e-13 of 1, and 1 / (1 - rho) as far as that can lead.
+            assert!(off < 3e-13 / (1.0 - f64::from(reflectance)), "{solver} at {reflectance}: off by {off}");
+        }
+    }
+}
+
+#[test]
+fn what_is_emitted_is_absorbed_or_leaves() {
+    let emitted = |system: &System| -> f64 {
+        system.factors().areas().iter().zip(system.emittance()).map(|(area, e)| area * e[0]).sum()
+    };
+    let closed = cornell(250);
+    let solution = closed.solve(Solver::Direct, &EXACT, None).expect("a solution").radiosity();
+    assert!(closed.imbalance(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
+    // An open room balances as well: its row sums say what leaves.
+    let scene = rooms::cornell(CornellBox { blocks: true, open: true });
+    let patches = Patches::new(&scene, Subdivision::AtMost(250)).expect("patches");
+    let seen =
+        FormFactors::with_visibility(&patches, &mut tracer(&scene), VisibilityParameters::default(), &mut |_, _| ());
+    let factors = seen.expect("factors");
+    let sums = factors.summary();
+    assert!(sums.escaping > 0.1 && sums.most < 1.05 && sums.least >= 0.0, "{sums:?}");
+    let open = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
+    let solution = open.solve(Solver::GaussSeidel, &EXACT, None).expect("a solution").radiosity();
+    assert!(
+        open.imbalance(&solution).iter().all(|left| left.abs() < 1e-11 * emitted(&open)),
+        "{:?}",
+        open.imbalance(&solution)
+    );
+    let wrong: Vec<[f64; 3]> = solution.iter().map(|b| b.map(|x| 1.01 * x)).collect();
+    assert!(open.imbalance(&wrong).iter().all(|left| left.abs() > 1e-3), "a wrong solution shows");
+}
+
+#[test]
+fn walls_bleed_their_colour() {
+    let system = cornell(400);
+    let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(400)).expect("patches");
+    let solution = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
+    let ratio = |x: f64| {
+        let floor = patches
+            .list()
+            .iter()
+            .zip(&solution)
+            .filter(|(p, _)| p.normal()[2] > 0.5 && (p.centre()[0] - x).abs() < 0.6);
+        let (red, green) = floor.fold((0.0, 0.0), |(r, g), (_, b)| (r + b[0], g + b[1]));
+        red / green
+    };
+    assert!(ratio(0.5) > 1.1 * ratio(5.0), "beside the red wall {}, beside the green {}", ratio(0.5), ratio(5.0));
+}
+
+#[test]
+fn light_can_change_and_the_last_solution_is_a_good_start() {
+    let mut system = cornell(250);
+    let options = Options { tolerance: 1e-8, most_iterations: 500 };
+    let before = system.solve(Solver::Jacobi, &options, None).expect("a solution");
+    let brighter: Vec<[f64; 3]> = system.emittance().iter().map(|e| e.map(|x| 1.01 * x)).collect();
+    system.set_emittance(brighter).expect("emittances");
+    let anew = system.solve(Solver::Jacobi, &options, None).expect("a solution");
+    let onwards = system.solve(Solver::Jacobi, &options, Some(&before.radiosity())).expect("a solution");
+    for (anew, onwards) in anew.channels.iter().zip(&onwards.channels) {
+        assert!(onwards.converged && onwards.iterations() < anew.iterations());
+        // Two solutions of residual 1e-8 |E| each.
+        let (far, size) = (distance(&anew.radiosity, &onwards.radiosity), distance(&anew.radiosity, &[0.0; 250]));
+        assert!(far < 1e-6 * size, "{far} of {size}");
+    }
+    // Light is linear, and so is what comes of it.
+    let doubled = before.channels[0].radiosity.iter().map(|b| 1.01 * b).collect::<Vec<_>>();
+    assert!(distance(&doubled, &anew.channels[0].radiosity) < 1e-6 * distance(&doubled, &[0.0; 250]));
+    // New paint: only the matrix is made again, and a darker room is darker.
+    let darker: Vec<[f64; 3]> = system.reflectance().iter().map(|rho| rho.map(|x| 0.5 * x)).collect();
+    system.set_reflectance(darker).expect("reflectances");
+    let dark = system.solve(Solver::Jacobi, &options, Some(&anew.radiosity())).expect("a solution");
+    assert!(dark.radiosity().iter().zip(anew.radiosity()).all(|(dark, bright)| dark[0] <= bright[0]));
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn corners_share_what_meets_there() {
+    let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(4)).expect("patches");
+    let even = display::at_corners(&patches, &[[0.25, 0.5, 1.0]; 96]);
+    assert!(even.iter().flatten().all(|corner| *corner == [0.25, 0.5, 1.0]));
+    // A radiosity that grows along x: inner corners of the floor lie on the line.
+    let slope: Vec<[f64; 3]> = patches.list().iter().map(|p| [p.centre()[0]; 3]).collect();
+    let corners = display::at_corners(&patches, &slope);
+    for (patch, values) in patches.list().iter().zip(&corners).filter(|(p, _)| p.normal()[2] == 1.0) {
+        for (corner, value) in patch.corners().iter().zip(values) {
+            if (0.1..0.9).contains(&corner[0]) {
+                assert!((value[0] - corner[0]).abs() < 1e-12, "{corner:?}: {value:?}");
+            }
+        }
+    }
+    // Walls of other materials, or across an edge, give nothing.
+    let mut floor_only = vec![[0.0; 3]; 96];
+    floor_only[..16].fill([1.0; 3]);
+    assert!(display::at_corners(&patches, &floor_only)[16..].iter().flatten().all(|corner| *corner == [0.0; 3]));
+}
+
+#[test]
+fn irradiance_at_a_point_is_what_the_patch_around_it_reflects() {
+    let scene = rooms::cornell(CornellBox { blocks: true, open: false });
+    let patches = Patches::new(&scene, Subdivision::AtMost(500)).expect("patches");
+    let mut tracer = tracer(&scene);
+    let parameters = VisibilityParameters { side: 4, ..VisibilityParameters::default() };
+    let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
+    let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
+    let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
+    // The patch in the middle of the back wall: nothing near it changes fast.
+    let middle = |p: &Vec3| (p[0] - 2.75).abs() + (p[1] - 5.5).abs() + (p[2] - 4.0).abs();
+    let nearest = (0..b.len())
+        .min_by(|&i, &j| middle(&patches.list()[i].centre()).total_cmp(&middle(&patches.list()[j].centre())));
+    let i = nearest.expect("a patch");
+    let patch = &patches.list()[i];
+    let h = gather::irradiance(&patches, &b, [patch.centre(), patch.normal()], &mut tracer, parameters).expect("light");
+    for c in 0..3 {
+        let expected = b[i][c] / system.reflectance()[i][c];
+        assert!((h[c] - expected).abs() < 0.02 * expected, "channel {c}: {} against {expected}", h[c]);
+    }
+}

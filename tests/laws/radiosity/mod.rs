@@ -1,0 +1,47 @@
+//! Matrix radiosity: what light must satisfy, whoever computes it.
+
+mod bounds;
+mod errors;
+mod factors;
+mod light;
+mod solvers;
+mod textures;
+
+use crossbar::geom::Sides;
+use crossbar::geom::random::Keyed;
+use crossbar::linalg::Matrix;
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
+use crossbar::ray_engine::HostTracer;
+use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::scene::Scene;
+
+/// The Cornell box without blocks, its factors made to close.
+fn cornell(patches: usize) -> System {
+    let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(patches)).expect("patches");
+    let mut factors = FormFactors::unoccluded(&patches).expect("factors");
+    factors.enforce_closure().expect("a closed room");
+    System::new(factors, patches.reflectances(), patches.emittances()).expect("a system")
+}
+
+fn tracer(scene: &Scene) -> HostTracer {
+    HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both)
+}
+
+/// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal, and a right side.
+fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
+    let random = Keyed::new(seed);
+    let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);
+    let mut matrix = Matrix::zero(size).expect("small");
+    for i in 0..size {
+        let diagonal = 0.5 + number(i, size);
+        let weights: Vec<f64> = (0..size).map(|j| if i == j { 0.0 } else { number(i, j) }).collect();
+        let sum: f64 = weights.iter().sum();
+        let row = matrix.row_mut(i);
+        for (value, weight) in row.iter_mut().zip(&weights) {
+            *value = -weight * diagonal * reach / sum;
+        }
+        row[i] = diagonal;
+    }
+    (matrix, (0..size).map(|i| number(i, size + 1)).collect())
+}

@@ -1,0 +1,98 @@
+//! All solvers find the same solution; how fast is told by their histories.
+
+use crossbar::radiosity::solve::{Options, Problem, SolveError, Solver, residual, solve};
+
+use super::{cornell, random_system};
+
+const ALL: [Solver; 5] =
+    [Solver::Jacobi, Solver::GaussSeidel, Solver::OverRelaxation(1.2), Solver::Shooting, Solver::Direct];
+
+#[test]
+fn all_solvers_agree_on_random_matrices_and_the_cornell_box() {
+    let options = Options { tolerance: 1e-12, most_iterations: 5000 };
+    let mut systems: Vec<_> = (1..40).map(|size| random_system(size, 0.9, size as u64)).collect();
+    let cornell = cornell(200);
+    systems.push((cornell.matrix(0), cornell.right(0)));
+    for (matrix, right) in &systems {
+        let areas = vec![1.0; right.len()];
+        let problem = Problem { matrix, right, areas: &areas, start: None };
+        let truth = solve(Solver::Direct, &problem, &options).expect("a solution").radiosity;
+        let size = truth.iter().fold(0.0_f64, |m, b| m.max(b.abs()));
+        for solver in ALL {
+            let solution = solve(solver, &problem, &options).expect("a solution");
+            let off = solution.radiosity.iter().zip(&truth).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(solution.converged && off < 1e-9 * size, "{solver}, {} rows: off by {off}", right.len());
+            let last =
+                residual(matrix, right, &solution.radiosity).iter().map(|r| r * r).sum::<f64>() / right.len() as f64;
+            assert!((last - solution.history[solution.iterations()]).abs() <= 1e-6 * last, "{solver}: {last}");
+        }
+    }
+}
+
+#[test]
+fn a_start_at_the_solution_is_the_end() {
+    let (matrix, right) = random_system(30, 0.8, 5);
+    let areas = vec![1.0; 30];
+    let truth = solve(
+        Solver::Direct,
+        &Problem { matrix: &matrix, right: &right, areas: &areas, start: None },
+        &Options::default(),
+    );
+    let truth = truth.expect("a solution").radiosity;
+    for solver in [Solver::Jacobi, Solver::GaussSeidel, Solver::Shooting] {
+        let problem = Problem { matrix: &matrix, right: &right, areas: &areas, start: Some(&truth) };
+        let solution = solve(solver, &problem, &Options::default()).expect("a solution");
+        assert_eq!((solution.iterations(), solution.converged), (0, true), "{solver}");
+    }
+}
+
+#[test]
+fn shooting_sends_the_brightest_light_first() {
+    let system = cornell(250);
+    let options = |most_iterations| Options { tolerance: 0.0, most_iterations };
+    // After one round of shots most of the light is on its way; one Jacobi step has only sent what was emitted.
+    let left = |solver| system.solve_channel(0, solver, &options(1), None).expect("a solution").history[1];
+    assert!(left(Solver::Shooting) < 0.5 * left(Solver::Jacobi), "{} {}", left(Solver::Shooting), left(Solver::Jacobi));
+}
+
+#[test]
+fn histories_stop_where_they_are_told() {
+    let (matrix, right) = random_system(20, 0.9, 1);
+    let problem = Problem { matrix: &matrix, right: &right, areas: &[1.0; 20], start: None };
+    let few = solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 3 }).expect("a solution");
+    assert_eq!((few.iterations(), few.converged), (3, false));
+    let enough =
+        solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 999 }).expect("a solution");
+    let target = 1e-18 * enough.history[0];
+    assert!(
+        enough.converged
+            && enough.history[enough.iterations()] <= target
+            && enough.history[enough.iterations() - 1] > target
+    );
+    let dark = Problem { right: &[0.0; 20], ..problem };
+    assert_eq!(solve(Solver::GaussSeidel, &dark, &Options::default()).expect("a solution").iterations(), 0);
+}
+
+#[test]
+fn what_cannot_be_solved_is_refused() {
+    let (matrix, right) = random_system(4, 0.9, 1);
+    let problem = Problem { matrix: &matrix, right: &right, areas: &[1.0; 4], start: None };
+    let options = Options::default();
+    for step in [0.0, 2.0, -1.0, f64::NAN] {
+        let refused = solve(Solver::OverRelaxation(step), &problem, &options);
+        assert!(matches!(refused, Err(SolveError::Relaxation(_))), "{step}");
+    }
+    let short = Problem { start: Some(&[0.0; 3]), ..problem };
+    assert_eq!(
+        solve(Solver::Jacobi, &short, &options),
+        Err(SolveError::Count { what: "radiosities", rows: 4, found: 3 })
+    );
+    let mut zero = matrix.clone();
+    zero.row_mut(2)[2] = 0.0;
+    let refused = solve(Solver::Jacobi, &Problem { matrix: &zero, ..problem }, &options);
+    assert_eq!(refused, Err(SolveError::Diagonal { row: 2 }));
+    let (runaway, right) = random_system(8, 3.0, 2);
+    let problem = Problem { matrix: &runaway, right: &right, areas: &[1.0; 8], start: None };
+    let refused = solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 100_000 });
+    assert!(matches!(refused, Err(SolveError::Diverged { .. })), "{refused:?}");
+}

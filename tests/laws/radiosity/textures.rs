@@ -1,0 +1,136 @@
+//! Layouts read back to what was laid out; the card's order of operations against plain loops.
+
+use crossbar::linalg::Matrix;
+use crossbar::radiosity::card_order::CardSystem;
+use crossbar::radiosity::packing::{self, Packing, Texels};
+use crossbar::radiosity::{FormFactors, System};
+use proptest::prelude::*;
+
+use super::{cornell, random_system};
+
+const LIMIT: usize = 2048;
+
+fn rounded(matrix: &Matrix) -> Vec<Vec<f32>> {
+    matrix.rows().map(|row| row.iter().map(|&x| x as f32).collect()).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn every_layout_reads_back(size in 0..40_usize, seed in any::<u64>()) {
+        let [a, b, c] = [0, 1, 2].map(|k| if size == 0 { Matrix::zero(0).expect("small") } else { random_system(size, 0.9, seed ^ k).0 });
+        let texels = packing::rgb_matrix([&a, &b, &c], LIMIT).expect("it fits");
+        prop_assert_eq!((texels.width, texels.height, texels.texels.len()), (size, size, size * size));
+        for (channel, matrix) in [&a, &b, &c].into_iter().enumerate() {
+            prop_assert_eq!(packing::from_rgb_matrix(&texels, size, channel), rounded(matrix));
+        }
+        let texels = packing::luminance_matrix(&a, LIMIT).expect("it fits");
+        prop_assert_eq!((texels.width, texels.height), (size.div_ceil(4), size.div_ceil(4) * 4));
+        prop_assert_eq!(packing::from_luminance_matrix(&texels, size), rounded(&a));
+        let texels = packing::block_channel_matrix(&a, LIMIT).expect("it fits");
+        prop_assert_eq!(packing::from_block_channel_matrix(&texels, size), rounded(&a));
+        let values: Vec<[f64; 3]> = (0..size).map(|i| [i as f64, 0.1, -1e-3]).collect();
+        let texels = packing::rgb_vector(&values, LIMIT).expect("it fits");
+        let expected: Vec<[f32; 3]> = values.iter().map(|v| v.map(|x| x as f32)).collect();
+        prop_assert_eq!(packing::from_rgb_vector(&texels), expected);
+        let one: Vec<f64> = values.iter().map(|v| v[0] + v[1]).collect();
+        let texels = packing::luminance_vector(&one, LIMIT).expect("it fits");
+        prop_assert_eq!(texels.width, size.div_ceil(4));
+        prop_assert_eq!(packing::from_luminance_vector(&texels, size), one.iter().map(|&x| x as f32).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn block_channel_products_are_products(size in 1..20_usize, seed in any::<u64>()) {
+        let [a, b] = [0, 1].map(|k| random_system(size, 0.9, seed ^ k).0);
+        let [at, bt] = [&a, &b].map(|m| packing::block_channel_matrix(m, LIMIT).expect("it fits"));
+        let found = packing::from_block_channel_matrix(&packing::block_channel_product(&at, &bt), size);
+        let columns = b.transposed();
+        for (i, row) in found.iter().enumerate() {
+            for (j, &value) in row.iter().enumerate() {
+                let exact: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| x * y).sum();
+                let size: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| (x * y).abs()).sum();
+                prop_assert!((f64::from(value) - exact).abs() <= 30.0 * 6e-8 * size, "{} against {}", value, exact);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_texture_that_the_card_does_not_have_is_refused() {
+    let matrix = Matrix::zero(40).expect("small");
+    let refused = packing::rgb_matrix([&matrix; 3], 32).expect_err("40 > 32");
+    assert_eq!((refused.limit, refused.width, refused.height), (32, 40, 40));
+    assert!(packing::luminance_matrix(&matrix, 32).is_err(), "it has 40 rows");
+    assert!(packing::block_channel_matrix(&matrix, 32).is_ok(), "20 x 20");
+    assert!(packing::rgb_vector(&[[0.0; 3]; 33], 32).is_err());
+    assert!(packing::luminance_vector(&[0.0; 33], 32).is_ok());
+}
+
+fn bits(texels: &Texels) -> Vec<[u32; 4]> {
+    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// The steps written out as one loop over f32, without textures or passes.
+#[test]
+fn rgb_passes_are_one_loop_over_the_row() {
+    let system = cornell(120);
+    let n = system.factors().len();
+    for block in [1, 7, 50, 254] {
+        let card = CardSystem::rgb(&system, block, LIMIT).expect("it fits");
+        assert_eq!((card.passes(), card.packing()), (n.div_ceil(block), Packing::Rgb));
+        let mut b = card.zero();
+        for _ in 0..3 {
+            let mut expected = b.clone();
+            for (i, texel) in expected.texels.iter_mut().enumerate() {
+                for c in 0..3 {
+                    let m: Vec<f32> = card.matrix().row(i).iter().map(|m| m[c]).collect();
+                    let start = b.texels[i][c] + card.emittance().texels[i][c];
+                    texel[c] = m.iter().zip(&b.texels).fold(start, |acc, (m, b)| acc - m * b[c]);
+                }
+            }
+            b = card.step(&b);
+            assert_eq!(bits(&b), bits(&expected), "blocks of {block}");
+        }
+    }
+}
+
+#[test]
+fn luminance_passes_add_four_partial_sums_a_block() {
+    for size in [1, 4, 30, 61] {
+        let (matrix, right) = random_system(size, 0.9, 77);
+        let card = CardSystem::luminance(matrix, &right, 5, LIMIT).expect("it fits");
+        assert_eq!((card.len(), card.passes()), (size, size.div_ceil(20)));
+        let (mut b, mut expected) = (card.zero(), card.zero());
+        for _ in 0..3 {
+            let flat: Vec<f32> = b.texels.as_flattened().to_vec();
+            for i in 0..4 * card.zero().width {
+                let row = card.matrix().row(i).as_flattened();
+                let mut value = flat[i] + card.emittance().texels[i / 4][i % 4];
+                for (m, b) in row.chunks(20).zip(flat.chunks(20)) {
+                    let lane = |c: usize| (c..m.len()).step_by(4).fold(0.0_f32, |acc, j| acc - m[j] * b[j]);
+                    value += ((lane(0) + lane(1)) + lane(2)) + lane(3);
+                }
+                expected.texels[i / 4][i % 4] = value;
+            }
+            b = card.step(&b);
+            assert_eq!(bits(&b), bits(&expected), "{size} rows");
+        }
+        let beyond: Vec<f32> = b.texels.as_flattened()[size..].to_vec();
+        assert!(beyond.iter().all(|&x| x == 0.0), "elements beyond the vector stay 0");
+    }
+}
+
+/// A patch that sees itself has a diagonal other than 1, by which the paper's equation does not divide E.
+#[test]
+fn the_diagonal_is_divided_out_of_both_sides() {
+    let values = vec![0.5, 0.25, 0.25, 0.0];
+    let factors = FormFactors::from_values(vec![1.0; 2], Matrix::new(2, values).expect("a matrix")).expect("factors");
+    let system = System::new(factors, vec![[0.5; 3]; 2], vec![[3.0, 0.75, 1.5], [0.0; 3]]).expect("a system");
+    let card = CardSystem::rgb(&system, 254, LIMIT).expect("it fits");
+    assert_eq!(card.emittance().texels[0], [4.0, 1.0, 2.0, 0.0]);
+    assert_eq!(
+        card.matrix().row(0),
+        [[1.0, 1.0, 1.0, 0.0], [(-1.0_f64 / 6.0) as f32, (-1.0_f64 / 6.0) as f32, (-1.0_f64 / 6.0) as f32, 0.0]]
+    );
+}

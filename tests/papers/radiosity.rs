@@ -1,0 +1,77 @@
+//! Matrix radiosity: what the paper says of its figures, and what follows from it.
+
+use crossbar::geom::elementary::ln;
+use crossbar::radiosity::model;
+use crossbar::radiosity::rooms;
+use crossbar::radiosity::solve::{Options, Solution, Solver};
+use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
+use crossbar::scene::Material;
+
+/// The unit cube in the Cornell box's colours, `n` patches a side, light from the middle of the ceiling.
+fn closed_box(n: u32) -> System {
+    let paint = |name: &str, albedo| Material::diffuse(name, albedo);
+    let [white, red, green] = [[0.725, 0.71, 0.68], [0.63, 0.065, 0.05], [0.14, 0.45, 0.091]];
+    let walls = [white, white, red, green, white, white];
+    let mut names = rooms::WALLS.into_iter();
+    let scene = rooms::cube(walls.map(|albedo| paint(names.next().unwrap_or("wall"), albedo)));
+    let patches = Patches::new(&scene, Subdivision::PerSide(n)).expect("patches");
+    let mut factors = FormFactors::unoccluded(&patches).expect("factors");
+    factors.enforce_closure().expect("closed");
+    let lit = patches.list().iter().map(|patch| {
+        let [x, y, z] = patch.centre();
+        let middle = z == 1.0 && (x - 0.5).abs() < 0.125 && (y - 0.5).abs() < 0.125;
+        if middle { [17.0, 12.0, 4.0] } else { [0.0; 3] }
+    });
+    let emittance = lit.collect();
+    System::new(factors, patches.reflectances(), emittance).expect("a system")
+}
+
+/// Iterations until the residual's length is a share of what it was.
+fn iterations_to(solution: &Solution, share: f64) -> usize {
+    let target = share * share * solution.history[0];
+    solution.history.iter().position(|&error| error <= target).expect("far enough")
+}
+
+/// Section 3.1 and Figure 3: "about twice as many iterations". Late that is so, early it is not.
+#[test]
+fn jacobi_takes_up_to_twice_the_iterations_of_gauss_seidel() {
+    let system = closed_box(8);
+    let deep = Options { tolerance: 1e-12, most_iterations: 1000 };
+    for (channel, colour) in ["red", "green", "blue"].into_iter().enumerate() {
+        let jacobi = system.solve_channel(channel, Solver::Jacobi, &deep, None).expect("a solution");
+        let seidel = system.solve_channel(channel, Solver::GaussSeidel, &deep, None).expect("a solution");
+        let ratio = |share: f64| iterations_to(&jacobi, share) as f64 / iterations_to(&seidel, share) as f64;
+        let counts = [1e-2, 1e-4, 1e-8].map(|share| [iterations_to(&jacobi, share), iterations_to(&seidel, share)]);
+        let late = rate(&jacobi) / rate(&seidel);
+        println!("{colour}: {counts:?}, {:.2} at 1e-4, {:.2} at 1e-8, {late:.3} late", ratio(1e-4), ratio(1e-8));
+        assert!((1.4..1.85).contains(&ratio(1e-4)), "{colour}: {}", ratio(1e-4));
+        assert!((1.8..2.0).contains(&late), "{colour}: {late}");
+    }
+}
+
+/// Iterations until the residual is smaller by a factor of e, late.
+fn rate(solution: &Solution) -> f64 {
+    let (early, late) = (iterations_to(solution, 1e-8), iterations_to(solution, 1e-12));
+    2.0 * (late - early) as f64 / ln(solution.history[early] / solution.history[late])
+}
+
+/// Figure 3 is a semilog plot; both curves are straight lines in it.
+#[test]
+fn residuals_fall_by_the_same_factor_each_time() {
+    let system = closed_box(6);
+    let options = Options { tolerance: 1e-10, most_iterations: 1000 };
+    for solver in [Solver::Jacobi, Solver::GaussSeidel] {
+        let history = system.solve_channel(0, solver, &options, None).expect("a solution").history;
+        let ratios: Vec<f64> = history.windows(2).skip(6).map(|two| two[1] / two[0]).collect();
+        let (least, most) = ratios.iter().fold((1.0_f64, 0.0_f64), |(l, m), &r| (l.min(r), m.max(r)));
+        assert!(most < 1.0 && most / least < 1.1, "{solver}: {least} to {most}");
+    }
+}
+
+/// Both printed rates mean 4.75 MFLOP an iteration, and with 2 N^2 that leaves four sizes of matrix.
+#[test]
+fn the_printed_rates_leave_four_sizes() {
+    let fits = |n: &u32| model::mflops(*n, 29.7).round() == 141.0 && model::mflops(*n, 40.0).round() == 190.0;
+    assert_eq!((1..4096).filter(fits).collect::<Vec<_>>(), [1540, 1541, 1542, 1543]);
+    assert_eq!(model::passes(1540, 1, model::BLOCK), 7);
+}
