@@ -4,6 +4,7 @@ mod bounds;
 mod errors;
 mod factors;
 mod light;
+mod others;
 mod solvers;
 mod textures;
 

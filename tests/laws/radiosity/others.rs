@@ -1,0 +1,107 @@
+//! Radiosity against those who do not know of it: form factors by rays alone, light by path tracing, scenes of other makers.
+
+use std::f64::consts::PI;
+
+use crossbar::io::parse_obj;
+use crossbar::radiosity::form_factor::VisibilityParameters;
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::solve::{Options, Solver};
+use crossbar::radiosity::{FormFactors, PatchError, Patches, Subdivision, System, gather};
+use crossbar::renderer::Settings;
+use crossbar::renderer::form_factor::form_factor;
+use crossbar::renderer::path::{self, Direct};
+use crossbar::scene::{Camera, Material, Scene, built};
+
+use super::tracer;
+
+const FULL: CornellBox = CornellBox { blocks: true, open: false };
+
+/// Whole faces, so that both know the same patches. Ours is a closed form times visibility by rays, theirs is rays alone.
+#[test]
+fn form_factors_agree_with_an_estimate_by_rays_alone() {
+    let scene = rooms::cornell(FULL);
+    let patches = Patches::new(&scene, Subdivision::PerSide(1)).expect("patches");
+    let mut tracer = tracer(&scene);
+    let parameters = VisibilityParameters { side: 40, ..VisibilityParameters::default() };
+    let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
+    let faces: Vec<Vec<u32>> = (0..patches.list().len() as u32)
+        .map(|face| (0..scene.mesh().len() as u32).filter(|&t| patches.face_of(t) == face).collect())
+        .collect();
+    let mut hidden = 0;
+    for (i, j) in [(0, 8), (0, 14), (0, 15), (1, 2), (1, 16), (2, 18), (3, 12), (4, 17), (8, 19), (13, 19), (8, 23)] {
+        let (i, j): (usize, usize) = (i % faces.len(), j % faces.len());
+        let ours = factors.matrix().row(i)[j];
+        let theirs = form_factor(&scene, &faces[i], &faces[j], 6000, 7, &mut tracer).expect("rays");
+        // Both are estimates; ours has a quarter of the samples, and less to estimate.
+        let sigma = (theirs.variance * 3.0).sqrt();
+        assert!((ours - theirs.value).abs() <= 4.0 * sigma + 1e-4, "{i} to {j}: {ours} against {theirs:?}");
+        hidden += u32::from(theirs.value > 0.0);
+    }
+    assert!(hidden > 5, "most of them see each other: {hidden}");
+}
+
+/// Irradiance at points of the walls: what a path tracer sees there, times pi over the reflectance.
+#[test]
+fn the_cornell_box_is_as_bright_as_paths_say() {
+    let scene = rooms::cornell(FULL);
+    let patches = Patches::new(&scene, Subdivision::AtMost(700)).expect("patches");
+    let mut tracer = tracer(&scene);
+    let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
+    let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
+    let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
+    let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
+    let eye = [2.75, 0.3, 2.75];
+    let white = [0.725_f64, 0.71, 0.68];
+    let points = [
+        ("back wall", [2.75, 5.5, 4.5], [0.0, -1.0, 0.0], white),
+        ("floor", [4.6, 1.0, 0.0], [0.0, 0.0, 1.0], white),
+        ("left wall", [0.0, 2.5, 3.5], [1.0, 0.0, 0.0], [0.63, 0.065, 0.05]),
+        ("right wall", [5.5, 2.0, 3.0], [-1.0, 0.0, 0.0], [0.14, 0.45, 0.091]),
+    ];
+    for (name, at, normal, albedo) in points {
+        let fine = VisibilityParameters { side: 4, ..VisibilityParameters::default() };
+        let found = gather::irradiance(&patches, &b, [at, normal], &mut tracer, fine).expect("light");
+        let camera = Camera::new(eye, at.map(|x| x as f32), [0.0, 0.1, 1.0], 1e-3, 1, 1).expect("a camera");
+        let settings = Settings { samples: 6000, depth: 40, ..Settings::default() };
+        let picture =
+            path::render(&scene, &camera, &settings, Direct::Both, &mut tracer, &mut |_| ()).expect("a pixel");
+        for c in 0..3 {
+            let to_irradiance = PI / albedo[c];
+            let (truth, sigma) = (picture.color[0][c] * to_irradiance, picture.variance[0][c].sqrt() * to_irradiance);
+            println!("{name}, channel {c}: {:.3} against {truth:.3} +- {sigma:.3}", found[c]);
+            assert!(
+                (found[c] - truth).abs() < 3.0 * sigma,
+                "{name}, channel {c}: {} against {truth} +- {sigma}",
+                found[c]
+            );
+        }
+    }
+}
+
+#[test]
+fn the_built_furnace_has_the_radiance_that_it_says() {
+    let scene = built::build("white-box").expect("a scene");
+    let patches = Patches::new(&scene, Subdivision::PerSide(3)).expect("patches");
+    let mut factors = FormFactors::unoccluded(&patches).expect("factors");
+    factors.enforce_closure().expect("closed");
+    let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
+    let b = system.solve(Solver::Direct, &Options::default(), None).expect("a solution").radiosity();
+    assert!(b.iter().flatten().all(|b| (b / PI - 1.0).abs() < 1e-12), "radiance 1");
+}
+
+#[test]
+fn built_scenes_and_models_of_ones_own_are_cut() {
+    let cornell =
+        Patches::new(&built::build("cornell-box").expect("a scene"), Subdivision::AtMost(400)).expect("patches");
+    assert!((300..=400).contains(&cornell.list().len()), "{}", cornell.list().len());
+    let room = Patches::new(&built::build("teapot-room").expect("a scene"), Subdivision::PerSide(1));
+    assert!(matches!(room, Err(PatchError::NotDiffuse { .. })), "metal and glass");
+    let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 5 2\n";
+    let mesh = parse_obj(text, std::path::Path::new("a.obj")).expect("a model");
+    let own = Scene::new(mesh, vec![Material::diffuse("grey", [0.5; 3])], vec![0; 3], Vec::new()).expect("a scene");
+    let patches = Patches::new(&own, Subdivision::PerSide(2)).expect("patches");
+    assert_eq!(patches.list().len(), 8, "a square and a triangle, four each");
+    assert_eq!(patches.list().iter().filter(|p| p.corners().len() == 4).count(), 4);
+    let area: f64 = patches.areas().iter().sum();
+    assert!((area - 1.5).abs() < 1e-12, "{area}");
+}
