@@ -8,14 +8,16 @@ const LANES: usize = 8;
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
+    let n = a.len().min(b.len());
+    let (a, b) = (&a[..n], &b[..n]);
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     for (x, y) in a.iter().zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += x[lane] * y[lane];
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum += x * y;
         }
     }
-    for (lane, (x, y)) in a_rest.iter().zip(b_rest).enumerate() {
-        sums[lane] += x * y;
+    for (sum, (x, y)) in sums.iter_mut().zip(a_rest.iter().zip(b_rest)) {
+        *sum += x * y;
     }
     let [s0, s1, s2, s3, s4, s5, s6, s7] = sums;
     ((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7))
@@ -32,6 +34,8 @@ mod tests {
             let b: Vec<f64> = (0..n).map(|k| f64::from(k % 5) - 2.0).collect();
             let sum: f64 = a.iter().zip(&b).map(|(x, y)| x * y).sum();
             assert_eq!(dot(&a, &b), sum);
+            let longer: Vec<f64> = b.iter().copied().chain([7.0; 11]).collect();
+            assert_eq!(dot(&longer, &a), sum);
         }
     }
 }

@@ -41,7 +41,8 @@ impl Patch {
         let area = 0.5 * length(normal);
         let longest = (0..sides).map(|i| length(sub(corners[(i + 1) % sides], corners[i]))).fold(0.0, f64::max);
         // Corners come from f32: a height of 2^-40 of the longest side is rounding, not area.
-        if !(area > longest * longest * f64::EPSILON * 4096.0) {
+        let least = longest * longest * f64::EPSILON * 4096.0;
+        if area.is_nan() || area <= least {
             return None;
         }
         let centre = centroid(&corners[..sides], normal);

@@ -214,6 +214,6 @@ impl System {
 
 /// The first value that is `wrong`, with its patch.
 fn first(values: &PerPatch, wrong: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
-    let all = values.iter().enumerate().flat_map(|(patch, colour)| colour.map(|value| (patch, value)));
-    all.into_iter().find(|&(_, value)| wrong(value))
+    let mut all = values.iter().enumerate().flat_map(|(patch, colour)| colour.map(|value| (patch, value)));
+    all.find(|&(_, value)| wrong(value))
 }

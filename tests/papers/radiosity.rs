@@ -12,8 +12,7 @@ fn closed_box(n: u32) -> System {
     let paint = |name: &str, albedo| Material::diffuse(name, albedo);
     let [white, red, green] = [[0.725, 0.71, 0.68], [0.63, 0.065, 0.05], [0.14, 0.45, 0.091]];
     let walls = [white, white, red, green, white, white];
-    let mut names = rooms::WALLS.into_iter();
-    let scene = rooms::cube(walls.map(|albedo| paint(names.next().unwrap_or("wall"), albedo)));
+    let scene = rooms::cube([0, 1, 2, 3, 4, 5].map(|wall| paint(rooms::WALLS[wall], walls[wall])));
     let patches = Patches::new(&scene, Subdivision::PerSide(n)).expect("patches");
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     factors.enforce_closure().expect("closed");

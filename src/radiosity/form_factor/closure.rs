@@ -63,7 +63,9 @@ impl FormFactors {
     /// [`FormFactorError::Open`] names the patch farthest from it.
     pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
         let sums = self.row_sums();
-        let open = sums.iter().filter(|&&sum| !((sum - 1.0).abs() <= tolerance)).count();
+        // A sum that is no number is not closed either.
+        let closed = sums.iter().filter(|&&sum| (sum - 1.0).abs() <= tolerance).count();
+        let open = sums.len() - closed;
         if open == 0 {
             return Ok(());
         }

@@ -139,8 +139,8 @@ fn irradiance_at_a_point_is_what_the_patch_around_it_reflects() {
     let i = nearest.expect("a patch");
     let patch = &patches.list()[i];
     let h = gather::irradiance(&patches, &b, [patch.centre(), patch.normal()], &mut tracer, parameters).expect("light");
-    for c in 0..3 {
+    for (c, found) in h.into_iter().enumerate() {
         let expected = b[i][c] / system.reflectance()[i][c];
-        assert!((h[c] - expected).abs() < 0.02 * expected, "channel {c}: {} against {expected}", h[c]);
+        assert!((found - expected).abs() < 0.02 * expected, "channel {c}: {found} against {expected}");
     }
 }

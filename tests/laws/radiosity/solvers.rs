@@ -32,7 +32,7 @@ fn all_solvers_agree_on_random_matrices_and_the_cornell_box() {
 #[test]
 fn a_start_at_the_solution_is_the_end() {
     let (matrix, right) = random_system(30, 0.8, 5);
-    let areas = vec![1.0; 30];
+    let areas = [1.0; 30];
     let truth = solve(
         Solver::Direct,
         &Problem { matrix: &matrix, right: &right, areas: &areas, start: None },
