@@ -42,7 +42,6 @@ fn jacobi_takes_up_to_twice_the_iterations_of_gauss_seidel() {
         let ratio = |share: f64| iterations_to(&jacobi, share) as f64 / iterations_to(&seidel, share) as f64;
         let counts = [1e-2, 1e-4, 1e-8].map(|share| [iterations_to(&jacobi, share), iterations_to(&seidel, share)]);
         let late = rate(&jacobi) / rate(&seidel);
-        println!("{colour}: {counts:?}, {:.2} at 1e-4, {:.2} at 1e-8, {late:.3} late", ratio(1e-4), ratio(1e-8));
         assert!((1.4..1.85).contains(&ratio(1e-4)), "{colour}: {}", ratio(1e-4));
         assert!((1.8..2.0).contains(&late), "{colour}: {late}");
     }
