@@ -35,10 +35,6 @@ fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u
                 let (g, e) = (running[c].contraction, scaled(&systems[c]));
                 let prior = before(card, g, e);
                 assert!(running[c].error <= prior + e * 1e-12, "{name}: {} against {prior} before", running[c].error);
-                println!(
-                    "{name}, channel {c}: g {g:.3}, off by {off:.2e}, running {:.2e}, before {prior:.2e}",
-                    running[c].error
-                );
                 assert!(running[c].error < 3e3 * off.max(1e-7 * e), "{name}: the bound says something");
             }
         }

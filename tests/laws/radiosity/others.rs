@@ -68,7 +68,6 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
         for c in 0..3 {
             let to_irradiance = PI / albedo[c];
             let (truth, sigma) = (picture.color[0][c] * to_irradiance, picture.variance[0][c].sqrt() * to_irradiance);
-            println!("{name}, channel {c}: {:.3} against {truth:.3} +- {sigma:.3}", found[c]);
             assert!(
                 (found[c] - truth).abs() < 3.0 * sigma,
                 "{name}, channel {c}: {} against {truth} +- {sigma}",
