@@ -35,11 +35,11 @@ pub mod model;
 pub mod packing;
 mod patch;
 mod patches;
-pub mod rooms;
 pub mod solve;
 mod subdivide;
 mod system;
 
+pub use crate::scene::built::rooms;
 pub use form_factor::{FormFactorError, FormFactors};
 pub use patch::Patch;
 pub use patches::{MOST_PATCHES, PatchError, Patches, Subdivision};

@@ -14,6 +14,7 @@ mod office;
 mod office_floor;
 mod palette;
 mod parts;
+pub mod rooms;
 mod solids;
 mod teapot_room;
 mod white_box;
@@ -38,6 +39,16 @@ struct Entry {
 
 const SCENES: &[Entry] = &[
     Entry { name: "cornell-box", what: "the Cornell box with its two blocks", build: cornell_box },
+    Entry {
+        name: "cornell-room",
+        what: "a Cornell box closed in front, without blocks: the radiosity paper's scene",
+        build: || rooms::cornell(rooms::CornellBox { blocks: false, open: false }),
+    },
+    Entry {
+        name: "cornell-room-blocks",
+        what: "the same with its two blocks",
+        build: || rooms::cornell(rooms::CornellBox { blocks: true, open: false }),
+    },
     Entry {
         name: "office",
         what: "an office with eight desks and much on them: Figure 6 c of the Ray Engine",

@@ -1,4 +1,5 @@
-//! Rooms to try radiosity on: a cube that sees only itself, and the Cornell box. z is up, y goes back, walls face inwards.
+//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of straight walls.
+//! z is up, y goes back, walls face inwards.
 
 use crate::geom::Mesh;
 use crate::scene::{Color, Material, Scene, Surface, View};
