@@ -67,7 +67,7 @@ const CROSSBAR: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

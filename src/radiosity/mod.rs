@@ -9,7 +9,7 @@
 //! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;
 //! - [`bound`]: how far that step's rounding can lead;
 //! - [`model`]: the paper's passes and operation counts;
-//! - [`display`], [`gather`]: radiosities at corners, irradiance at points;
+//! - [`display`]: pictures drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
 //! - [`rooms`]: closed boxes to try it on.
 //!
 //! ```
@@ -29,6 +29,7 @@
 pub mod bound;
 pub mod card_order;
 pub mod display;
+mod draw;
 pub mod form_factor;
 pub mod gather;
 pub mod model;
@@ -40,6 +41,7 @@ mod subdivide;
 mod system;
 
 pub use crate::scene::built::rooms;
+pub use draw::DrawError;
 pub use form_factor::{FormFactorError, FormFactors};
 pub use patch::Patch;
 pub use patches::{MOST_PATCHES, PatchError, Patches, Subdivision};

@@ -1,0 +1,70 @@
+//! Radiosities at the corners of patches, for smooth shading.
+
+use std::collections::BTreeMap;
+
+use crate::geom::vector::{Vec3, dot};
+use crate::radiosity::Patches;
+
+/// Patches whose normals are farther apart than this (a cosine) do not share their corners: about 26 degrees.
+const CREASE: f64 = 0.9;
+
+/// Which patches a corner's radiosity is the mean of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Meetings {
+    /// Each different set of patches, in rising order, never empty.
+    pub(super) sets: Vec<Vec<u32>>,
+    /// Of each corner of each patch the place of its set; a triangle's fourth is 0.
+    pub(super) of: Vec<[u32; 4]>,
+}
+
+impl Meetings {
+    /// At each corner of each patch the patches of one material that meet there and are not across an edge.
+    pub(super) fn new(patches: &Patches) -> Self {
+        let list = patches.list();
+        let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
+        for (i, patch) in (0..).zip(list) {
+            for &corner in patch.corners() {
+                meeting.entry(place(corner)).or_default().push(i);
+            }
+        }
+        let (mut sets, mut places) = (Vec::new(), BTreeMap::new());
+        let mut of = vec![[0; 4]; list.len()];
+        for (patch, of) in list.iter().zip(&mut of) {
+            let smooth = |&j: &u32| {
+                let other = &list[j as usize];
+                other.material == patch.material && dot(other.normal(), patch.normal()) >= CREASE
+            };
+            for (&corner, of) in patch.corners().iter().zip(of) {
+                let set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
+                *of = *places.entry(set).or_insert_with_key(|set| {
+                    sets.push(set.clone());
+                    sets.len() as u32 - 1
+                });
+            }
+        }
+        Self { sets, of }
+    }
+}
+
+/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not across an edge
+/// (Cohen and Greenberg, 1985, without their extrapolation at the border). A radiosity that is the same everywhere stays the same.
+///
+/// # Panics
+/// If there is not one radiosity a patch.
+#[must_use]
+pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
+    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
+    let Meetings { sets, of } = Meetings::new(patches);
+    let mean = |set: &Vec<u32>| {
+        let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
+        set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
+    };
+    let means: Vec<[f64; 3]> = sets.iter().map(mean).collect();
+    let corners = patches.list().iter().map(|patch| patch.corners().len());
+    corners.zip(&of).map(|(count, of)| of[..count].iter().map(|&set| means[set as usize]).collect()).collect()
+}
+
+/// Corners of neighbours agree in f32; both zeros are one place.
+fn place(corner: Vec3) -> [u32; 3] {
+    corner.map(|x| (x as f32 + 0.0).to_bits())
+}

@@ -1,0 +1,247 @@
+//! The scene in its radiosities, drawn by the card (section 3.1, Figure 2).
+//!
+//! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first into one of
+//! corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the host.
+
+mod corners;
+pub mod programs;
+mod resample;
+
+use refsim::exec::{CheckedProgram, Constants};
+use refsim::machine::{DepthId, DrawCall, Machine, TextureId, VertexSource};
+use refsim::num::Format;
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{Image, SamplerState, SignedTexelMinimum, TexelFormat};
+
+use super::draw::{DrawError, Projection, bits, patch_of};
+use super::{Patch, Patches};
+use crate::scene::Camera;
+use corners::Meetings;
+pub use corners::at_corners;
+use programs::{KernelText, checked};
+use resample::{Resampler, rectangle};
+
+/// Which way a vector of radiosities lies in its texture, a rectangle of `rgba32f`: texel i is red, green and blue of patch i.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VectorTexture {
+    /// N x 1 texels.
+    #[default]
+    Row,
+    /// 1 x N texels.
+    Column,
+}
+
+impl VectorTexture {
+    fn texel(self, patch: usize) -> [f64; 2] {
+        let at = patch as f64 + 0.5;
+        if self == Self::Row { [at, 0.5] } else { [0.5, at] }
+    }
+
+    /// p[0], p[1] of the resampling program: a number + 1/2 times the first plus the second is the texel.
+    fn constants(self) -> [[u32; 4]; 2] {
+        let [step, start] = if self == Self::Row { [[1.0, 0.0], [0.0, 0.5]] } else { [[0.0, 1.0], [0.5, 0.0]] };
+        [step, start].map(|[x, y]| bits([x, y, 0.0, 0.0]))
+    }
+}
+
+/// How a picture is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DisplayOptions {
+    /// How the radiosities lie in their texture.
+    pub vector: VectorTexture,
+    /// The target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time; [`TexelFormat::Rgba32f`] keeps all.
+    pub target: TexelFormat,
+}
+
+impl Default for DisplayOptions {
+    fn default() -> Self {
+        Self { vector: VectorTexture::Row, target: TexelFormat::Bgra8 }
+    }
+}
+
+/// A picture as the card left it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Red, green and blue, linear, rows from the top. Black where there is no patch, or its back.
+    pub pixels: Vec<[f64; 3]>,
+}
+
+/// Patches of three corners or of four: their vertices, and how they are drawn smoothly.
+#[derive(Debug)]
+struct Shape {
+    primitive: Primitive,
+    vertices: Vec<Vertex>,
+    smooth: CheckedProgram,
+}
+
+/// What it takes of a card to draw a scene's patches from one camera. It belongs to the machine that it was made with.
+#[derive(Debug)]
+pub struct Display {
+    patches: usize,
+    options: DisplayOptions,
+    shapes: [Shape; 2],
+    flat: CheckedProgram,
+    id: CheckedProgram,
+    resampler: Resampler,
+    target: TextureId,
+    ids: TextureId,
+    depth: DepthId,
+}
+
+impl Display {
+    /// Projects the patches, uploads which of them meet at corners, and makes targets of the camera's size.
+    ///
+    /// # Errors
+    /// [`DrawError`] if the card has no fragment programs, or its targets are too small.
+    pub fn new(
+        machine: &mut Machine,
+        patches: &Patches,
+        camera: &Camera,
+        options: DisplayOptions,
+    ) -> Result<Self, DrawError> {
+        let program = |kernel: KernelText| checked(machine.profile(), kernel);
+        let (flat, id) = (program(programs::FLAT)?, program(programs::ID)?);
+        let (quad, triangle) = (program(programs::SMOOTH_QUAD)?, program(programs::SMOOTH_TRIANGLE)?);
+        let meetings = Meetings::new(patches);
+        let resampler = Resampler::new(machine, &meetings, options.vector)?;
+        let view = View { patches, camera, meetings: &meetings, resampler: &resampler, vector: options.vector };
+        let shapes = [
+            Shape { primitive: Primitive::QuadList, vertices: view.vertices(4), smooth: quad },
+            Shape { primitive: Primitive::TriangleList, vertices: view.vertices(3), smooth: triangle },
+        ];
+        let [width, height] = [camera.width(), camera.height()];
+        let target = machine.create_target(options.target, width, height)?;
+        let ids = machine.create_target(TexelFormat::R32f, width, height)?;
+        let depth = machine.create_depth(DepthFormat::Unorm24, width, height)?;
+        Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids, depth })
+    }
+
+    /// Radiosities of the host as a texture to draw from, one a patch.
+    ///
+    /// # Errors
+    /// [`DrawError`] if there is not one a patch, or the card's textures are too small.
+    pub fn upload(&self, machine: &mut Machine, radiosity: &[[f64; 3]]) -> Result<TextureId, DrawError> {
+        if radiosity.len() != self.patches {
+            return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
+        }
+        let texels: Vec<[u32; 4]> = radiosity.iter().map(|&[r, g, b]| bits([r, g, b, 0.0])).collect();
+        let long = texels.len() as u32;
+        let size = if self.options.vector == VectorTexture::Row { [long, 1] } else { [1, long] };
+        Ok(machine.create_texture(rectangle(size, &texels)?)?)
+    }
+
+    /// Each patch in its radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.
+    ///
+    /// # Errors
+    /// [`DrawError`] if the card refuses.
+    pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
+        self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
+        self.picture(machine)
+    }
+
+    /// Each patch between the radiosities at its corners, resampled by the card; exposure as with [`Display::flat`].
+    ///
+    /// # Errors
+    /// [`DrawError`] if the card refuses.
+    pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
+        let corners = self.resampler.run(machine, radiosity)?;
+        self.draw(machine, self.target, Some(corners), exposure, |shape| &shape.smooth)?;
+        self.picture(machine)
+    }
+
+    /// The patch whose front each pixel shows, if any; rows from the top.
+    ///
+    /// # Errors
+    /// [`DrawError`] if the card refuses.
+    pub fn ids(&self, machine: &mut Machine) -> Result<Vec<Option<u32>>, DrawError> {
+        self.draw(machine, self.ids, None, 1.0, |_| &self.id)?;
+        let codes = machine.read_back(self.ids)?.bytes().chunks_exact(4);
+        Ok(codes.map(|code| patch_of(f32::from_le_bytes([code[0], code[1], code[2], code[3]]))).collect())
+    }
+
+    /// Clears, and draws all shapes with a program each.
+    fn draw<'a>(
+        &'a self,
+        machine: &mut Machine,
+        target: TextureId,
+        texture: Option<TextureId>,
+        exposure: f64,
+        program: impl Fn(&'a Shape) -> &'a CheckedProgram,
+    ) -> Result<(), DrawError> {
+        machine.clear_target(target, [0; 4])?;
+        machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
+        let factor = bits([exposure / std::f64::consts::PI; 4]);
+        let constants = Constants { float: vec![factor], ..Constants::default() };
+        for shape in self.shapes.iter().filter(|shape| !shape.vertices.is_empty()) {
+            let source = VertexSource::Transformed(&shape.vertices);
+            let mut call = DrawCall::new(source, shape.primitive, program(shape), &constants, target);
+            if let Some(texture) = texture {
+                call = call.with_texture(0, texture, SamplerState::NEAREST_CLAMP);
+            }
+            call.center = PixelCenter::OpenGl;
+            call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
+            call.depth_buffer = Some(self.depth);
+            machine.draw(&call)?;
+        }
+        Ok(())
+    }
+
+    fn picture(&self, machine: &Machine) -> Result<Picture, DrawError> {
+        let image = machine.read_back(self.target)?;
+        let pixels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| pixel(image, x, y)));
+        Ok(Picture { width: image.width(), height: image.height(), pixels: pixels.collect() })
+    }
+}
+
+fn pixel(image: &Image, x: u32, y: u32) -> [f64; 3] {
+    let texel = image.texel(0, 0, y, x, SignedTexelMinimum::Clamp);
+    [0, 1, 2].map(|c| f64::from(f32::from_bits(texel.to_format(Format::FP32)[c])))
+}
+
+/// What vertices are made of.
+struct View<'a> {
+    patches: &'a Patches,
+    camera: &'a Camera,
+    meetings: &'a Meetings,
+    resampler: &'a Resampler,
+    vector: VectorTexture,
+}
+
+impl View<'_> {
+    /// The vertices of all patches of so many corners that are in the picture.
+    fn vertices(&self, sides: usize) -> Vec<Vertex> {
+        let list = self.patches.list();
+        let within = list.first().map_or([0.0; 3], |patch| patch.corners()[0]);
+        let projection = Projection::of(self.camera, within, self.patches.extent());
+        let mut vertices = Vec::new();
+        for (i, patch) in list.iter().enumerate().filter(|(_, patch)| patch.corners().len() == sides) {
+            if let Some(side) = projection.side(patch).filter(|_| !projection.misses(patch)) {
+                let code = side.code(i);
+                let corner = |(&corner, at)| self.dressed(projection.vertex(corner, at, side), i, code);
+                vertices.extend(patch.corners().iter().zip(in_patch(patch)).map(corner));
+            }
+        }
+        vertices
+    }
+
+    /// A vertex with the texels of its patch and of the patch's corners.
+    fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
+        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.meetings.of[patch].map(|set| self.resampler.texel(set));
+        let [x, y] = self.vector.texel(patch);
+        vertex.texcoords[1] = bits([ax, ay, bx, by]);
+        vertex.texcoords[2] = bits([cx, cy, dx, dy]);
+        vertex.texcoords[3] = bits([x, y, code, 0.0]);
+        vertex
+    }
+}
+
+/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second and third corner.
+fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
+    let [b, c] = [[1.0, 0.0], [0.0, 1.0]];
+    if patch.corners().len() == 3 { [[0.0, 0.0], b, c, c] } else { [[0.0, 0.0], b, [1.0, 1.0], c] }
+}

@@ -1,0 +1,170 @@
+//! Patches on their way to the rasteriser: how they are projected, and the vertices that they become.
+
+use refsim::machine::MachineError;
+use refsim::raster::Vertex;
+use thiserror::Error;
+
+use super::Patch;
+use crate::geom::vector::{Vec3, dot, length, scale, sub};
+use crate::scene::Camera;
+
+/// An eye within this of a patch's plane, in shares of the patch's radius, sees neither side.
+const EDGE_ON: f64 = 1e-9;
+
+/// Why nothing was drawn.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum DrawError {
+    /// The card refused.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// The card does not run a program.
+    #[error("{device} does not run {kernel}: {problem}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
+    Refused {
+        /// The program.
+        kernel: &'static str,
+        /// The device.
+        device: String,
+        /// What the assembler or checker said.
+        problem: String,
+    },
+    /// Not one radiosity a patch.
+    #[error("expected {patches} radiosities, one a patch, found {found}")]
+    Count {
+        /// The patches.
+        patches: usize,
+        /// Radiosities given.
+        found: usize,
+    },
+}
+
+/// Where an eye is and what it sees: clip space as three directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Projection {
+    pub(super) eye: Vec3,
+    /// Clip space's w is the component along this; its length is 1.
+    pub(super) forward: Vec3,
+    /// Its x.
+    pub(super) across: Vec3,
+    /// Its y, upwards.
+    pub(super) upwards: Vec3,
+    /// Nothing is farther away, measured along `forward`.
+    pub(super) far: f64,
+}
+
+impl Projection {
+    /// That of a camera, for a scene that reaches no farther than `extent` from the point `within`.
+    pub(super) fn of(camera: &Camera, within: Vec3, extent: f64) -> Self {
+        let eye = camera.eye().map(f64::from);
+        let per_square = |v: Vec3| scale(1.0 / dot(v, v), v);
+        Self {
+            eye,
+            forward: camera.forward(),
+            across: per_square(camera.right()),
+            upwards: per_square(camera.up()),
+            far: length(sub(within, eye)) + extent,
+        }
+    }
+
+    /// x, y and w in clip space.
+    fn clip(&self, point: Vec3) -> Vec3 {
+        let to = sub(point, self.eye);
+        [self.across, self.upwards, self.forward].map(|axis| dot(axis, to))
+    }
+
+    /// Whether all of a patch is outside one side of what is seen.
+    pub(super) fn misses(&self, patch: &Patch) -> bool {
+        let mut outside = [true; 5];
+        for &corner in patch.corners() {
+            let [x, y, w] = self.clip(shared(corner));
+            let now = [w <= 0.0, x < -w, x > w, y < -w, y > w];
+            outside.iter_mut().zip(now).for_each(|(all, now)| *all &= now);
+        }
+        outside.contains(&true)
+    }
+
+    /// Which side of a patch the eye sees, if any.
+    pub(super) fn side(&self, patch: &Patch) -> Option<Side> {
+        let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
+        if height > least { Some(Side::Front) } else { (height < -least).then_some(Side::Back) }
+    }
+
+    /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
+    ///
+    /// Depth is the distance along the view as a share of the farthest, which the program writes: as fine far away as near by, and
+    /// the eye may touch what it sees. Clip space's z cuts nothing.
+    pub(super) fn vertex(&self, corner: Vec3, [u, v]: [f64; 2], side: Side) -> Vertex {
+        let [x, y, w] = self.clip(shared(corner));
+        let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
+        vertex.texcoords[0] = bits([u, v, w / self.far, if side == Side::Front { 1.0 } else { 0.0 }]);
+        vertex
+    }
+}
+
+/// A side of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// The one with the light.
+    Front,
+    /// The black one.
+    Back,
+}
+
+impl Side {
+    /// A patch's number as a colour: from 1, negative from behind; 0 is nothing.
+    pub(super) fn code(self, patch: usize) -> f64 {
+        let number = (patch + 1) as f64;
+        if self == Self::Front { number } else { -number }
+    }
+}
+
+/// What a colour says: the patch whose front was seen there.
+pub(super) fn patch_of(code: f32) -> Option<u32> {
+    (code >= 1.0).then(|| code as u32 - 1)
+}
+
+/// A corner that neighbours in other faces have to the bit: they agree in f32.
+fn shared(corner: Vec3) -> Vec3 {
+    corner.map(|x| f64::from(x as f32))
+}
+
+/// A vector for the card, each component rounded once.
+pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
+    vector.map(|x| (x as f32).to_bits())
+}
+
+/// A rectangle that fills the target, its texture coordinates counting texels from the upper left.
+pub(super) fn full_target([width, height]: [u32; 2]) -> [Vertex; 4] {
+    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]: [f64; 2]| {
+        let mut vertex = Vertex { position: bits([2.0 * x - 1.0, 1.0 - 2.0 * y, 0.5, 1.0]), ..Vertex::default() };
+        vertex.texcoords[0] = bits([x * f64::from(width), y * f64::from(height), 0.0, 1.0]);
+        vertex
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::vector::add;
+
+    #[test]
+    fn a_camera_projects_as_it_casts() {
+        let camera = Camera::new([1.0, -2.0, 0.5], [1.5, 3.0, 0.0], [0.0, 0.0, 1.0], 0.5, 40, 20).expect("a camera");
+        let projection = Projection::of(&camera, [0.0; 3], 10.0);
+        let through = |x, y| add(projection.eye, scale(3.0, camera.direction_at(x, y)));
+        let outline = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]].map(|[x, y]| through(x, y));
+        for (corner, want) in outline.iter().zip([[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]) {
+            let [x, y, w] = projection.clip(*corner);
+            assert!((x / w - want[0]).abs() < 1e-12 && (y / w - want[1]).abs() < 1e-12 && (w - 3.0).abs() < 1e-12);
+        }
+        assert_eq!(projection.clip(through(20.0, 10.0)).map(|c| (c * 1e9).round()), [0.0, 0.0, 3e9]);
+    }
+
+    #[test]
+    fn numbers_survive_their_coding() {
+        for patch in [0, 1, 16_383] {
+            assert_eq!(patch_of(Side::Front.code(patch) as f32), Some(patch as u32));
+            assert_eq!(patch_of(Side::Back.code(patch) as f32), None);
+        }
+        assert_eq!(patch_of(0.0), None);
+    }
+}

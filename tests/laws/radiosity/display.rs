@@ -1,0 +1,249 @@
+//! The card's picture: what a pixel shows is what exact arithmetic finds there.
+
+use crossbar::geom::exact::{Sides, nearest_all};
+use crossbar::geom::vector::{Vec3, add, cross, dot, scale, sub};
+use crossbar::geom::{Mesh, Ray};
+use crossbar::radiosity::display::{Display, DisplayOptions, Picture, VectorTexture, at_corners, programs};
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision};
+use crossbar::scene::{Camera, Material, Scene};
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind, Machine};
+use refsim::texture::TexelFormat;
+
+const FLOATS: DisplayOptions = DisplayOptions { vector: VectorTexture::Row, target: TexelFormat::Rgba32f };
+/// Corners are snapped to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 32 of one, and rounding adds a little.
+const SNAPPED: f64 = 0.05;
+
+fn card(device: &str) -> Machine {
+    Machine::new(Profile::named(device).expect("a device"), ExecutorKind::Batch)
+}
+
+fn rooms_and_cameras() -> Vec<(Patches, Camera)> {
+    let room = |blocks, open, side: u32| {
+        let scene = rooms::cornell(CornellBox { blocks, open });
+        let camera = scene.views[0].camera(side, side * 3 / 4).expect("a camera");
+        (Patches::new(&scene, Subdivision::AtMost(300)).expect("patches"), camera)
+    };
+    vec![room(true, true, 48), room(true, false, 48), room(false, false, 40)]
+}
+
+/// Numbers that tell patches apart.
+fn colours(patches: &Patches) -> Vec<[f64; 3]> {
+    (0..patches.list().len()).map(|i| [0.25 + i as f64, 3.0 / (1.0 + i as f64), 0.1]).collect()
+}
+
+/// A point of the picture as a ray, in pixels from the upper left corner.
+fn ray(camera: &Camera, [x, y]: [f64; 2]) -> Ray {
+    Ray::new(camera.eye(), camera.direction_at(x, y).map(|d| d as f32)).expect("a ray")
+}
+
+fn holds(patch: &Patch, point: Vec3) -> bool {
+    let corners = patch.corners();
+    let inside = |i: usize| {
+        let side = sub(corners[(i + 1) % corners.len()], corners[i]);
+        dot(cross(side, sub(point, corners[i])), patch.normal()) >= 0.0
+    };
+    (0..corners.len()).all(inside)
+}
+
+/// Which patch each point of the picture shows by exact hits, and where it is hit.
+fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<(usize, Vec3)>> {
+    let rays: Vec<Ray> = points.iter().map(|&point| ray(camera, point)).collect();
+    let hits = nearest_all(patches.mesh(), &rays, Sides::Both);
+    let found = |(ray, hit): (&Ray, Option<crossbar::geom::exact::NearestHit>)| {
+        let hit = hit?;
+        let [origin, direction] = [ray.origin(), ray.direction()].map(|v| v.map(f64::from));
+        let (point, face) = (add(origin, scale(hit.t.to_f64(), direction)), patches.face_of(hit.triangle));
+        let seen = |patch: &Patch| patch.face == face && patch.height(origin) > 0.0 && holds(patch, point);
+        patches.list().iter().position(seen).map(|patch| (patch, point))
+    };
+    rays.iter().zip(hits).map(found).collect()
+}
+
+/// The patch of each pixel if its centre is farther than [`SNAPPED`] from any other; the outer `None` marks those that are not.
+fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, Vec3)>>> {
+    let around = [[0.0, 0.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let pixels = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| [x, y]));
+    let points: Vec<[f64; 2]> =
+        pixels.flat_map(|p| around.map(|a| [0, 1].map(|k| f64::from(p[k]) + 0.5 + SNAPPED * a[k]))).collect();
+    let found = exact(patches, camera, &points);
+    found
+        .chunks(around.len())
+        .map(|five| five.iter().all(|other| other.map(|o| o.0) == five[0].map(|o| o.0)).then_some(five[0]))
+        .collect()
+}
+
+#[test]
+fn a_pixel_shows_the_patch_that_exact_arithmetic_finds_there() {
+    for (patches, camera) in rooms_and_cameras() {
+        let mut machine = card("nv35");
+        let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+        let colours = colours(&patches);
+        let texture = display.upload(&mut machine, &colours).expect("a texture");
+        let ids = display.ids(&mut machine).expect("ids");
+        let flat = display.flat(&mut machine, texture, 2.0).expect("a picture");
+        let factor = (2.0 / std::f64::consts::PI) as f32;
+        let certain = certain(&patches, &camera);
+        let sure = certain.iter().flatten().count();
+        assert!(sure * 10 > certain.len() * 8, "{sure} of {} pixels are no edge", certain.len());
+        for (pixel, ((id, colour), want)) in ids.iter().zip(&flat.pixels).zip(&certain).enumerate() {
+            let shown = id.map_or([0.0; 3], |id| colours[id as usize].map(|b| f64::from(b as f32 * factor)));
+            assert_eq!(*colour, shown, "pixel {pixel}: flat shows what ids say");
+            if let Some(want) = want {
+                assert_eq!(id.map(|id| id as usize), want.map(|w| w.0), "pixel {pixel}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
+    for vector in [VectorTexture::Row, VectorTexture::Column] {
+        let (patches, camera) = rooms_and_cameras().remove(1);
+        let mut machine = card("nv30");
+        let options = DisplayOptions { vector, ..FLOATS };
+        let display = Display::new(&mut machine, &patches, &camera, options).expect("a display");
+        let same = [0.3, 0.7, 1.9];
+        let texture = display.upload(&mut machine, &vec![same; patches.list().len()]).expect("a texture");
+        let want = same.map(|b| f64::from(b as f32 * std::f64::consts::FRAC_1_PI as f32));
+        for picture in [display.flat(&mut machine, texture, 1.0), display.smooth(&mut machine, texture, 1.0)] {
+            let other = picture.expect("a picture").pixels.into_iter().filter(|&pixel| pixel != want).count();
+            // Where faces meet whose corners do not, a crack may show the background.
+            assert!(other <= 3, "{vector:?}: {other} pixels of another colour");
+        }
+    }
+}
+
+#[test]
+fn a_smooth_picture_is_what_the_host_interpolates() {
+    let scene = rooms::furnace(0.5);
+    let patches = Patches::new(&scene, Subdivision::PerSide(4)).expect("patches");
+    let camera = scene.views[0].camera(64, 64).expect("a camera");
+    let mut machine = card("nv35");
+    let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+    let slope = |[x, y, z]: Vec3| [1.0 + x + 2.0 * y, 1.0 + z * z, 1.0 + x * y];
+    let radiosity: Vec<[f64; 3]> = patches.list().iter().map(|patch| slope(patch.centre())).collect();
+    let corners = at_corners(&patches, &radiosity);
+    let texture = display.upload(&mut machine, &radiosity).expect("a texture");
+    let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
+    let mut compared = 0;
+    for (pixel, certain) in picture.pixels.iter().zip(certain(&patches, &camera)) {
+        let Some(Some((patch, point))) = certain else { continue };
+        let values = &corners[patch];
+        let [a, b, _, d] = *patches.list()[patch].corners() else { panic!("a quadrilateral") };
+        let share = |side: Vec3| dot(sub(point, a), side) / dot(side, side);
+        let (u, v) = (share(sub(b, a)), share(sub(d, a)));
+        for c in 0..3 {
+            let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
+            let want: f64 = weights.iter().zip(values).map(|(w, corner)| w * corner[c]).sum();
+            let spread =
+                values.iter().map(|x| x[c]).fold(0.0, f64::max) - values.iter().map(|x| x[c]).fold(9.0, f64::min);
+            // The nearest patches are 12 pixels wide or more, the farthest 10: snapped corners shift what is inside by half a hundredth.
+            assert!((pixel[c] - want).abs() <= 0.01 * spread + 1e-5, "{} and {want}, spread {spread}", pixel[c]);
+            compared += 1;
+        }
+    }
+    assert!(compared > 3 * 3000, "{compared}");
+}
+
+/// A disc of so many triangles around the origin, in an order in which no two in a row are neighbours and make one face.
+fn disc(triangles: u32) -> Scene {
+    let turn = |k: u32| {
+        let angle = f64::from(k) / f64::from(triangles) * std::f64::consts::TAU;
+        [libm::cos(angle) as f32, libm::sin(angle) as f32, 0.0]
+    };
+    let mut positions = vec![[0.0; 3]];
+    positions.extend((0..triangles).map(turn));
+    let order = (0..triangles).step_by(2).chain((1..triangles).step_by(2));
+    let list: Vec<[u32; 3]> = order.map(|k| [0, 1 + k, 1 + (k + 1) % triangles]).collect();
+    let mesh = Mesh::new(positions, list).expect("a mesh");
+    let count = mesh.len();
+    Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0; count], Vec::new()).expect("a scene")
+}
+
+#[test]
+fn any_number_of_patches_can_meet_in_a_corner() {
+    for triangles in [5, 6, 8, 13] {
+        let patches = Patches::new(&disc(triangles), Subdivision::PerSide(1)).expect("patches");
+        let count = patches.list().len();
+        assert_eq!(count, triangles as usize, "each triangle a face");
+        let camera = Camera::new([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 0.3, 33, 33).expect("a camera");
+        let mut machine = card("nv35");
+        let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+        let radiosity: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 1.0, (i * i) as f64]).collect();
+        let texture = display.upload(&mut machine, &radiosity).expect("a texture");
+        let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
+        let middle = picture.pixels[16 * 33 + 16];
+        let mean = at_corners(&patches, &radiosity)[0][0];
+        for (found, want) in middle.iter().zip(mean) {
+            // An operation is off by 2^-24 of its result; there are 3 a patch.
+            assert!((found - want).abs() <= 1e-6 * f64::from(triangles) * (want + 1.0), "{found} {want}");
+        }
+    }
+}
+
+/// Flat, smooth and ids.
+fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
+    let (patches, _) = rooms_and_cameras().remove(0);
+    let scene = rooms::cornell(CornellBox { blocks: true, open: true });
+    let camera = scene.views[0].camera(24, 18).expect("a camera");
+    let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
+    let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+    let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
+    let bits = |picture: Picture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
+    let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
+    let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
+    let ids = display.ids(&mut machine).expect("ids");
+    [flat, smooth, ids.into_iter().map(|id| id.map_or(u64::MAX, u64::from)).collect()]
+}
+
+#[test]
+fn scalar_and_batch_draw_the_same_pictures() {
+    for device in ["nv30", "nv35"] {
+        let [scalar, batch] =
+            [ExecutorKind::Scalar, ExecutorKind::Batch].map(|kind| all_pictures(device, &Executor::from(kind)));
+        assert!(scalar == batch, "{device}");
+    }
+}
+
+#[cfg(feature = "wgpu")]
+#[test]
+#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
+fn a_gpu_draws_the_same_pictures_in_integer_mode() {
+    use refsim::exec::{gpu::testing, wgsl::NumberMode};
+    let Some(gpu) = testing::shared().expect("an adapter that opens") else {
+        println!("ignored: no adapter");
+        return;
+    };
+    let batch = all_pictures("nv35", &ExecutorKind::Batch.into());
+    let found = all_pictures("nv35", &Executor::Gpu { gpu, mode: NumberMode::Integer });
+    assert!(found == batch);
+}
+
+#[test]
+fn every_program_runs_on_both_cards() {
+    for device in ["nv30", "nv35"] {
+        let profile = Profile::named(device).expect("a device");
+        for kernel in programs::ALL {
+            let program = refsim::asm::assemble(kernel.text).unwrap_or_else(|e| panic!("{}: {e}", kernel.name));
+            refsim::check::check(program, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", kernel.name));
+        }
+    }
+}
+
+#[test]
+fn what_a_card_cannot_draw_is_refused() {
+    let (patches, camera) = rooms_and_cameras().remove(0);
+    let words = |device: &str, camera: &Camera| {
+        Display::new(&mut card(device), &patches, camera, FLOATS).expect_err("refused").to_string()
+    };
+    insta::assert_snapshot!("display_without_fragment_programs", words("r300", &camera));
+    let wide = Camera::new([2.75, -8.0, 2.75], [2.75; 3], [0.0, 0.0, 1.0], 0.3, 5000, 4).expect("a camera");
+    insta::assert_snapshot!("display_too_wide", words("nv35", &wide));
+    let mut machine = card("nv35");
+    let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+    let refused = display.upload(&mut machine, &[[0.0; 3]; 5]).expect_err("five of many");
+    assert_eq!(refused, DrawError::Count { patches: patches.list().len(), found: 5 });
+    insta::assert_snapshot!("display_count", refused);
+}
