@@ -25,6 +25,7 @@
 //! # }
 //! ```
 
+pub mod card;
 pub mod case;
 pub mod cli;
 pub mod compare;

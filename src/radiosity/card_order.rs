@@ -205,6 +205,26 @@ fn luminance_row<W: Watch>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], watc
     sum
 }
 
+/// The right sides alone, over the diagonal that the system's matrix has: one texture of three channels, or one a channel.
+///
+/// # Errors
+/// [`TooLarge`].
+pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, TooLarge> {
+    let factors = system.factors().matrix();
+    let divided = |(i, e): (usize, &[f64; 3])| {
+        let rho = system.reflectance()[i];
+        [0, 1, 2].map(|c| e[c] / (1.0 - rho[c] * factors.row(i)[i]))
+    };
+    let right: Vec<[f64; 3]> = system.emittance().iter().enumerate().map(divided).collect();
+    match packing {
+        Packing::Rgb => packing::rgb_vector(&right, limit).map(|one| vec![one]),
+        Packing::Luminance => {
+            let channel = |c: usize| packing::luminance_vector(&right.iter().map(|e| e[c]).collect::<Vec<_>>(), limit);
+            (0..3).map(channel).collect()
+        }
+    }
+}
+
 /// A matrix with each row over its diagonal element, and the diagonal.
 fn divided(mut matrix: Matrix) -> (Matrix, Vec<f64>) {
     let diagonal = matrix.diagonal();

@@ -1,12 +1,13 @@
 //! System 2: matrix radiosity. Diffuse light in a room of patches as a linear system, solved as fragment programs would solve it.
 //!
-//! This is the host's side; docs/papers/radiosity.md maps each equation.
+//! docs/papers/radiosity.md maps each equation.
 //!
 //! - [`Patches`]: a scene cut into patches;
 //! - [`FormFactors`]: how much of each patch's light reaches each other one, with visibility asked of a [`crate::geom::Caster`];
 //! - [`System`]: form factors, reflectances and emittances, and the matrix of equation 2;
 //! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a direct solve as truth;
 //! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;
+//! - [`kernels`], [`on_card`]: the same as fragment programs on an emulated card;
 //! - [`bound`]: how far that step's rounding can lead;
 //! - [`model`]: the paper's passes and operation counts;
 //! - [`display`]: pictures drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
@@ -32,7 +33,9 @@ pub mod display;
 mod draw;
 pub mod form_factor;
 pub mod gather;
+pub mod kernels;
 pub mod model;
+pub mod on_card;
 pub mod packing;
 mod patch;
 mod patches;
@@ -43,6 +46,7 @@ mod system;
 pub use crate::scene::built::rooms;
 pub use draw::DrawError;
 pub use form_factor::{FormFactorError, FormFactors};
+pub use on_card::{CardError, CardOptions, CardSolution, CardSolver, Storage};
 pub use patch::Patch;
 pub use patches::{MOST_PATCHES, PatchError, Patches, Subdivision};
 pub use system::{RgbSolution, System, SystemError};

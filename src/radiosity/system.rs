@@ -194,6 +194,21 @@ impl System {
         Ok(RgbSolution { channels: [channel(0)?, channel(1)?, channel(2)?] })
     }
 
+    /// The mean square of what radiosities leave of equation 2, E - M B, in each channel: Figure 3's error. No matrix is made for it.
+    ///
+    /// # Panics
+    /// If there is not one radiosity a patch.
+    #[must_use]
+    pub fn residual(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
+        assert_eq!(radiosity.len(), self.factors.len(), "one radiosity a patch");
+        [0, 1, 2].map(|c| {
+            let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();
+            let arriving = self.factors.matrix().times(&b);
+            let left = |i: usize| self.emittance[i][c] - (b[i] - self.reflectance[i][c] * arriving[i]);
+            solve::mean_square(&(0..b.len()).map(left).collect::<Vec<_>>())
+        })
+    }
+
     /// Power that a solution leaves unaccounted for in each channel: what is emitted, less what is absorbed and what leaves the room.
     /// Reciprocal form factors and an exact solution give 0.
     #[must_use]

@@ -15,6 +15,7 @@ mod files;
 mod fuzz;
 mod generate;
 mod planted;
+mod radiosity;
 mod random;
 mod rules;
 mod scene;

@@ -1,0 +1,78 @@
+//! Why a card does not solve a system.
+
+use refsim::device::Profile;
+use refsim::isa::Version;
+use refsim::machine::MachineError;
+use refsim::texture::TextureError;
+use thiserror::Error;
+
+use crate::radiosity::packing::TooLarge;
+
+/// Why a card does not solve a system.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CardError {
+    /// The card's shader versions have no program of this length.
+    #[error(
+        "device `{device}` runs no `!!FP1.0` programs, in which alone a block of matrix times vector is written: each texel is read at a \
+         coordinate that the program has stepped on, hundreds of instructions long; expected one of {have}"
+    )]
+    NoPrograms {
+        /// The device.
+        device: String,
+        /// The devices that do.
+        have: String,
+    },
+    /// A texture that the card does not have.
+    #[error("device `{device}`: {problem}")]
+    TooLarge {
+        /// The device.
+        device: String,
+        /// What is too large for which limit.
+        problem: TooLarge,
+    },
+    /// The card's rules refuse a program.
+    #[error("device `{device}` refuses `{program}`, written out for {texels} texels: {problem}")]
+    Refused {
+        /// The program's file.
+        program: &'static str,
+        /// The texels of its block.
+        texels: usize,
+        /// The device.
+        device: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Something of another size than the system on the card.
+    #[error("expected {expected} {what}, as the system on the card has, found {found}")]
+    Size {
+        /// `patches`, `texels`, `systems of one packing, size and block` and the like.
+        what: &'static str,
+        /// How many there have to be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// The iteration runs away.
+    #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
+    Diverged {
+        /// Iterations done.
+        iterations: u32,
+    },
+    /// The card refuses a resource or a draw, or there is none.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// An image is impossible.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+}
+
+impl CardError {
+    /// For a device without programs of such length.
+    pub(super) fn no_programs(profile: &Profile) -> Self {
+        let runs = |name: &&str| Profile::named(name).is_ok_and(|p| p.limits.versions.contains(&Version::Fp1_0));
+        let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();
+        have.push("ideal-<format>");
+        Self::NoPrograms { device: profile.name.clone(), have: have.join(", ") }
+    }
+}

@@ -1,0 +1,87 @@
+//! What a card makes of a system's textures and programs: texels of a block, texels of a side.
+
+use refsim::device::Profile;
+use refsim::isa::Version;
+use refsim::texture::TexelFormat;
+
+use super::CardError;
+use crate::radiosity::card_order::CardSystem;
+use crate::radiosity::kernels;
+use crate::radiosity::packing::{Packing, TooLarge};
+use crate::radiosity::{System, model};
+
+/// Texels a side where a device states no limit: the largest image there is.
+const MOST_TEXELS: usize = 16384;
+
+/// How numbers lie in textures and registers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Storage {
+    /// Single floats throughout.
+    #[default]
+    Fp32,
+    /// Half floats in textures, targets and registers; coordinates stay single floats.
+    Fp16,
+}
+
+impl Storage {
+    /// The format of matrices and vectors.
+    #[must_use]
+    pub fn format(self) -> TexelFormat {
+        match self {
+            Self::Fp32 => TexelFormat::Rgba32f,
+            Self::Fp16 => TexelFormat::Rgba16f,
+        }
+    }
+}
+
+/// What a device allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fit {
+    /// Texels of a block: the most that a program of the device's length takes.
+    pub block: usize,
+    /// The most texels that a side of matrix and vector can have.
+    pub limit: usize,
+}
+
+impl Fit {
+    /// Of a device. A block is 254 texels on the paper's card.
+    ///
+    /// # Errors
+    /// [`CardError::NoPrograms`].
+    pub fn of(profile: &Profile, packing: Packing) -> Result<Self, CardError> {
+        let (instructions, limit) = limits(profile)?;
+        let blocks = kernels::of(packing, false).map(|kernel| kernel.block(instructions));
+        Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
+    }
+
+    /// All that a system is on the device: one system of three channels, or three of one.
+    ///
+    /// # Errors
+    /// [`CardError::TooLarge`].
+    pub fn systems(self, profile: &Profile, packing: Packing, system: &System) -> Result<Vec<CardSystem>, CardError> {
+        let made = match packing {
+            Packing::Rgb => CardSystem::rgb(system, self.block, self.limit).map(|one| vec![one]),
+            Packing::Luminance => {
+                let channel = |c| CardSystem::luminance(system.matrix(c), &system.right(c), self.block, self.limit);
+                (0..3).map(channel).collect()
+            }
+        };
+        made.map_err(|problem| too_large(profile, problem))
+    }
+}
+
+/// Instructions of a program, and texels a side.
+pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
+    let limits = &profile.limits;
+    if !limits.versions.contains(&Version::Fp1_0) {
+        return Err(CardError::no_programs(profile));
+    }
+    let instructions = limits.fragment_instructions.unwrap_or(model::MOST_INSTRUCTIONS) as usize;
+    // A vector is a target and a texture; a matrix is as wide as a vector is long.
+    let sides = [limits.max_texture_size, limits.max_target_size].into_iter().flatten();
+    Ok((instructions, sides.min().map_or(MOST_TEXELS, |side| side as usize)))
+}
+
+pub(super) fn too_large(profile: &Profile, problem: TooLarge) -> CardError {
+    CardError::TooLarge { device: profile.name.clone(), problem }
+}

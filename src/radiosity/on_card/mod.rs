@@ -1,0 +1,250 @@
+//! Equation 4 on an emulated card: matrix and emittance uploaded once, a quad a pass, radiosities in a 1-D texture.
+//!
+//! A target is one row of texels, a patch each (RGB) or four (luminance), so that a texture coordinate along it is a patch's number, as
+//! the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that row and is lost.
+
+mod error;
+mod fit;
+mod layer;
+mod product;
+mod programs;
+mod solve;
+
+use std::sync::Arc;
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::{Executor, Machine, TextureId};
+
+pub use error::CardError;
+pub use fit::{Fit, Storage};
+pub use product::{product, product_block};
+pub use programs::PassProgram;
+pub use solve::{CardOptions, CardSolution, Iteration};
+
+use super::System;
+use super::card_order::{CardSystem, emittances};
+use super::kernels;
+use super::packing::{Packing, Texels};
+use layer::{Layer, Shape, same};
+use programs::Programs;
+
+/// A system on a card. Radiosities are 0 at first, and stay where they are when light or reflectances change.
+#[derive(Debug)]
+pub struct CardSolver {
+    machine: Machine,
+    fit: Fit,
+    shape: Shape,
+    programs: Programs,
+    /// One system of three channels, or one a channel.
+    layers: Vec<Layer>,
+}
+
+impl CardSolver {
+    /// Uploads a system: one texture of three matrices, or three textures of one.
+    ///
+    /// # Errors
+    /// [`CardError::NoPrograms`], [`CardError::TooLarge`]; [`CardError::Machine`] if the device lacks the format, or a GPU of the host
+    /// does not open.
+    pub fn new(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        system: &System,
+        packing: Packing,
+        storage: Storage,
+    ) -> Result<Self, CardError> {
+        let profile = profile.into();
+        let systems = Fit::of(&profile, packing)?.systems(&profile, packing, system)?;
+        Self::of(profile, executor, &systems, storage)
+    }
+
+    /// Uploads systems that are already in the card's layout: one, or three luminance systems of one size for the three channels.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes, [`CardError::Refused`] for
+    /// blocks that are too long for the device.
+    pub fn of(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        systems: &[CardSystem],
+        storage: Storage,
+    ) -> Result<Self, CardError> {
+        let profile = profile.into();
+        let Some(shape) = systems.first().map(Shape::of) else {
+            return Err(CardError::Size { what: "systems", expected: 1, found: 0 });
+        };
+        let expected = if shape.packing == Packing::Luminance && systems.len() > 1 { 3 } else { 1 };
+        same("systems", expected, systems.len())?;
+        let alike = systems.iter().filter(|system| Shape::of(system) == shape).count();
+        same("systems of one layout, size and block", systems.len(), alike)?;
+        let fit = Fit::of(&profile, shape.packing)?;
+        let kernels = kernels::of(shape.packing, storage == Storage::Fp16);
+        let programs = Programs::new(&profile, kernels, shape.width, shape.block)?;
+        let mut machine = executor.into().machine(profile)?;
+        let layers =
+            systems.iter().map(|system| Layer::new(&mut machine, system, storage)).collect::<Result<_, _>>()?;
+        Ok(Self { machine, fit, shape, programs, layers })
+    }
+
+    /// How elements lie in texels.
+    #[must_use]
+    pub fn packing(&self) -> Packing {
+        self.shape.packing
+    }
+
+    /// How many patches.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.shape.size
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.shape.size == 0
+    }
+
+    /// Passes an iteration, of each system.
+    #[must_use]
+    pub fn passes(&self) -> usize {
+        self.programs.passes.len()
+    }
+
+    /// The programs, each once, in the order of their first pass.
+    #[must_use]
+    pub fn programs(&self) -> &[PassProgram] {
+        &self.programs.list
+    }
+
+    /// One iteration: all passes of all systems.
+    ///
+    /// # Errors
+    /// [`CardError::Machine`].
+    pub fn iterate(&mut self) -> Result<(), CardError> {
+        self.iterate_watched(&mut |_, _, _| Ok(()))
+    }
+
+    /// One iteration; `each` is told what each pass leaves, by system and pass. That reads every pass back.
+    ///
+    /// # Errors
+    /// [`CardError::Machine`].
+    pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
+        self.iterate_watched(&mut |machine, (place, layer), pass| {
+            each(place, pass, layer.read(machine, layer.target(pass))?);
+            Ok(())
+        })
+    }
+
+    fn iterate_watched(&mut self, after: &mut Watch<'_>) -> Result<(), CardError> {
+        let passes = self.passes();
+        for (place, layer) in self.layers.iter_mut().enumerate() {
+            for pass in 0..passes {
+                layer.pass(&mut self.machine, &self.programs, pass)?;
+                after(&self.machine, (place, layer), pass)?;
+            }
+            layer.turn(passes);
+        }
+        Ok(())
+    }
+
+    /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
+    ///
+    /// # Errors
+    /// [`CardError::Machine`].
+    pub fn read(&self) -> Result<Vec<[f32; 3]>, CardError> {
+        let all = self.read_texels()?;
+        let last = all.len().saturating_sub(1);
+        let luminance = |i: usize, c: usize| all[c.min(last)].texels[i / 4][i % 4];
+        Ok(match self.shape.packing {
+            Packing::Rgb => super::packing::from_rgb_vector(&all[0]),
+            Packing::Luminance => (0..self.len()).map(|i| [0, 1, 2].map(|c| luminance(i, c))).collect(),
+        })
+    }
+
+    /// The same as it lies in the textures, one a system.
+    ///
+    /// # Errors
+    /// [`CardError::Machine`].
+    pub fn read_texels(&self) -> Result<Vec<Texels>, CardError> {
+        self.layers.iter().map(|layer| layer.read(&self.machine, layer.radiosity)).collect()
+    }
+
+    /// Continues from these radiosities.
+    ///
+    /// # Errors
+    /// [`CardError::Size`] if there is not one a patch.
+    pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
+        same("patches", self.len(), radiosity.len())?;
+        let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
+        let texels = |texels: Vec<[f32; 4]>| Texels { width: texels.len(), height: 1, texels };
+        let layouts: Vec<Texels> = match self.shape.packing {
+            Packing::Rgb => vec![texels(radiosity.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect())],
+            Packing::Luminance => {
+                (0..self.layers.len()).map(|c| texels((0..self.shape.width).map(|x| texel(c, x)).collect())).collect()
+            }
+        };
+        self.load_texels(&layouts)
+    }
+
+    /// The same as it lies in the textures, one a system.
+    ///
+    /// # Errors
+    /// [`CardError::Size`].
+    pub fn load_texels(&mut self, radiosity: &[Texels]) -> Result<(), CardError> {
+        same("systems", self.layers.len(), radiosity.len())?;
+        let machine = &mut self.machine;
+        self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
+    }
+
+    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card; radiosities stay.
+    ///
+    /// # Errors
+    /// [`CardError::Size`] if it has another number of patches.
+    pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
+        same("patches", self.len(), system.factors().len())?;
+        let texels = emittances(system, self.shape.packing, self.fit.limit)
+            .map_err(|problem| fit::too_large(self.machine.profile(), problem))?;
+        let machine = &mut self.machine;
+        self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
+    }
+
+    /// New reflectances: uploads matrix and emittances of a system of as many patches; radiosities stay.
+    ///
+    /// # Errors
+    /// [`CardError::Size`] if it has another number of patches.
+    pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
+        same("patches", self.len(), system.factors().len())?;
+        let fit = Fit { block: self.shape.block, ..self.fit };
+        let systems = fit.systems(self.machine.profile(), self.shape.packing, system)?;
+        for (layer, system) in self.layers.iter().zip(&systems) {
+            layer.set_matrix(&mut self.machine, system.matrix())?;
+            layer.set_emittance(&mut self.machine, system.emittance())?;
+        }
+        Ok(())
+    }
+
+    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one a channel with four patches a
+    /// texel. Each iteration leaves them in others.
+    #[must_use]
+    pub fn radiosity_textures(&self) -> Vec<TextureId> {
+        self.layers.iter().map(|layer| layer.radiosity).collect()
+    }
+
+    /// The card: to draw from the radiosities where they are.
+    pub fn machine_mut(&mut self) -> &mut Machine {
+        &mut self.machine
+    }
+
+    /// Starts or stops writing down what is asked of the card.
+    pub fn record(&mut self, on: bool) {
+        self.machine.record(on);
+    }
+
+    /// What was asked of it since the last time.
+    pub fn take_log(&mut self) -> Vec<Event> {
+        self.machine.take_log()
+    }
+}
+
+/// Hears of a pass: the card, which system, which pass.
+type Watch<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;

@@ -1,0 +1,83 @@
+//! The programs of an iteration: one for the first pass, one for those in the middle, one for the last block, which may be shorter.
+
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+
+use super::CardError;
+use crate::radiosity::kernels::KernelText;
+
+/// A program for a block, as the device has taken it.
+#[derive(Clone, Debug)]
+pub struct PassProgram {
+    /// The file that it is written out from.
+    pub kernel: KernelText,
+    /// The texels of its block.
+    pub texels: usize,
+    /// Its text.
+    pub text: String,
+    pub(super) checked: CheckedProgram,
+}
+
+impl PassProgram {
+    /// Writes a kernel out for a block and has the device's rules judge it.
+    pub(super) fn new(profile: &Profile, kernel: KernelText, texels: usize) -> Result<Self, CardError> {
+        let text = kernel.unrolled(texels);
+        let refused = |problem: String| CardError::Refused {
+            program: kernel.name,
+            texels,
+            device: profile.name.clone(),
+            problem,
+        };
+        let program = assemble(&text).map_err(|e| refused(e.to_string()))?;
+        let checked = check(program, profile).map_err(|e| refused(e.to_string()))?;
+        Ok(Self { kernel, texels, text, checked })
+    }
+
+    /// How many instructions it has.
+    #[must_use]
+    pub fn instructions(&self) -> usize {
+        self.checked.instructions.len()
+    }
+}
+
+/// A pass: where its block begins, and its program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pass {
+    pub(super) from: usize,
+    pub(super) program: usize,
+}
+
+/// The programs of an iteration, each once, and its passes.
+#[derive(Clone, Debug)]
+pub(super) struct Programs {
+    pub(super) list: Vec<PassProgram>,
+    pub(super) passes: Vec<Pass>,
+}
+
+impl Programs {
+    /// For `width` texels in blocks of `block`; the first pass has a program of its own.
+    pub(super) fn new(
+        profile: &Profile,
+        [first, next]: [KernelText; 2],
+        width: usize,
+        block: usize,
+    ) -> Result<Self, CardError> {
+        let (mut list, mut passes) = (Vec::<PassProgram>::new(), Vec::new());
+        for from in (0..width).step_by(block.max(1)) {
+            let kernel = if from == 0 { first } else { next };
+            let texels = block.max(1).min(width - from);
+            let known = list.iter().position(|p| p.kernel == kernel && p.texels == texels);
+            let program = match known {
+                Some(place) => place,
+                None => {
+                    list.push(PassProgram::new(profile, kernel, texels)?);
+                    list.len() - 1
+                }
+            };
+            passes.push(Pass { from, program });
+        }
+        Ok(Self { list, passes })
+    }
+}

@@ -1,0 +1,165 @@
+//! Matrix radiosity: every pass on every executor against the loops of the host, bit for bit.
+
+use crossbar::linalg::Matrix;
+use crossbar::radiosity::card_order::CardSystem;
+use crossbar::radiosity::on_card::{self, CardSolver, Fit, Storage};
+use crossbar::radiosity::packing::{self, Packing, Texels};
+use crossbar::radiosity::{FormFactors, System};
+use refsim::device::Profile;
+#[cfg(feature = "wgpu")]
+use refsim::exec::{gpu::testing, wgsl::NumberMode};
+use refsim::machine::{Executor, ExecutorKind};
+
+use crate::random::Random;
+
+const LIMIT: usize = 4096;
+
+fn nv35() -> Profile {
+    Profile::named("nv35").expect("a card")
+}
+
+/// Every way to draw, by name.
+fn executors() -> Vec<(&'static str, Executor)> {
+    let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
+    #[cfg(feature = "wgpu")]
+    let all = all.into_iter().chain(on_gpu()).collect();
+    all
+}
+
+/// The adapter that there is; without one, nothing, except where that is a failure.
+#[cfg(feature = "wgpu")]
+fn on_gpu() -> Option<(&'static str, Executor)> {
+    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
+    Some(("wgpu", Executor::Gpu { gpu, mode: NumberMode::Integer }))
+}
+
+/// Form factors of a room that leaks a little, no two alike; reflectances below 1.
+fn room(size: usize, seed: u64) -> System {
+    let mut random = Random::named("radiosity", seed);
+    let mut number = || f64::from(random.below(1 << 20) as u32 + 1) / f64::from(1 << 20);
+    let mut factors = Matrix::zero(size).expect("small");
+    for i in 0..size {
+        let row = factors.row_mut(i);
+        row.iter_mut().for_each(|f| *f = number());
+        let sum: f64 = row.iter().sum();
+        row.iter_mut().for_each(|f| *f *= 0.95 / sum);
+    }
+    let factors = FormFactors::from_values(vec![1.0; size], factors).expect("factors");
+    let mut colors = |most: f64| (0..size).map(|_| [number() * most, number() * most, number() * most]).collect();
+    let reflectance = colors(0.9);
+    System::new(factors, reflectance, colors(10.0)).expect("a system")
+}
+
+fn bits(texels: &Texels) -> Vec<[u32; 4]> {
+    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// Two iterations on a card, pass by pass, against the host's.
+fn passes_agree(name: &str, executor: &Executor, systems: &[CardSystem]) {
+    let mut card = CardSolver::of(nv35(), executor, systems, Storage::Fp32).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert_eq!(card.passes(), systems[0].passes());
+    let mut at: Vec<Texels> = systems.iter().map(CardSystem::zero).collect();
+    for iteration in 0..2 {
+        let mut partial: Vec<Texels> = systems.iter().map(CardSystem::zero).collect();
+        card.iterate_by_pass(&mut |place, pass, found| {
+            partial[place] = systems[place].pass(&at[place], &partial[place], pass);
+            let what = format!("{name}: system {place}, iteration {iteration}, pass {pass}");
+            assert_eq!(bits(&found), bits(&partial[place]), "{what}");
+        })
+        .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let read = card.read_texels().unwrap_or_else(|e| panic!("{name}: {e}"));
+        for (found, expected) in read.iter().zip(&partial) {
+            assert_eq!(bits(found), bits(expected), "{name}: after iteration {iteration}");
+        }
+        at = partial;
+    }
+}
+
+fn luminance(system: &System, block: usize) -> Vec<CardSystem> {
+    let channel = |c| CardSystem::luminance(system.matrix(c), &system.right(c), block, LIMIT).expect("it fits");
+    (0..3).map(channel).collect()
+}
+
+#[test]
+fn every_rgb_pass_is_the_hosts() {
+    for (size, block) in [(1, 254), (5, 2), (23, 6), (64, 16)] {
+        let system = room(size, size as u64);
+        let rgb = CardSystem::rgb(&system, block, LIMIT).expect("it fits");
+        for (name, executor) in executors() {
+            passes_agree(
+                &format!("{name}, {size} patches in blocks of {block}"),
+                &executor,
+                std::slice::from_ref(&rgb),
+            );
+        }
+    }
+}
+
+#[test]
+fn every_luminance_pass_is_the_hosts() {
+    for (size, block) in [(1, 254), (6, 1), (23, 4), (64, 5)] {
+        let systems = luminance(&room(size, size as u64), block);
+        for (name, executor) in executors() {
+            passes_agree(&format!("{name}, {size} patches in blocks of {block}"), &executor, &systems);
+        }
+    }
+}
+
+/// The paper's block: one short of it, just it, one and two beyond.
+#[test]
+fn full_blocks_are_the_hosts() {
+    let fit = Fit::of(&nv35(), Packing::Rgb).expect("a fit");
+    assert_eq!(fit, Fit { block: 254, limit: 4096 });
+    for size in 253..=256 {
+        let system = room(size, 3);
+        let rgb = CardSystem::rgb(&system, fit.block, LIMIT).expect("it fits");
+        assert_eq!(rgb.passes(), if size > 254 { 2 } else { 1 });
+        passes_agree("batch", &ExecutorKind::Batch.into(), &[rgb]);
+    }
+    let systems = luminance(&room(1018, 4), fit.block);
+    assert_eq!(systems[0].passes(), 2);
+    passes_agree("batch", &ExecutorKind::Batch.into(), &systems[..1]);
+    let rgb = CardSystem::rgb(&room(255, 5), fit.block, LIMIT).expect("it fits");
+    passes_agree("scalar", &ExecutorKind::Scalar.into(), &[rgb]);
+}
+
+/// There are no loops for halves on the host: the scalar executor is what the others are held to.
+#[test]
+fn every_pass_in_halves_is_the_scalar_executors() {
+    for systems in [vec![CardSystem::rgb(&room(23, 7), 6, LIMIT).expect("it fits")], luminance(&room(26, 8), 4)] {
+        let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
+        for (name, executor) in executors() {
+            let mut card =
+                CardSolver::of(nv35(), &executor, &systems, Storage::Fp16).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let mut seen = Vec::new();
+            for _ in 0..3 {
+                card.iterate_by_pass(&mut |_, _, texels| seen.push(bits(&texels)))
+                    .unwrap_or_else(|e| panic!("{name}: {e}"));
+            }
+            let last = seen.last().expect("passes");
+            assert!(last.iter().flatten().any(|&b| b != 0) && last.iter().flatten().all(|b| b & 0x1fff == 0), "halves");
+            assert_eq!(reference.get_or_insert_with(|| seen.clone()), &seen, "{name}");
+        }
+    }
+}
+
+#[test]
+fn block_channel_products_are_the_hosts() {
+    for (size, block) in [(1, 204), (2, 1), (9, 2), (24, 5)] {
+        let [left, right] =
+            [1, 2].map(|seed| packing::block_channel_matrix(&room(size, seed).matrix(0), LIMIT).expect("it fits"));
+        let expected = bits(&packing::block_channel_product(&left, &right));
+        for (name, executor) in executors() {
+            let (found, programs) =
+                on_card::product(nv35(), executor, [&left, &right], block).unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(bits(&found), expected, "{name}, {size} rows in blocks of {block}");
+            assert!(programs.len() <= 3);
+        }
+    }
+    let [left, right] =
+        [1, 2].map(|seed| packing::block_channel_matrix(&room(412, seed).matrix(1), LIMIT).expect("it fits"));
+    let block = on_card::product_block(&nv35()).expect("a block");
+    let (found, programs) = on_card::product(nv35(), ExecutorKind::Batch, [&left, &right], block).expect("a product");
+    assert_eq!(bits(&found), bits(&packing::block_channel_product(&left, &right)));
+    assert_eq!((block, programs[0].texels, programs[0].instructions()), (204, 204, 1023));
+}
