@@ -59,6 +59,20 @@ impl CardSystem {
         Ok(Self { packing: Packing::Luminance, size, block: block.max(1), matrix, emittance })
     }
 
+    /// A system of nothing but zeros, for questions that values have no part in.
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, TooLarge> {
+        let [width, rows] = match packing {
+            Packing::Rgb => [size; 2],
+            Packing::Luminance => [size.div_ceil(4), 4 * size.div_ceil(4)],
+        };
+        let matrix = Texels::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
+        let emittance = Texels::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
+        Ok(Self { packing, size, block: block.max(1), matrix, emittance })
+    }
+
     /// How elements lie in texels.
     #[must_use]
     pub fn packing(&self) -> Packing {

@@ -9,7 +9,7 @@
 //! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;
 //! - [`kernels`], [`on_card`]: the same as fragment programs on an emulated card;
 //! - [`bound`]: how far that step's rounding can lead;
-//! - [`model`]: the paper's passes and operation counts;
+//! - [`model`], [`rate`]: the paper's passes and operation counts, and how fast a card would be;
 //! - [`display`]: pictures drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
 //! - [`rooms`]: closed boxes to try it on.
 //!
@@ -39,6 +39,7 @@ pub mod on_card;
 pub mod packing;
 mod patch;
 mod patches;
+pub mod rate;
 pub mod solve;
 mod subdivide;
 mod system;

@@ -50,7 +50,7 @@ pub struct TooLarge {
 
 impl Texels {
     /// A texture whose texels a function gives, by column and row.
-    fn filled(
+    pub(super) fn filled(
         what: &'static str,
         [width, height]: [usize; 2],
         limit: usize,

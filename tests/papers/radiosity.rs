@@ -2,10 +2,13 @@
 
 use crossbar::geom::elementary::ln;
 use crossbar::radiosity::model;
+use crossbar::radiosity::packing::Packing;
+use crossbar::radiosity::rate::{Timing, timed_iteration};
 use crossbar::radiosity::rooms;
 use crossbar::radiosity::solve::{Options, Solution, Solver};
-use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
+use crossbar::radiosity::{FormFactors, Patches, Storage, Subdivision, System};
 use crossbar::scene::Material;
+use refsim::device::Profile;
 
 /// The unit cube in the Cornell box's colours, `n` patches a side, light from the middle of the ceiling.
 fn closed_box(n: u32) -> System {
@@ -71,4 +74,13 @@ fn the_printed_rates_leave_four_sizes() {
     let fits = |n: &u32| model::mflops(*n, 29.7).round() == 141.0 && model::mflops(*n, 40.0).round() == 190.0;
     assert_eq!((1..4096).filter(fits).collect::<Vec<_>>(), [1540, 1541, 1542, 1543]);
     assert_eq!(model::passes(1540, 1, model::BLOCK), 7);
+}
+
+/// Section 3.1: 29.7 iterations a second and 141 MFLOP/s, compute bound, with a tenth of the bandwidth in use. No figure of the model comes
+/// from that paper.
+#[test]
+fn an_iteration_of_1540_patches_on_the_5900_ultra() {
+    let timing = Timing { patches: 1540, packing: Packing::Rgb, storage: Storage::Fp32, cache: false };
+    let timed = timed_iteration(&Profile::named("nv35").expect("a card"), &timing).expect("an iteration");
+    panic!("{timed:#?}");
 }

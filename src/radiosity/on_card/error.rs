@@ -44,9 +44,9 @@ pub enum CardError {
         problem: String,
     },
     /// Something of another size than the system on the card.
-    #[error("expected {expected} {what}, as the system on the card has, found {found}")]
+    #[error("expected {expected} {what}, found {found}")]
     Size {
-        /// `patches`, `texels`, `systems of one packing, size and block` and the like.
+        /// Of what, and why so many.
         what: &'static str,
         /// How many there have to be.
         expected: usize,

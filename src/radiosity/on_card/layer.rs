@@ -33,7 +33,7 @@ impl Shape {
 
     /// Whether a texture is one of this system's vectors.
     pub(super) fn check_vector(&self, texels: &Texels) -> Result<(), CardError> {
-        same("texels", self.width, texels.texels.len())
+        same("texels, as the card has", self.width, texels.texels.len())
     }
 }
 
@@ -71,7 +71,7 @@ impl Layer {
     }
 
     pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        same("texels", self.shape.width * self.shape.rows, texels.texels.len())?;
+        same("texels, as the card has", self.shape.width * self.shape.rows, texels.texels.len())?;
         self.update(machine, self.matrix, texels)
     }
 

@@ -29,6 +29,10 @@ use super::packing::{Packing, Texels};
 use layer::{Layer, Shape, same};
 use programs::Programs;
 
+/// What sizes are about, in messages.
+const PATCHES: &str = "patches, as the card has";
+const SYSTEMS: &str = "systems (RGB: one; luminance: one, or three for the channels)";
+
 /// A system on a card. Radiosities are 0 at first, and stay where they are when light or reflectances change.
 #[derive(Debug)]
 pub struct CardSolver {
@@ -71,10 +75,10 @@ impl CardSolver {
     ) -> Result<Self, CardError> {
         let profile = profile.into();
         let Some(shape) = systems.first().map(Shape::of) else {
-            return Err(CardError::Size { what: "systems", expected: 1, found: 0 });
+            return Err(CardError::Size { what: SYSTEMS, expected: 1, found: 0 });
         };
         let expected = if shape.packing == Packing::Luminance && systems.len() > 1 { 3 } else { 1 };
-        same("systems", expected, systems.len())?;
+        same(SYSTEMS, expected, systems.len())?;
         let alike = systems.iter().filter(|system| Shape::of(system) == shape).count();
         same("systems of one layout, size and block", systems.len(), alike)?;
         let fit = Fit::of(&profile, shape.packing)?;
@@ -174,7 +178,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Size`] if there is not one a patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
-        same("patches", self.len(), radiosity.len())?;
+        same(PATCHES, self.len(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
         let texels = |texels: Vec<[f32; 4]>| Texels { width: texels.len(), height: 1, texels };
         let layouts: Vec<Texels> = match self.shape.packing {
@@ -191,7 +195,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Size`].
     pub fn load_texels(&mut self, radiosity: &[Texels]) -> Result<(), CardError> {
-        same("systems", self.layers.len(), radiosity.len())?;
+        same("vectors, one a system on the card", self.layers.len(), radiosity.len())?;
         let machine = &mut self.machine;
         self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
@@ -201,7 +205,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
-        same("patches", self.len(), system.factors().len())?;
+        same(PATCHES, self.len(), system.factors().len())?;
         let texels = emittances(system, self.shape.packing, self.fit.limit)
             .map_err(|problem| fit::too_large(self.machine.profile(), problem))?;
         let machine = &mut self.machine;
@@ -213,7 +217,7 @@ impl CardSolver {
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
     pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
-        same("patches", self.len(), system.factors().len())?;
+        same(PATCHES, self.len(), system.factors().len())?;
         let fit = Fit { block: self.shape.block, ..self.fit };
         let systems = fit.systems(self.machine.profile(), self.shape.packing, system)?;
         for (layer, system) in self.layers.iter().zip(&systems) {

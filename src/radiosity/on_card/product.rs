@@ -40,8 +40,8 @@ pub fn product(
     let (_, limit) = limits(&profile)?;
     let size = left.width;
     for texels in [left, right] {
-        same("columns", size, texels.width)?;
-        same("rows", size, texels.height)?;
+        same("columns, as the left matrix has", size, texels.width)?;
+        same("rows, as the left matrix has columns", size, texels.height)?;
     }
     if size > limit {
         return Err(too_large(&profile, TooLarge { what: "a matrix", limit, width: size, height: size }));

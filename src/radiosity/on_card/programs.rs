@@ -31,7 +31,9 @@ impl PassProgram {
             problem,
         };
         let program = assemble(&text).map_err(|e| refused(e.to_string()))?;
-        let checked = check(program, profile).map_err(|e| refused(e.to_string()))?;
+        let checked = check(program, profile).map_err(|report| {
+            refused(report.violations.first().map_or_else(|| report.to_string(), |first| first.message.clone()))
+        })?;
         Ok(Self { kernel, texels, text, checked })
     }
 

@@ -41,7 +41,8 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// Whether the last iteration changed no bit, so that no further one would: the end of what the card's numbers can do.
+    /// Whether the radiosities came back to what they had been before, bit for bit, so that they would go round for ever: the end of what
+    /// the card's numbers can do.
     pub settled: bool,
 }
 
@@ -54,7 +55,7 @@ impl CardSolution {
 }
 
 impl CardSolver {
-    /// Iterates from the radiosities on the card until every channel's residual is small enough, or nothing changes any more. `system` is
+    /// Iterates from the radiosities on the card until every channel's residual is small enough, or they go round in a circle. `system` is
     /// what is on the card before it was rounded; `each` is told whenever the residual is looked at.
     ///
     /// # Errors
@@ -66,12 +67,14 @@ impl CardSolver {
         options: &CardOptions,
         each: &mut dyn FnMut(&Iteration<'_>),
     ) -> Result<CardSolution, CardError> {
-        super::same("patches", self.len(), system.factors().len())?;
+        super::same(super::PATCHES, self.len(), system.factors().len())?;
         let channels = [0, 1, 2];
         let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right(c)));
         let (mut history, mut number) = (Vec::new(), 0);
         let mut radiosity = self.read()?;
-        let mut settled = false;
+        let (mut settled, mut looks) = (false, 0_u32);
+        // An earlier state, taken again after 1, 2, 4, ... looks: sooner or later it lies on the circle, if there is one.
+        let mut earlier = radiosity.clone();
         loop {
             let residual = system.residual(&widened(&radiosity));
             if residual.iter().any(|r| !r.is_finite()) {
@@ -88,10 +91,12 @@ impl CardSolver {
                 self.iterate()?;
             }
             number += steps;
-            let next = self.read()?;
-            // Several steps that lead back may have gone round in between.
-            settled = steps == 1 && same_bits(&next, &radiosity);
-            radiosity = next;
+            let before = std::mem::replace(&mut radiosity, self.read()?);
+            settled = same_bits(&radiosity, &before) || same_bits(&radiosity, &earlier);
+            looks += 1;
+            if looks.is_power_of_two() {
+                earlier.clone_from(&radiosity);
+            }
         }
     }
 }

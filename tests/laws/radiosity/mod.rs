@@ -5,6 +5,7 @@ mod display;
 mod errors;
 mod factors;
 mod light;
+mod on_card;
 mod others;
 mod solvers;
 mod textures;

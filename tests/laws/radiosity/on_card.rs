@@ -1,0 +1,189 @@
+//! Matrix radiosity on the card: within its bound of the truth, relit, refused in words that help; programs counted.
+
+use crossbar::linalg::Matrix;
+use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
+use crossbar::radiosity::card_order::CardSystem;
+use crossbar::radiosity::on_card::{self, CardError, CardOptions, CardSolver, Fit, Storage};
+use crossbar::radiosity::packing::{Packing, Texels};
+use crossbar::radiosity::solve::Solver;
+use crossbar::radiosity::{System, kernels, model};
+use refsim::asm::assemble;
+use refsim::check::{RuleId, check};
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::cornell;
+
+fn device(name: &str) -> Profile {
+    Profile::named(name).expect("a device")
+}
+
+fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
+    CardSolver::new(device("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
+}
+
+fn direct(system: &System) -> Vec<[f64; 3]> {
+    system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity()
+}
+
+/// The largest difference in each channel.
+fn off(found: &[[f32; 3]], truth: &[[f64; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|c| found.iter().zip(truth).map(|(f, t)| (f64::from(f[c]) - t[c]).abs()).fold(0.0, f64::max))
+}
+
+/// How far so many steps from zero can be from the truth in a channel: the running bound, and the one before any step.
+fn bounds(card: &CardSystem, (matrix, right): (&Matrix, &[f64]), lane: usize, steps: u32) -> [f64; 2] {
+    let largest = right.iter().zip(matrix.diagonal()).map(|(e, d)| (e / d).abs()).fold(0.0, f64::max);
+    let g = contraction(matrix);
+    let (mut running, mut b) = (ErrorBound::from_zero(g, largest), card.zero());
+    for _ in 0..steps {
+        let (next, errors) = bounded_step(card, &b);
+        running.advance(errors[lane]);
+        b = next;
+    }
+    [running.error, before(card, g, largest)]
+}
+
+#[test]
+fn the_cards_solution_is_within_its_bound_of_the_direct_one() {
+    const STEPS: u32 = 60;
+    let system = cornell(260);
+    let truth = direct(&system);
+    let fit = Fit::of(&device("nv35"), Packing::Rgb).expect("a fit");
+    for packing in [Packing::Rgb, Packing::Luminance] {
+        let mut card = card(&system, packing, Storage::Fp32);
+        (0..STEPS).try_for_each(|_| card.iterate()).expect("iterations");
+        let found = off(&card.read().expect("radiosities"), &truth);
+        let host = fit.systems(&device("nv35"), packing, &system).expect("systems");
+        for c in 0..3 {
+            let (place, lane) = if packing == Packing::Rgb { (0, c) } else { (c, 0) };
+            let (matrix, right) = (system.matrix(c), system.right(c));
+            let [running, before] = bounds(&host[place], (&matrix, &right), lane, STEPS);
+            assert!(found[c] <= running, "{packing:?}, channel {c}: off by {}, bound {running}", found[c]);
+            assert!(running <= 2.0 * before, "{packing:?}, channel {c}: {running}, before {before}");
+        }
+    }
+}
+
+#[test]
+fn a_solution_is_reached_and_its_history_is_the_residuals() {
+    let system = cornell(120);
+    for packing in [Packing::Rgb, Packing::Luminance] {
+        let mut card = card(&system, packing, Storage::Fp32);
+        let options = CardOptions { tolerance: 1e-4, ..CardOptions::default() };
+        let mut seen = Vec::new();
+        let solution = card.solve(&system, &options, &mut |i| seen.push((i.number, i.residual))).expect("a solution");
+        assert!(solution.converged && !solution.settled);
+        assert_eq!(solution.history, seen);
+        assert_eq!(solution.iterations() as usize + 1, seen.len());
+        let host = system.solve_channel(0, Solver::Jacobi, &crossbar::radiosity::solve::Options::default(), None);
+        for ((_, found), expected) in seen.iter().zip(host.expect("a solution").history) {
+            assert!((found[0] - expected).abs() <= 1e-3 * expected, "{} against the host's {expected}", found[0]);
+        }
+        let every = CardOptions { check_every: 7, ..options };
+        card.load(&vec![[0.0; 3]; card.len()]).expect("zeros");
+        let rarely = card.solve(&system, &every, &mut |_| ()).expect("a solution");
+        assert_eq!(rarely.iterations(), solution.iterations().next_multiple_of(7));
+    }
+}
+
+/// No tolerance that single floats can't reach keeps it going for ever.
+#[test]
+fn an_iteration_that_changes_nothing_is_the_last() {
+    let system = cornell(40);
+    let mut card = card(&system, Packing::Rgb, Storage::Fp16);
+    let options = CardOptions { tolerance: 1e-15, ..CardOptions::default() };
+    let solution = card.solve(&system, &options, &mut |_| ()).expect("a solution");
+    assert!(solution.settled && !solution.converged && solution.iterations() < 300, "{}", solution.iterations());
+    let wrong = off(&solution.radiosity, &direct(&system));
+    assert!(wrong.iter().all(|&e| e > 1e-5 && e < 0.5), "halves lose something: {wrong:?}");
+}
+
+#[test]
+fn relighting_goes_on_from_the_last_solution() {
+    let mut system = cornell(100);
+    let options = CardOptions { tolerance: 1e-5, ..CardOptions::default() };
+    for packing in [Packing::Rgb, Packing::Luminance] {
+        let mut card = card(&system, packing, Storage::Fp32);
+        let cold = card.solve(&system, &options, &mut |_| ()).expect("a solution");
+        let dimmed: Vec<[f64; 3]> = system.emittance().iter().map(|e| e.map(|x| 0.98 * x)).collect();
+        system.set_emittance(dimmed).expect("emittances");
+        card.set_emittance(&system).expect("uploaded");
+        let before = card.read().expect("radiosities");
+        assert_eq!(before, cold.radiosity, "a change of light leaves radiosities where they are");
+        let warm = card.solve(&system, &options, &mut |_| ()).expect("a solution");
+        assert!(warm.converged && warm.iterations() < cold.iterations(), "{} {}", warm.iterations(), cold.iterations());
+        // The same bits as a card that was given the new light from the start.
+        let mut other = self::card(&system, packing, Storage::Fp32);
+        other.load(&before).expect("radiosities");
+        (0..warm.iterations()).try_for_each(|_| other.iterate()).expect("iterations");
+        assert_eq!(other.read().expect("radiosities"), warm.radiosity);
+
+        let darker: Vec<[f64; 3]> = system.reflectance().iter().map(|r| r.map(|x| 0.9 * x)).collect();
+        system.set_reflectance(darker).expect("reflectances");
+        card.set_system(&system).expect("uploaded");
+        let repainted = card.solve(&system, &options, &mut |_| ()).expect("a solution");
+        let truth = direct(&system);
+        let reach = truth.iter().flatten().fold(0.0, |m: f64, x| m.max(*x));
+        assert!(off(&repainted.radiosity, &truth).iter().all(|&e| e < 1e-3 * reach));
+    }
+}
+
+/// Section 3: 1024 instructions, 254 texels, ceil(N / 254) passes.
+#[test]
+fn programs_are_as_long_as_the_card_takes() {
+    let nv35 = device("nv35");
+    let counts = |packing, storage, size| {
+        let systems = [CardSystem::zeros(packing, size, 254, 4096).expect("it fits")];
+        let card = CardSolver::of(nv35.clone(), ExecutorKind::Batch, &systems, storage).expect("a card");
+        let elements = if packing == Packing::Rgb { 1 } else { 4 };
+        assert_eq!(card.passes() as u32, model::passes(size as u32, elements, model::BLOCK));
+        card.programs().iter().map(|p| (p.kernel.name, p.texels, p.instructions())).collect::<Vec<_>>()
+    };
+    let rgb = [("rgb_first.fp", 254, 1021), ("rgb_next.fp", 254, 1019), ("rgb_next.fp", 16, 67)];
+    assert_eq!(counts(Packing::Rgb, Storage::Fp32, 1540), rgb);
+    let luminance = [("luminance_first.fp", 254, 1023), ("luminance_next.fp", 131, 529)];
+    assert_eq!(counts(Packing::Luminance, Storage::Fp32, 1540), luminance);
+    assert_eq!(counts(Packing::Rgb, Storage::Fp16, 254), [("rgb_first_half.fp", 254, 1021)]);
+    assert_eq!(counts(Packing::Luminance, Storage::Fp16, 1016), [("luminance_first_half.fp", 254, 1023)]);
+    for kernel in kernels::ALL {
+        let verdict = |texels| check(assemble(&kernel.unrolled(texels)).expect("a program"), &nv35);
+        let block = kernel.block(1024);
+        assert_eq!(verdict(block).expect("it fits").instructions.len(), kernel.overhead() + block * kernel.per_texel());
+        let refused = verdict(block + 1).expect_err("too long");
+        assert_eq!(refused.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::V04], "{}", kernel.name);
+        let whole = check(assemble(kernel.text).expect("a program"), &nv35).expect("a file is a program for one texel");
+        assert_eq!(whole.instructions.len(), verdict(1).expect("a program").instructions.len());
+    }
+}
+
+fn refused<T>(result: Result<T, CardError>) -> String {
+    result.err().expect("refused").to_string()
+}
+
+#[test]
+fn what_a_card_can_not_do_is_said() {
+    let system = cornell(20);
+    let (batch, rgb, single) = (ExecutorKind::Batch, Packing::Rgb, Storage::Fp32);
+    let zeros = |packing, size, block| CardSystem::zeros(packing, size, block, 1 << 13).expect("it fits");
+    let mut small = device("nv35");
+    small.limits.max_texture_size = Some(8);
+    let mut card = card(&system, rgb, single);
+    let three = [zeros(rgb, 4, 8), zeros(rgb, 4, 8)];
+    let unlike = [4, 8, 4].map(|size| zeros(Packing::Luminance, size, 8));
+    let square = |side: usize| Texels { width: side, height: side, texels: vec![[0.0; 4]; side * side] };
+    let messages = [
+        refused(CardSolver::new(device("r300"), batch, &system, rgb, single)),
+        refused(CardSolver::new(small, batch, &system, rgb, single)),
+        refused(CardSolver::of(device("nv35"), batch, &[zeros(rgb, 300, 300)], single)),
+        refused(CardSolver::of(device("nv35"), batch, &[zeros(Packing::Luminance, 4097, 254)], single)),
+        refused(CardSolver::of(device("nv35"), batch, &[], single)),
+        refused(CardSolver::of(device("nv35"), batch, &three, single)),
+        refused(CardSolver::of(device("nv35"), batch, &unlike, single)),
+        refused(card.set_emittance(&cornell(60))),
+        refused(card.load(&[[0.0; 3]; 3])),
+        refused(on_card::product(device("nv35"), batch, [&square(2), &square(3)], 4)),
+        refused(on_card::product(device("gt200"), batch, [&square(2), &square(2)], 4)),
+    ];
+    insta::assert_snapshot!(messages.join("\n"));
+}
