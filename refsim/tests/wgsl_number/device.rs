@@ -110,9 +110,47 @@ fn random_item(words: &mut Words, formats: &[Format], all: &[Vec<u32>], operatio
             }
             operands[1] = [255, 1, 3, 7, 15, 31, 63, 127, 1023, 65535][words.below(10)];
         }
+        Operation::Sin | Operation::Cos if words.below(3) == 0 => operands[0] = angle(words, &formats[format]),
+        Operation::JoinPattern | Operation::JoinShort | Operation::JoinByte | Operation::JoinSignedByte => {
+            if operation != Operation::JoinPattern {
+                operands[1] = packed_number(words);
+            }
+            // Nothing else is in the word's place.
+            operands[2] = place(words, matches!(operation, Operation::JoinPattern | Operation::JoinShort));
+            operands[0] = words.next() & !(0xffff << operands[2]);
+        }
+        Operation::SplitPattern | Operation::SplitShort | Operation::SplitByte | Operation::SplitSignedByte => {
+            operands[0] = words.next() >> words.below(32);
+            operands[1] = place(words, matches!(operation, Operation::SplitPattern | Operation::SplitShort));
+        }
         _ => {}
     }
     Item { operation, format, source, operands }
+}
+
+/// The bit at which a half or a quarter of a word starts.
+fn place(words: &mut Words, half: bool) -> u32 {
+    if half { [0, 16][words.below(2)] } else { [0, 8, 16, 24][words.below(4)] }
+}
+
+/// An angle next to a multiple of a quarter turn.
+fn angle(words: &mut Words, format: &Format) -> u32 {
+    let quarters = f64::from(words.next() >> words.below(32));
+    let near = (quarters * std::f64::consts::FRAC_PI_2) as f32;
+    let near = f32::from_bits(near.to_bits().wrapping_add_signed(words.around(2)));
+    let bits = ops::convert(&SINGLE, *format, near.to_bits()).bits;
+    if words.below(2) == 0 { bits } else { ops::neg(format, bits).bits }
+}
+
+/// A single precision number around the steps of packed ones.
+fn packed_number(words: &mut Words) -> u32 {
+    if words.below(2) == 0 {
+        return pattern(words, &SINGLE, &edges(&SINGLE));
+    }
+    let steps = [127, 255, 65535][words.below(3)];
+    let half_steps = words.around(2 * steps + 4);
+    let near = (f64::from(half_steps) / f64::from(2 * steps)) as f32;
+    near.to_bits().wrapping_add_signed(words.around(1))
 }
 
 fn tried(operation: Operation) -> bool {
@@ -127,6 +165,8 @@ fn arity(operation: Operation) -> usize {
         Op::Mad | Op::FusedMad | Op::SelectNonNegative | Op::SelectAboveHalf => 3,
         Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Min | Op::Max | Op::Factor => 2,
         Op::Less | Op::LessEqual | Op::Equal => 2,
+        Op::JoinPattern | Op::JoinShort | Op::JoinByte | Op::JoinSignedByte => 3,
+        Op::SplitPattern | Op::SplitShort | Op::SplitByte | Op::SplitSignedByte => 3,
         _ => 1,
     }
 }

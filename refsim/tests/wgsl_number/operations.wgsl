@@ -18,14 +18,20 @@ fn run_operations(@builtin(global_invocation_id) id: vec3<u32>) {
     let op = items[at];
     let f = format_at(items[at + 1u]);
     var operands = vec3<u32>(items[at + 2u], items[at + 3u], items[at + 4u]);
-    // A conversion's second operand names the format of the first; a scale's is a power, that of steps a count.
+    // A conversion's second operand names the format of the first; a scale's is a power, that of steps a count. Words and
+    // what goes into them as steps are as they are.
     let first = format_at(select(items[at + 1u], items[at + 4u], op == N_CONVERT));
-    let numbers = select(3u, 1u, op == N_CONVERT || op == N_SCALE || op == N_STEPS);
+    let joins = op >= N_JOIN_PATTERN && op <= N_JOIN_SIGNED_BYTE;
+    let packs = joins || (op >= N_SPLIT_PATTERN && op <= N_SPLIT_SIGNED_BYTE);
+    let numbers = select(3u, 1u, op == N_CONVERT || op == N_SCALE || op == N_STEPS || packs);
     for (var i = 0u; i < numbers; i++) {
         let one = operands[i];
-        operands[i] = select(n_decode(first, one), one, op == N_STEPS);
+        operands[i] = select(n_decode(first, one), one, op == N_STEPS || packs);
+    }
+    if op == N_JOIN_PATTERN {
+        operands.y = n_decode(f, operands.y);
     }
     let result = n_alu(op, f, operands.x, operands.y, operands.z);
-    let plain = op == N_LESS || op == N_LESS_EQUAL || op == N_EQUAL || op == N_ADDRESS_FLOOR || op == N_ADDRESS_NEAREST;
+    let plain = joins || op == N_LESS || op == N_LESS_EQUAL || op == N_EQUAL || op == N_ADDRESS_FLOOR || op == N_ADDRESS_NEAREST;
     results[id.x] = select(n_encode(f, result), result, plain);
 }

@@ -41,8 +41,28 @@ pub(crate) fn reference(operation: Operation, format: &Format, a: u32, b: u32, c
         Op::Scale => ops::scale(format, a, b.cast_signed()).bits,
         Op::Steps => from_ratio(format, false, unorm_steps(a, b).into(), b.into()).bits,
         Op::Factor => factor(format, a, b),
+        Op::Sin => ops::sin(format, a).bits,
+        Op::Cos => ops::cos(format, a).bits,
+        Op::JoinPattern => a | (ops::convert(format, *format, b).bits & 0xffff) << c,
+        Op::JoinShort => a | unorm_steps(b, 65535) << c,
+        Op::JoinByte => a | unorm_steps(b, 255) << c,
+        Op::JoinSignedByte => a | signed_byte(b) << c,
+        Op::SplitPattern => ops::convert(format, *format, a >> b & 0xffff & format.mask()).bits,
+        Op::SplitShort => from_ratio(format, false, (a >> b & 0xffff).into(), 65535).bits,
+        Op::SplitByte => from_ratio(format, false, (a >> b & 0xff).into(), 255).bits,
+        Op::SplitSignedByte => {
+            let byte = a >> b & 0xff;
+            from_ratio(format, byte < 128, byte.abs_diff(128).into(), 127).bits
+        }
         Op::Convert | Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot => return None,
     })
+}
+
+/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. Doubles hold the product, and the sum where
+/// it comes near an integer.
+fn signed_byte(bits: u32) -> u32 {
+    let x = f64::from(f32::from_bits(bits));
+    if x.is_nan() { 128 } else { (128.0 + (127.0 * x).clamp(-128.0, 127.0) + 0.5).floor() as u32 }
 }
 
 /// The number truncated to an `i32`, saturated; NaN gives 0.

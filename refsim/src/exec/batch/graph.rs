@@ -110,15 +110,6 @@ impl Kind {
 }
 
 impl Code {
-    /// Whether the operation takes words apart or puts them together.
-    pub(crate) fn is_packing(self) -> bool {
-        let joins =
-            matches!(self, Code::JoinPattern(_) | Code::JoinShort(_) | Code::JoinByte(_) | Code::JoinSignedByte(_));
-        let splits =
-            matches!(self, Code::SplitPattern(_) | Code::SplitShort(_) | Code::SplitByte(_) | Code::SplitSignedByte(_));
-        joins || splits || matches!(self, Code::ToBits | Code::FromBits)
-    }
-
     /// How many operands the operation reads.
     pub(crate) fn arity(self) -> usize {
         match self {

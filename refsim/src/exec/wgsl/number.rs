@@ -120,11 +120,31 @@ pub enum Operation {
     Decode,
     /// Raw value to bit pattern.
     Encode,
+    /// Sine, radians.
+    Sin,
+    /// Cosine, radians.
+    Cos,
+    /// Word `a` with `b`'s pattern of up to 16 bits at bit `c`, which was zero there.
+    JoinPattern,
+    /// Likewise single precision `b` clamped to [0, 1], to the nearest of 65535 steps.
+    JoinShort,
+    /// Likewise of 255 steps.
+    JoinByte,
+    /// Likewise `128 + 127 b`, `b` from -128/127 to 1; 128 for NaN.
+    JoinSignedByte,
+    /// The number whose pattern is at bit `b` of word `a`.
+    SplitPattern,
+    /// What [`Self::JoinShort`] put at bit `b` of word `a`.
+    SplitShort,
+    /// What [`Self::JoinByte`] put there.
+    SplitByte,
+    /// What [`Self::JoinSignedByte`] put there.
+    SplitSignedByte,
 }
 
 impl Operation {
     /// All operations, in the order of their numbers.
-    pub const ALL: [Operation; 35] = [
+    pub const ALL: [Operation; 45] = [
         Self::Add,
         Self::Sub,
         Self::Mul,
@@ -160,6 +180,16 @@ impl Operation {
         Self::Steps,
         Self::Decode,
         Self::Encode,
+        Self::Sin,
+        Self::Cos,
+        Self::JoinPattern,
+        Self::JoinShort,
+        Self::JoinByte,
+        Self::JoinSignedByte,
+        Self::SplitPattern,
+        Self::SplitShort,
+        Self::SplitByte,
+        Self::SplitSignedByte,
     ];
 
     /// Its number in the shader.
@@ -237,6 +267,8 @@ pub fn library(mode: NumberMode, native: NativeOperations) -> String {
     for part in [
         include_str!("number/format.wgsl"),
         include_str!("number/arithmetic.wgsl"),
+        include_str!("number/circle.wgsl"),
+        include_str!("number/packing.wgsl"),
         mode_text,
         include_str!("number/alu.wgsl"),
         include_str!("number/named.wgsl"),

@@ -6,6 +6,7 @@
 //! `q_executed` are left behind, reads are added to `q_fetched`. Inputs are single precision patterns with NaN canonical.
 //! The module also has the number library, `texture_read`, and what [`NO_OUTPUT`] and [`NO_TRACE`] stand in for.
 
+mod codes;
 mod lower;
 mod microcode;
 mod microcode_flow;
@@ -64,12 +65,6 @@ pub enum ProgramError {
         /// Constants.
         constants: usize,
     },
-    /// An operation that no shader of ours carries out.
-    #[error("{operation} is not computed on GPUs; use another executor")]
-    Operation {
-        /// What it is.
-        operation: &'static str,
-    },
     /// The rules name a format that no executor computes in.
     #[error("no arithmetic for the register format {format}; choose another profile")]
     Format {
@@ -102,7 +97,7 @@ impl PixelShader {
     /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`.
     ///
     /// # Errors
-    /// [`ProgramError::Format`], [`ProgramError::Operation`].
+    /// [`ProgramError::Format`].
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>) -> Result<Self, ProgramError> {
         Self::prepare(checked, rules, bindings, false)
     }
@@ -110,7 +105,7 @@ impl PixelShader {
     /// As [`Self::new`], and what each instruction writes in the followed lane is put down ([`trace_steps`]).
     ///
     /// # Errors
-    /// [`ProgramError::Format`], [`ProgramError::Operation`].
+    /// [`ProgramError::Format`].
     pub fn traced(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>) -> Result<Self, ProgramError> {
         Self::prepare(checked, rules, bindings, true)
     }
@@ -122,11 +117,7 @@ impl PixelShader {
         traced: bool,
     ) -> Result<Self, ProgramError> {
         let formats = pixel_formats(rules).ok_or(ProgramError::Format { format: rules.format })?;
-        let lowered = Lowered::pixel(program(checked), rules, &formats, bindings, traced);
-        match lowered.missing() {
-            Some(operation) => Err(ProgramError::Operation { operation }),
-            None => Ok(Self { lowered }),
-        }
+        Ok(Self { lowered: Lowered::pixel(program(checked), rules, &formats, bindings, traced) })
     }
 
     /// The words for [`machine`].

@@ -66,7 +66,7 @@ fn n_is_nan(f: Format, a: u32) -> bool {
 }
 
 // Everything that rounds. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed format it is of.
-// N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32.
+// N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32. N_SPLIT_...: a a word, b the bit.
 fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     var kind = f.kind;
     var frac = f.frac;
@@ -91,6 +91,10 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
         case N_STEPS: {
             x = n_whole(n_step(x, b));
             y = n_whole(b);
+        }
+        case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
+            x = n_taken(op, a, b);
+            y = n_whole(select(select(127u, 255u, op == N_SPLIT_BYTE), 65535u, op == N_SPLIT_SHORT));
         }
         case N_ADD, N_SUB: {
             z = y;
@@ -129,8 +133,11 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
         default: {}
     }
     switch op {
-        case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS: { w = n_quotient(op, f, x, y); }
+        case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS, N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
+            w = n_quotient(op, f, x, y);
+        }
         case N_EXP2, N_LOG2: { w = n_power(op, f, x); }
+        case N_SIN, N_COS: { w = n_circle(op, f, x); }
         default: { w = n_sum(f, x, y, z); }
     }
     let result = n_finish(f, w);
@@ -196,6 +203,10 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_AND_NOT: { return n_known(~a & b); }
         case N_DECODE: { return n_known(n_decode(f, a)); }
         case N_ENCODE: { return n_known(n_encode(f, a)); }
+        case N_JOIN_PATTERN, N_JOIN_SHORT, N_JOIN_BYTE, N_JOIN_SIGNED_BYTE: {
+            return n_known(a | (n_part(op, f, b) << (c & 31u)));
+        }
+        case N_SPLIT_PATTERN: { return n_known(n_decode(f, (a >> (b & 31u)) & 0xffffu)); }
         default: { return Real(); }
     }
 }

@@ -152,15 +152,6 @@ impl Lowered {
         Self::finish(t, body, constants, formats)
     }
 
-    /// What the program computes that no shader of ours does.
-    pub(super) fn missing(&self) -> Option<&'static str> {
-        (0..self.graph.len() as u32).find_map(|i| match self.graph.kind(Node(i)) {
-            Kind::Circle(..) => Some("a sine or cosine"),
-            Kind::Compute(_, code, _) if code.is_packing() => Some("a packed word"),
-            _ => None,
-        })
-    }
-
     fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: &Formats) -> Self {
         let graph = t.make.graph;
         let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(Node(i)), Kind::Relative(..)));

@@ -1,6 +1,7 @@
 //! Programs as words for the machine of `vm.wgsl`, which says what they mean.
 
 use super::ProgramError;
+use super::codes::{immediate, operation};
 use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Use};
 use super::operations as op;
 use crate::exec::batch::arith::Formats;
@@ -258,8 +259,10 @@ impl Assembler<'_> {
                 self.words.extend([op::RELATIVE | u32::from(component) << 16, pair(to, a), base.cast_unsigned()]);
             }
             Kind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
-            // `super::PixelShader` turns away programs that have these.
-            Kind::Circle(..) => {}
+            Kind::Circle(k, sine, a) => {
+                let a = places.of(a);
+                self.alu(node, k, if sine { Operation::Sin } else { Operation::Cos }, [a; 3], places);
+            }
             Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
         }
     }
@@ -282,10 +285,6 @@ impl Assembler<'_> {
                 let to = self.result(node, places);
                 self.bitwise(variant, to, args);
             }
-            Code::Scale(shift) => {
-                let shift = self.constant(i32::from(shift).cast_unsigned());
-                self.alu(node, k, Operation::Scale, [a, shift, shift], places);
-            }
             Code::DifferenceX | Code::DifferenceY => {
                 let quad = if code == Code::DifferenceX { 1 } else { 2 };
                 let to = self.result(node, places);
@@ -293,7 +292,8 @@ impl Assembler<'_> {
             }
             _ => {
                 if let Some(operation) = operation(code) {
-                    let args: [u16; 3] = std::array::from_fn(|i| if i < code.arity() { args[i] } else { a });
+                    let rest = immediate(code).map_or(a, |word| self.constant(word));
+                    let args: [u16; 3] = std::array::from_fn(|i| if i < code.arity() { args[i] } else { rest });
                     self.alu(node, k, operation, args, places);
                 }
             }
@@ -385,36 +385,4 @@ impl Assembler<'_> {
 
 fn pair(low: u16, high: u16) -> u32 {
     u32::from(low) | u32::from(high) << 16
-}
-
-/// The number library's name for a plain operation.
-pub(super) fn operation(code: Code) -> Option<Operation> {
-    Some(match code {
-        Code::Add => Operation::Add,
-        Code::Sub => Operation::Sub,
-        Code::Mul => Operation::Mul,
-        Code::Div => Operation::Div,
-        Code::Mad => Operation::Mad,
-        Code::FusedMad => Operation::FusedMad,
-        Code::Min => Operation::Min,
-        Code::Max => Operation::Max,
-        Code::Neg => Operation::Neg,
-        Code::Abs => Operation::Abs,
-        Code::Floor => Operation::Floor,
-        Code::Frc => Operation::Frc,
-        Code::Rcp => Operation::Rcp,
-        Code::Rsq => Operation::Rsq,
-        Code::Exp2 => Operation::Exp2,
-        Code::Log2 => Operation::Log2,
-        Code::Saturate => Operation::Saturate,
-        Code::Factor => Operation::Factor,
-        Code::SelectNonNegative => Operation::SelectNonNegative,
-        Code::SelectAboveHalf => Operation::SelectAboveHalf,
-        Code::Less => Operation::Less,
-        Code::LessEqual => Operation::LessEqual,
-        Code::Equal => Operation::Equal,
-        Code::AddressFloor => Operation::AddressFloor,
-        Code::AddressNearest => Operation::AddressNearest,
-        _ => return None,
-    })
 }

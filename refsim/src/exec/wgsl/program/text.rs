@@ -1,7 +1,7 @@
 //! Programs without flow control written out as WGSL: a statement a value.
 
+use super::codes::{immediate, operation};
 use super::lower::{Body, Lowered, Sink, Use};
-use super::microcode::operation;
 use crate::exec::batch::graph::{Arith, Detail, Kind, Node};
 use crate::exec::batch::ops::Code;
 use crate::exec::wgsl::number::{NativeOperations, NumberMode, Operation, format_words, source_word};
@@ -104,8 +104,11 @@ impl Writer<'_> {
 
     fn node(&mut self, node: Node, table: usize) {
         let value = match self.program.graph.kind(node) {
-            // `super::PixelShader` turns away programs that have angles.
-            Kind::Constant(_) | Kind::Held(_) | Kind::Circle(..) => return,
+            Kind::Constant(_) | Kind::Held(_) => return,
+            Kind::Circle(k, sine, a) => {
+                let operation = if sine { Operation::Sin } else { Operation::Cos };
+                self.soft(operation, k, [&v(a), &v(a), &v(a)])
+            }
             Kind::Input(component) => format!("q_input[{component}]"),
             Kind::Texel(fetch, component) => format!("t{}[{component}]", fetch.0),
             Kind::Compute(k, code, args) => self.compute(k, code, args.map(v)),
@@ -163,16 +166,13 @@ impl Writer<'_> {
             return native;
         }
         match code {
-            Code::Scale(shift) => {
-                let shift = format!("vec4<u32>({}u)", i32::from(shift).cast_unsigned());
-                self.soft(Operation::Scale, k, [&a, &shift, &shift])
-            }
             Code::DifferenceX => self.soft(Operation::Sub, k, [&format!("{a}.yyww"), &format!("{a}.xxzz"), &a]),
             Code::DifferenceY => self.soft(Operation::Sub, k, [&format!("{a}.zwzw"), &format!("{a}.xyxy"), &a]),
             _ => match operation(code) {
                 Some(operation) => {
+                    let rest = immediate(code).map_or_else(|| a.clone(), |word| format!("vec4<u32>({word}u)"));
                     let args = [&a, &b, &c];
-                    let args: [&str; 3] = std::array::from_fn(|i| if i < code.arity() { args[i] } else { a.as_str() });
+                    let args = std::array::from_fn(|i| if i < code.arity() { args[i].as_str() } else { &rest });
                     self.soft(operation, k, args)
                 }
                 None => a,

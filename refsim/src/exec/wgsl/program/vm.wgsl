@@ -347,8 +347,11 @@ fn vm_cost(op: u32, word: u32, at: u32) -> u32 {
     switch op {
         case 1u: {
             switch (word >> 16u) & 0x7fffu {
-                case N_DIV, N_RCP, N_RSQ, N_SQRT, N_STEPS: {
+                case N_DIV, N_RCP, N_RSQ, N_SQRT, N_STEPS, N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
                     return 450u;
+                }
+                case N_SIN, N_COS: {
+                    return 500u;
                 }
                 case N_EXP2, N_LOG2: {
                     return 1000u;
