@@ -158,3 +158,26 @@ fn registers_are_live_from_their_write_to_their_last_read() {
     // Components that nobody reads do not keep a register alive.
     assert_eq!(live("ps_2_0\ndcl t0\nmov r0.xyz, t0\nmov r1.xyz, t0\ndp3 r0.w, r0, r1\nmov oC0, r0.w"), 4);
 }
+
+#[test]
+fn registers_of_opengl_programs_weigh_two_halves_or_one() {
+    let live = |lines: &str| work(&format!("!!FP1.0\n{lines}\nEND"), &[], &[]).live_halves;
+    assert_eq!(live("MOVR R0, f[TEX0];\nMOVR o[COLR], R0;"), 2);
+    assert_eq!(live("MOVR H0, f[TEX0];\nMOVR o[COLH], H0;"), 1, "the register counts, not the suffix");
+    assert_eq!(live("MOVR R0, f[TEX0];\nMOVH H0, p[0];\nADDR R1, R0, H0;\nMOVR o[COLR], R1;"), 3);
+    // Nothing writes R2, but it is there: zero.
+    assert_eq!(live("MOVR R0, f[TEX0];\nADDR o[COLR], R0, R2;"), 4);
+    // A write under a condition needs what stood there before.
+    assert_eq!(live("MOVR R1, p[0];\nMOVRC R0, f[TEX0];\nMOVR R1 (GT), R0;\nMOVR o[COLR], R1;"), 4);
+    let arb = |lines: &str| work(&format!("!!ARBfp1.0\nTEMP a, b;\n{lines}\nEND"), &[], &[]).live_halves;
+    assert_eq!(arb("MOV a, fragment.color;\nSWZ b, a, 0, 1, 0, 1;\nMOV result.color, b;"), 2, "SWZ reads nothing here");
+}
+
+#[test]
+fn fixed_point_is_told_apart() {
+    let program =
+        work("!!FP1.0\nMULX H0, f[COL0], p[0];\nMULX H1, f[TEX0], p[0];\nADDH o[COLH], H0, H1;\nEND", &[], &[]);
+    let fixed: Vec<bool> = program.phases[0].arithmetic.iter().map(|slot| slot.fixed).collect();
+    // Coordinates ask for full precision, whatever the suffix says.
+    assert_eq!(fixed, [true, false, false]);
+}

@@ -4,6 +4,7 @@ mod fragment_program {
     mod agree;
     mod arb;
     mod numbers;
+    mod position;
     mod radiosity;
     mod text;
 }

@@ -3,8 +3,9 @@
 #[path = "common/running.rs"]
 mod running;
 
+use refsim::asm::assemble;
 use refsim::device::Profile;
-use refsim::event::{DrawRecord, Event};
+use refsim::event::{DrawRecord, Event, FlowConstants, ProgramWork};
 use refsim::exec::Constants;
 use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
@@ -138,4 +139,44 @@ fn a_guess_can_be_scaled_and_nothing_else() {
     assert_eq!((model.clocks(&record).arithmetic, faster.clocks(&record).arithmetic), (Clocks(544), Clocks(272)));
     assert!(matches!(model.with_scaled("rates.core_clock_hz", 2, 1), Err(TimingError::NoGuess { .. })));
     assert!(matches!(model.with_scaled("rates.draw_clocks", 0, 1), Err(TimingError::Scale { .. })));
+}
+
+/// Clocks of a fragment: arithmetic, textures, in all.
+fn clocks(device: &str, lines: &str) -> (u64, u64, u64) {
+    let profile = Profile::named(device).unwrap();
+    let program = assemble(&format!("!!FP1.0\n{lines}\nEND")).unwrap();
+    let model = Model::new(Level::Pipeline, &profile).unwrap();
+    let fragment = model.fragment(&ProgramWork::new(&program, FlowConstants::default()));
+    (fragment.arithmetic.0, fragment.textures.0, fragment.total().0)
+}
+
+/// The worked example of docs/timing.md.
+#[test]
+fn fixed_point_goes_beside_the_float_unit_of_nv30() {
+    let lines = |x: &str| {
+        format!(
+            "TEX H0, f[TEX0], TEX0, 2D;\nMUL{x} H1, H0, p[0];\nMUL{x} H1, H1, H0;\nADD{x} H1, H1, p[1];\n\
+             MAD{x} H2, H1, H0, H1;\nDP3H H3, H2, H0;\nMUL{x} o[COLH], H2, H3;"
+        )
+    };
+    assert_eq!(clocks("nv30", &lines("X")), (1, 1, 2));
+    assert_eq!(clocks("nv30", &lines("H")), (6, 1, 7));
+    // The NV35 has a second float unit in place of the others.
+    assert_eq!(clocks("nv35", &lines("X")), (3, 1, 3));
+    assert_eq!(clocks("nv35", &lines("H")), (3, 1, 3));
+}
+
+#[test]
+fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
+    let times = |line: &str, n: usize| clocks("nv30", &format!("{line};\n").repeat(n)).2;
+    for n in 1..40 {
+        assert_eq!(times("ADDX H0, H0, p[0]", n), n.div_ceil(3) as u64, "{n} sums");
+        assert_eq!(times("MULX H0, H0, p[0]", n), n.div_ceil(5) as u64, "{n} products");
+        assert_eq!(times("ADDH H0, H0, p[0]", n), n as u64, "{n} sums of half precision");
+    }
+    // Behind 4 float operations there is room for 8 sums or 16 products.
+    let behind =
+        |line: &str, n: usize| clocks("nv30", &("ADDH H1, H1, p[0];\n".repeat(4) + &format!("{line};\n").repeat(n))).2;
+    assert_eq!([8, 9, 11, 12].map(|n| behind("ADDX H0, H0, p[0]", n)), [4, 5, 5, 6]);
+    assert_eq!([16, 17, 21, 22].map(|n| behind("MULX H0, H0, p[0]", n)), [4, 5, 5, 6]);
 }

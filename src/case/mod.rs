@@ -4,6 +4,7 @@
 //! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
 //! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and the place in it. docs/cases.md describes the format.
 
+mod constants;
 mod device;
 mod error;
 mod loaded;

@@ -205,8 +205,11 @@ impl Binder<'_> {
         let probes = state::probes(self, &case.probe, size, targets.len(), depth.is_some())?;
         Ok(Setup {
             title: case.title,
-            pixel_constants: self.constants(&case.constants)?,
-            vertex_constants: self.constants(&case.vertex_constants)?,
+            pixel_constants: self.constants(&case.constants, &pixel)?,
+            vertex_constants: match &vertex {
+                Some(program) => self.constants(&case.vertex_constants, program)?,
+                None => self.constants(&case.vertex_constants, &pixel)?,
+            },
             clear: self.optional_vector(case.target.clear.as_ref(), [0; 4])?,
             write_mask: state::write_mask(self, case.target.write.as_ref())?,
             alpha: case.alpha.as_ref().map(state::alpha),
@@ -289,7 +292,7 @@ impl Binder<'_> {
     }
 
     /// Exactly four numbers, as IEEE singles.
-    fn four(&self, numbers: &[Number], span: std::ops::Range<usize>) -> Result<[u32; 4], CaseError> {
+    pub(super) fn four(&self, numbers: &[Number], span: std::ops::Range<usize>) -> Result<[u32; 4], CaseError> {
         <[Number; 4]>::try_from(numbers).map(|four| four.map(Number::single)).map_err(|_| {
             let message = format!("expected 4 numbers, found {}", numbers.len());
             self.place.wrong(span, message, "write all four: x, y, z, w, or red, green, blue, alpha")
@@ -303,34 +306,6 @@ impl Binder<'_> {
     ) -> Result<[u32; 4], CaseError> {
         vector.map_or(Ok(default), |vector| self.four(vector.get_ref(), vector.span()))
     }
-
-    fn constants(&self, written: &BTreeMap<String, Spanned<schema::Constant>>) -> Result<Constants, CaseError> {
-        let mut constants = Constants::default();
-        for (name, value) in written {
-            let number = register(name, 256);
-            let wrong = |message: String| {
-                let help = "write for example `c0 = [0.5, 0, 0, 1]`, `i0 = [3, 0, 1, 0]` or `b0 = true`";
-                Err(self.place.wrong(value.span(), message, help))
-            };
-            match (name.bytes().next(), number, value.get_ref()) {
-                (Some(b'c'), Some(number), schema::Constant::Vector(numbers)) => {
-                    *place_at(&mut constants.float, number) = self.four(numbers, value.span())?;
-                }
-                (Some(b'i'), Some(number @ 0..16), schema::Constant::Vector(numbers)) => match integers(numbers) {
-                    Some(four) => *place_at(&mut constants.int, number) = four,
-                    None => return wrong(format!("expected 4 whole numbers of 32 bits for `{name}`")),
-                },
-                (Some(b'b'), Some(number @ 0..16), schema::Constant::Bool(value)) => {
-                    *place_at(&mut constants.boolean, number) = *value;
-                }
-                (Some(b'c' | b'i' | b'b'), Some(_), _) => {
-                    return wrong(format!("the value of `{name}` does not fit the register, or there is no such one"));
-                }
-                _ => return wrong(format!("expected a constant c0 to c255, i0 to i15 or b0 to b15, found `{name}`")),
-            }
-        }
-        Ok(constants)
-    }
 }
 
 /// The number of a register such as `c17`, below `count`; no sign, no leading zeros.
@@ -338,23 +313,4 @@ pub(super) fn register(name: &str, count: usize) -> Option<usize> {
     let digits = name.get(1..)?;
     let plain = digits.bytes().all(|byte| byte.is_ascii_digit()) && (digits == "0" || !digits.starts_with('0'));
     digits.parse().ok().filter(|number| plain && *number < count)
-}
-
-fn place_at<T: Clone + Default>(list: &mut Vec<T>, index: usize) -> &mut T {
-    if list.len() <= index {
-        list.resize(index + 1, T::default());
-    }
-    &mut list[index]
-}
-
-fn integers(numbers: &[Number]) -> Option<[i32; 4]> {
-    let whole = |number: &Number| match *number {
-        // Within the range of `i32` a whole double converts exactly.
-        Number::Value(value) if (-2_147_483_648.0..=2_147_483_647.0).contains(&value) && value % 1.0 == 0.0 => {
-            Some(value as i32)
-        }
-        _ => None,
-    };
-    let four: Vec<i32> = numbers.iter().map(whole).collect::<Option<_>>()?;
-    four.try_into().ok()
 }

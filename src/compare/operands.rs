@@ -48,7 +48,7 @@ pub(super) fn operands(
                 state.value(side, &register).map(|v| v.map(|bits| Number { format: side.format, bits }))
             });
             let (a, b) = (a?, b?);
-            let values = [0, 1, 2, 3].map(|c| Compared::registers(component(&register, c), &a[c], &b[c]));
+            let values = [0, 1, 2, 3].map(|c| Compared::registers(component(program, &register, c), &a[c], &b[c]));
             let differs = a.iter().zip(&b).any(|(a, b)| !a.equals(b));
             Some(Operand { values: values.into(), differs })
         })

@@ -1,6 +1,7 @@
 //! Where two traces of one pixel part.
 
 use refsim::{
+    asm,
     exec::{ResolvedConstants, Step},
     isa::{Mask, Opcode, Program, Register, RegisterFile},
     machine::{FragmentTrace, PixelState},
@@ -191,11 +192,12 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
 }
 
 /// The name of a component of a register as programs write it.
-pub fn component(register: &Register, component: usize) -> String {
-    if register.file.is_unnumbered() {
-        return register.to_string();
+pub fn component(program: &Program, register: &Register, component: usize) -> String {
+    let name = asm::register_name(program, register);
+    if register.file.is_scalar() {
+        return name;
     }
-    format!("{register}.{}", ['x', 'y', 'z', 'w'][component & 3])
+    format!("{name}.{}", ['x', 'y', 'z', 'w'][component & 3])
 }
 
 /// One fragment by both sides.
@@ -222,10 +224,12 @@ impl Pair<'_> {
         let (a, b) = (&self.a.shading.input, &self.b.shading.input);
         let vectors = a.t.iter().zip(&b.t).enumerate().map(|(n, v)| (RegisterFile::Texture, n, v));
         let vectors = vectors.chain(a.v.iter().zip(&b.v).enumerate().map(|(n, v)| (RegisterFile::Input, n, v)));
+        let vectors = vectors.chain([(RegisterFile::WindowPosition, 0, (&a.position, &b.position))]);
+        let program = self.left.program;
         let mut values: Vec<Compared> = vectors
             .flat_map(|(file, n, (a, b))| {
                 let register = Register::new(file, n as u16);
-                (0..4).map(move |c| (component(&register, c), single(a[c]), single(b[c])))
+                (0..4).map(move |c| (component(program, &register, c), single(a[c]), single(b[c])))
             })
             .chain([("fog".to_owned(), single(a.fog), single(b.fog))])
             .chain([("depth".to_owned(), single(a.depth), single(b.depth))])
@@ -236,7 +240,7 @@ impl Pair<'_> {
             return Some((Stage::Input, values));
         }
         for ((register, a), (_, b)) in self.a.shading.delivered.iter().zip(&self.b.shading.delivered) {
-            values.extend(self.registers(|c| component(register, c), *a, *b, Mask::ALL));
+            values.extend(self.registers(|c| component(self.left.program, register, c), *a, *b, Mask::ALL));
         }
         (!values.is_empty()).then_some((Stage::Delivered, values))
     }
@@ -270,10 +274,10 @@ impl Pair<'_> {
         if register.file == RegisterFile::Predicate {
             let differing = x.mask.components().filter(|&c| x.value[c] != y.value[c]);
             return differing
-                .map(|c| Compared::truths(component(register, c), x.value[c] != 0, y.value[c] != 0))
+                .map(|c| Compared::truths(component(self.left.program, register, c), x.value[c] != 0, y.value[c] != 0))
                 .collect();
         }
-        self.registers(|c| component(register, c), x.value, y.value, x.mask)
+        self.registers(|c| component(self.left.program, register, c), x.value, y.value, x.mask)
     }
 
     fn outputs(&self) -> Option<(Stage, Vec<Compared>)> {
@@ -299,7 +303,7 @@ impl Pair<'_> {
         let values: Vec<Compared> = colors
             .flat_map(|(n, (a, b))| {
                 let register = Register::new(RegisterFile::ColorOut, n as u16);
-                self.registers(|c| component(&register, c), *a, *b, Mask::ALL)
+                self.registers(|c| component(self.left.program, &register, c), *a, *b, Mask::ALL)
             })
             .collect();
         (!values.is_empty()).then_some((Stage::Output { instruction: None }, values))

@@ -39,12 +39,11 @@ fn each<T: Debug>(what: &str, all: impl IntoIterator<Item = T>) -> Vec<String> {
 
 /// Programs of a version, on the device without limits.
 fn programs(version: Version, count: u64) -> Vec<Program> {
-    let layout = |sampling, targets| Layout {
-        samplers: vec![(0, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::Volume)],
-        targets,
-        limited: false,
-        sampling,
-    };
+    let mut samplers = vec![(0, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::Volume)];
+    if version.is_fragment_program() {
+        samplers.extend([(4, TextureKind::D1), (5, TextureKind::Rectangle)]);
+    }
+    let layout = |sampling, targets| Layout { samplers: samplers.clone(), targets, limited: false, sampling };
     let profile = rules::profile("ideal-fp32");
     let mut out = Vec::new();
     for seed in 0..count {
@@ -61,7 +60,7 @@ fn programs(version: Version, count: u64) -> Vec<Program> {
 fn note_source(seen: &mut Seen, version: Version, source: &Source) {
     seen.add(&format!("{version} modifier"), source.modifier);
     seen.add(&format!("{version} file"), source.register.file);
-    let swizzle: String = source.swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w'][usize::from(*c)]).collect();
+    let swizzle: String = source.swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w', '0', '1'][usize::from(*c)]).collect();
     seen.add(&format!("{version} swizzle"), swizzle);
     match source.register.relative {
         Some(Relative::Address(component)) => seen.add(&format!("{version} relative a0"), component),
@@ -134,6 +133,8 @@ fn wanted(version: Version) -> Vec<String> {
         let targets =
             [TextureTarget::D1, TextureTarget::D2, TextureTarget::D3, TextureTarget::Cube, TextureTarget::Rect];
         out.extend(each(&named("target"), targets.map(Some)));
+        let read = [RegisterFile::Input, RegisterFile::Texture, RegisterFile::FogIn, RegisterFile::WindowPosition];
+        out.extend(each(&named("file"), read));
         if version == Version::Fp1_0 {
             let halves =
                 [RegisterFile::Half, RegisterFile::HalfColorOut, RegisterFile::Discard, RegisterFile::HalfDiscard];

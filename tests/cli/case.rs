@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
-pub(crate) const CASES: &[&str] = &["modulate", "transform", "two_triangles"];
+pub(crate) const CASES: &[&str] = &["modulate", "opengl_arb", "opengl_nv", "transform", "two_triangles"];
 
 pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -33,6 +33,22 @@ fn examples_pass_and_write_their_pictures() {
         insta::assert_snapshot!(*name, ran.stdout.replace('\\', "/"));
         assert!(folder.path().join("out").join(name).is_dir(), "{name} has its folder");
     }
+}
+
+/// Registers are called as the program calls them, and the executors say the same.
+#[test]
+fn opengl_programs_are_followed() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let traced = |name: &str, executor: &str| {
+        let arguments = ["run", &example(name), "--trace", "1,1", "--executor", executor];
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{name}");
+        let from = ran.stdout.find("pixel 1, 1").expect("the trace is printed");
+        ran.stdout[from..].to_owned()
+    };
+    let [nv, arb] = ["opengl_nv", "opengl_arb"].map(|name| traced(name, "batch"));
+    assert_eq!(traced("opengl_nv", "scalar").lines().count(), nv.lines().count(), "a line an instruction's component");
+    insta::assert_snapshot!(nv + &arb);
 }
 
 #[test]

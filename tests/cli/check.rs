@@ -64,3 +64,18 @@ fn what_is_no_program() {
     #[cfg(unix)]
     assert_eq!(crossbar(&["check", "/dev/zero", "--device", "r200"], "").code, Some(2));
 }
+
+#[test]
+fn opengl_programs() {
+    let nv = "!!FP1.0\nMOVX H0, f[COL0];\nADDH o[COLH], H0, f[WPOS];\nEND\n";
+    let illegal = "!!FP1.0\nEX2X R40, f[TEX0].x;\nPK2H H0, R0;\nEND\n";
+    let no_program = "!!ARBfp1.0\nOPTION ARB_fog_linear;\nMOV result.color, state.fog.color;\nMOVR a, b;\n";
+    let ran = [
+        check(nv.as_bytes(), &["--device", "nv35"]),
+        check(nv.as_bytes(), &["--device", "gt200"]),
+        check(illegal.as_bytes(), &["--device", "nv30"]),
+        check(no_program.as_bytes(), &["--device", "r300"]),
+    ];
+    assert_eq!(ran.each_ref().map(|r| r.code), [Some(0), Some(1), Some(1), Some(2)]);
+    insta::assert_snapshot!(ran.map(|r| r.stdout + &r.stderr).join("----\n"));
+}

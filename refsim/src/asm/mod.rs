@@ -27,7 +27,7 @@ mod word;
 
 pub use error::{AssembleErrors, ErrorKind, SyntaxError};
 
-use crate::isa::{Program, Span};
+use crate::isa::{Program, Register, Span};
 
 /// The longest program text that [`assemble`] reads, in bytes.
 pub const MAX_TEXT: usize = 1 << 20;
@@ -69,4 +69,13 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
 /// versions, as the extensions write them for OpenGL's.
 pub fn print(program: &Program) -> String {
     if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }
+}
+
+/// A register as the program writes it: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are called `R0` and so on,
+/// as [`print()`] declares them.
+pub fn register_name(program: &Program, register: &Register) -> String {
+    match program.version.is_fragment_program() {
+        true => gl::register_name(program, register),
+        false => register.to_string(),
+    }
 }

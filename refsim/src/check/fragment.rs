@@ -27,7 +27,6 @@ pub(super) fn check(context: &mut Context<'_>) {
         }
         registers(context, instruction);
         operands(context, instruction);
-        attributes(context, instruction);
         if nv {
             suffixes(context, instruction);
             packing(context, instruction);
@@ -115,15 +114,6 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
         let message = format!("`{}` reads one component, found four", spelling.name);
         let advice = "choose one: `.x`, `.y`, `.z` or `.w`";
         context.add(Violation::new(RuleId::V42, source.span, message).label("which component?").help(advice));
-    }
-}
-
-/// V67: what this rasteriser hands over.
-fn attributes(context: &mut Context<'_>, instruction: &Instruction) {
-    for source in instruction.sources.iter().filter(|s| s.register.file == RegisterFile::WindowPosition) {
-        let message = "the window position is not handed to programs by this emulator";
-        let advice = "pass the position as texture coordinates";
-        context.add(Violation::new(RuleId::V67, source.span, message).label("this attribute").help(advice));
     }
 }
 

@@ -93,7 +93,6 @@ rules! {
     V64 "an image unit is read as one kind of texture (OpenGL)";
     V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
     V66 "texture reads depend on one another over so many levels at most (!!ARBfp1.0)";
-    V67 "attributes are those that this emulator hands over: colours, coordinates, fog (OpenGL)";
 }
 
 impl fmt::Display for RuleId {

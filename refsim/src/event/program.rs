@@ -1,7 +1,8 @@
 //! What a program is made of, as the issue units of a card see it.
 
 use crate::isa::{
-    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile, Stage, Version,
+    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Precision, Program, Register, RegisterFile,
+    Stage, Version,
 };
 
 /// Passes through a loop, at most: as executors have it.
@@ -20,6 +21,8 @@ pub struct ArithmeticSlot {
     /// Whether the pair is not the program's own: two neighbours, one writing colour alone, the other alpha alone, that do
     /// not need each other.
     pub independent: bool,
+    /// Whether it is computed in fixed point: X of `!!FP1.0`.
+    pub fixed: bool,
     /// Slots by the opcode table, of the longer of the two.
     pub slots: u16,
     /// How often a fragment (a vertex) comes here, loops unrolled.
@@ -56,7 +59,7 @@ pub struct ProgramWork {
     /// Its phases, in order.
     pub phases: Vec<PhaseWork>,
     /// Temporaries live at once, at most, counted in halves: 2 for one in full precision, 1 for one that only `_pp`
-    /// instructions write.
+    /// instructions write; of `!!FP1.0` 2 for `R#`, 1 for `H#`.
     pub live_halves: u32,
     /// Instructions of flow control, once each.
     pub flow: u32,
@@ -122,6 +125,7 @@ fn arithmetic(program: &Program, at: usize, times: u64) -> (ArithmeticSlot, usiz
         opcode: instruction.opcode,
         partner: None,
         independent: false,
+        fixed: program.version == Version::Fp1_0 && instruction.precision() == Precision::Fixed,
         slots: cost(instruction),
         times,
     };
@@ -311,14 +315,15 @@ impl Walk<'_> {
 }
 
 /// Temporaries that a program can name: 64 of `r#`, and 64 of half precision after them.
-const TEMPORARIES: usize = 128;
+const TEMPORARIES: usize = 2 * FULL;
+const FULL: usize = 64;
 
 /// Where a temporary stands among them; `None` for every other register.
 fn temporary(register: Register) -> Option<usize> {
     let number = usize::from(register.index);
     match register.file {
-        RegisterFile::Temp if number < 64 => Some(number),
-        RegisterFile::Half if number < 64 => Some(64 + number),
+        RegisterFile::Temp if number < FULL => Some(number),
+        RegisterFile::Half if number < FULL => Some(FULL + number),
         _ => None,
     }
 }
@@ -326,6 +331,10 @@ fn temporary(register: Register) -> Option<usize> {
 /// Temporaries live at once, in halves, taking the program as a straight line (loops do not lengthen lives).
 fn live_halves(program: &Program) -> u32 {
     let mut full = [false; TEMPORARIES];
+    if program.version.is_fragment_program() {
+        // What nothing writes is zero, and takes its place all the same.
+        full[..FULL].fill(true);
+    }
     for destination in program.instructions.iter().filter_map(|i| i.destination) {
         if let Some(slot) = temporary(destination.register) {
             full[slot] |= !destination.partial_precision && !destination.register.file.is_half();
@@ -352,7 +361,9 @@ fn live_halves(program: &Program) -> u32 {
         }
         for (source, slot) in instruction.sources.iter().filter_map(|s| Some((s, temporary(s.register)?))) {
             let lanes = lanes_read(instruction);
-            live[slot] |= lanes.components().fold(0, |mask, lane| mask | 1 << (source.swizzle.0[lane] & 3));
+            // 4 and 5 are constants of `SWZ`.
+            let chosen = lanes.components().map(|lane| source.swizzle.0[lane]).filter(|&c| c < 4);
+            live[slot] |= chosen.fold(0, |mask, c| mask | 1 << c);
         }
         most = most.max(halves(&live));
     }

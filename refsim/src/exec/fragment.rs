@@ -1,7 +1,7 @@
 //! In which formats an OpenGL fragment program computes: shared by the executors.
 
 use crate::device::Rules;
-use crate::isa::{Instruction, Precision, RegisterFile};
+use crate::isa::{Precision, RegisterFile};
 use crate::num::{Format, Overflow, Specials};
 
 /// The formats behind the suffixes R, H and X.
@@ -44,17 +44,4 @@ impl FragmentFormats {
     pub const fn of_file(&self, file: RegisterFile) -> Format {
         if file.is_half() { self.half } else { self.full }
     }
-}
-
-/// The precision that an arithmetic instruction computes in: the suffix's, or the destination's. Operands `f[TEX#]` and
-/// `f[FOGC]` ask for full precision whatever the suffix says.
-pub fn precision_of(instruction: &Instruction) -> Precision {
-    let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
-    if instruction.sources.iter().any(|s| interpolated(s.register.file)) {
-        return Precision::Full;
-    }
-    instruction.fragment.precision.unwrap_or(match instruction.destination {
-        Some(d) if d.register.file.is_half() => Precision::Half,
-        _ => Precision::Full,
-    })
 }

@@ -22,7 +22,7 @@ pub mod wgsl;
 pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, SamplerBinding};
 pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
 pub use flow::FlowMap;
-pub use fragment::{FragmentFormats, precision_of};
+pub use fragment::FragmentFormats;
 pub use observer::{NoObserver, Observer, Step, TextureRead, Trace};
 pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
 pub use trace::{PixelTracer, Shading};

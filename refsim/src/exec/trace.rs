@@ -52,6 +52,7 @@ pub(crate) fn as_written(mut step: Step, program: &Program) -> Step {
 pub(crate) fn canonical(mut input: FragmentInput) -> FragmentInput {
     let clean = |x: &mut u32| *x = ops::convert(&Format::FP32, Format::FP32, *x).bits;
     input.t.iter_mut().chain(&mut input.v).flatten().for_each(clean);
+    input.position.iter_mut().for_each(clean);
     clean(&mut input.fog);
     clean(&mut input.depth);
     input

@@ -1,10 +1,10 @@
 //! What a program reads and writes, found by looking at its text: shared by the executors.
 
-use crate::isa::{Opcode, Program, RegisterFile};
-use crate::raster::{ComponentMask, FOG_COMPONENT};
+use crate::isa::{Opcode, Program, Register, RegisterFile};
+use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
-/// The interpolated components that a pixel program can read. The others need not be interpolated; a program cannot
-/// tell.
+/// The components that a pixel program can read, those of the window position among them. The others need not be
+/// interpolated; a program cannot tell.
 pub fn inputs_read(program: &Program) -> ComponentMask {
     let mut mask = ComponentMask::NONE;
     let mut set = |number: u16| {
@@ -14,12 +14,14 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
     };
     let mut colors = [false; 2];
     let mut fog = false;
+    let mut position = false;
     for instruction in &program.instructions {
         let registers = instruction.sources.iter().map(|s| s.register);
         for register in registers.chain(instruction.destination.map(|d| d.register)) {
             match register.file {
                 RegisterFile::Texture => set(register.index),
                 RegisterFile::FogIn => fog = true,
+                RegisterFile::WindowPosition => position = true,
                 RegisterFile::Input => {
                     if let Some(color) = colors.get_mut(usize::from(register.index)) {
                         *color = true;
@@ -39,7 +41,21 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
             mask = mask.with_color(number);
         }
     }
-    if fog { mask.with(FOG_COMPONENT) } else { mask }
+    if fog {
+        mask = mask.with(FOG_COMPONENT);
+    }
+    if position { mask.with_position() } else { mask }
+}
+
+/// The input registers of a pixel program that arithmetic reads in the register format, of those that it reads at all.
+pub(crate) fn registers_delivered(program: &Program) -> Vec<Register> {
+    let reads = inputs_read(program);
+    let colors = (0u16..2).map(|n| (RegisterFile::Input, n, COLOR_COMPONENT + 4 * usize::from(n)));
+    let sets = (0u16..8).filter(|_| program.version.reads_coordinates());
+    let sets = sets.map(|n| (RegisterFile::Texture, n, TEXCOORD_COMPONENT + 4 * usize::from(n)));
+    let others = [(RegisterFile::FogIn, 0, FOG_COMPONENT), (RegisterFile::WindowPosition, 0, POSITION_COMPONENT)];
+    let all = colors.chain(sets).chain(others);
+    all.filter(|&(_, _, first)| reads.has(first)).map(|(file, n, _)| Register::new(file, n)).collect()
 }
 
 /// Which colours a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it,

@@ -94,6 +94,11 @@ impl RegisterFile {
         vertex || fragment || discard || matches!(self, Self::Loop | Self::DepthOut)
     }
 
+    /// Whether the file's registers have one component.
+    pub const fn is_scalar(self) -> bool {
+        matches!(self, Self::Loop | Self::FogOut | Self::PointSizeOut | Self::DepthOut)
+    }
+
     /// Whether the file's registers hold half precision numbers.
     pub const fn is_half(self) -> bool {
         matches!(self, Self::Half | Self::HalfColorOut | Self::HalfDiscard)

@@ -1,7 +1,9 @@
 //! Values of a fragment: weights, then one fixed sequence of rounded steps a component.
 
+use super::plane::plane;
+use super::setup::PixelCenter;
 use super::setup::{Plane, TriangleSetup};
-use super::vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT};
+use super::vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 use crate::num::{self, Format};
 use crate::texture::value;
 
@@ -12,7 +14,7 @@ pub struct ComponentMask(pub u64);
 impl ComponentMask {
     /// No component.
     pub const NONE: Self = Self(0);
-    /// Every component.
+    /// Every component that vertices have.
     pub const ALL: Self = Self((1 << COMPONENTS) - 1);
 
     /// The set with one component more.
@@ -28,6 +30,11 @@ impl ComponentMask {
     /// The set with all of colour `color`.
     pub const fn with_color(self, color: usize) -> Self {
         Self(self.0 | (15 << (COLOR_COMPONENT + 4 * color)))
+    }
+
+    /// The set with the window position.
+    pub const fn with_position(self) -> Self {
+        Self(self.0 | (15 << POSITION_COMPONENT))
     }
 
     /// Whether the component is in the set.
@@ -47,6 +54,8 @@ pub struct FragmentInput {
     pub fog: u32,
     /// Depth.
     pub depth: u32,
+    /// Window position: column and row of the pixel's centre, depth, 1 / w in clip space.
+    pub position: [u32; 4],
 }
 
 /// The weights of vertices 1 and 2 at a pixel, FP32 bits.
@@ -99,10 +108,35 @@ impl TriangleSetup {
         interpolated(plane, weights.perspective, format)
     }
 
+    /// 1 / w over the triangle, as a plane in FP32 along the screen. Constant if all w are equal.
+    pub(crate) fn reciprocal_w_plane(&self) -> Plane {
+        plane(self.reciprocal_w, Format::FP32)
+    }
+
+    /// What there is to be added to a pixel's column and row to find its centre, in half pixels.
+    pub(crate) fn half_pixels(&self) -> u32 {
+        u32::from(self.center == PixelCenter::OpenGl)
+    }
+
+    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the reciprocals
+    /// of w with the weights along the screen, each step rounded to FP32.
+    fn position_at(&self, x: u32, y: u32, weights: &Weights) -> [u32; 4] {
+        let center =
+            |n: u32| value::mul(value::from_integer(2 * i64::from(n) + i64::from(self.half_pixels())), value::HALF);
+        let w = match self.affine {
+            true => self.reciprocal_w[0],
+            false => along(&self.reciprocal_w_plane(), weights.linear, Format::FP32),
+        };
+        [center(x), center(y), self.depth_at(weights), w]
+    }
+
     /// The inputs of the fragment at pixel (x, y): depth and the components asked for; the others are 0.
     pub fn interpolate(&self, x: u32, y: u32, needed: ComponentMask) -> FragmentInput {
         let weights = self.weights(x, y);
         let mut input = FragmentInput { depth: self.depth_at(&weights), ..FragmentInput::default() };
+        if needed.has(POSITION_COMPONENT) {
+            input.position = self.position_at(x, y, &weights);
+        }
         let mut left = needed.0 & ComponentMask::ALL.0;
         while left != 0 {
             let component = left.trailing_zeros() as usize;

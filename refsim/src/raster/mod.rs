@@ -26,4 +26,4 @@ pub use setup::{
     setup,
 };
 pub(crate) use setup::{Corner, FARTHEST, GUARD_BAND, shape};
-pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, TEXCOORD_COMPONENT, Vertex};
+pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT, Vertex};

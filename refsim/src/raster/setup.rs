@@ -178,6 +178,8 @@ pub struct TriangleSetup {
     pub planes: [Plane; COMPONENTS],
     /// The components whose three values are bit-equal.
     pub constant: ComponentMask,
+    /// Where within a pixel its centre lies.
+    pub center: PixelCenter,
     /// Whether the three w are bit-equal, so that nothing needs dividing by w.
     pub affine: bool,
     /// 1 / w of each vertex, FP32.
@@ -348,6 +350,7 @@ pub(crate) fn shape(
         depth_constant: depths[0] == depths[1] && depths[1] == depths[2],
         planes: [Plane::default(); COMPONENTS],
         constant: ComponentMask::NONE,
+        center: state.center,
         affine: ws[0] == ws[1] && ws[1] == ws[2],
         reciprocal_w: [c0.reciprocal_w, c1.reciprocal_w, c2.reciprocal_w],
         iterator_format: rules.iterator_format,

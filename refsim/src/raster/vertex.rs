@@ -9,6 +9,10 @@ pub const COLOR_COMPONENT: usize = 32;
 /// The component of the fog factor.
 pub const FOG_COMPONENT: usize = 40;
 
+/// First component of the window position, after those that vertices have: column and row of the pixel's centre, depth,
+/// 1 / w in clip space.
+pub const POSITION_COMPONENT: usize = COMPONENTS;
+
 /// A vertex after the vertex program. All numbers are FP32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vertex {

@@ -2,10 +2,10 @@
 
 use refsim::{
     exec::{FragmentFormats, Step, inputs_read},
-    isa::{Register, RegisterFile},
+    isa::{Program, Register, RegisterFile},
     machine::FragmentTrace,
     num::{Flags, Format},
-    raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT},
+    raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT},
     texture::ChannelClass,
 };
 use serde_json::{Map, Value, json};
@@ -35,8 +35,8 @@ struct Row {
 }
 
 impl Row {
-    fn new(register: &Register, component: usize, format: Format, bits: u32) -> Self {
-        Self { name: crate::compare::component(register, component), number: Number { format, bits } }
+    fn new(program: &Program, register: &Register, component: usize, format: Format, bits: u32) -> Self {
+        Self { name: crate::compare::component(program, register, component), number: Number { format, bits } }
     }
 
     fn json(&self) -> Value {
@@ -58,22 +58,30 @@ impl Traced<'_> {
         let reads = inputs_read(&self.setup.pixel);
         let input = &fragment.shading.input;
         let sets = input.t.iter().enumerate().map(|(n, t)| (RegisterFile::Texture, n, TEXCOORD_COMPONENT, t));
+        let position = [(RegisterFile::WindowPosition, 0, POSITION_COMPONENT, &input.position)];
         let colors = input.v.iter().enumerate().map(|(n, v)| (RegisterFile::Input, n, COLOR_COMPONENT, v));
         let mut rows: Vec<Row> = colors
             .chain(sets)
+            .chain(position)
             .filter(|(_, n, first, _)| reads.has(first + 4 * n))
             .flat_map(|(file, n, _, value)| {
                 let register = Register::new(file, n as u16);
-                (0..4).map(move |c| Row::new(&register, c, Format::FP32, value[c]))
+                (0..4).map(move |c| Row::new(&self.setup.pixel, &register, c, Format::FP32, value[c]))
             })
             .collect();
+        if reads.has(FOG_COMPONENT) {
+            let number = Number { format: Format::FP32, bits: input.fog };
+            rows.push(Row { name: "fog".to_owned(), number });
+        }
         rows.push(Row { name: "depth".to_owned(), number: Number { format: Format::FP32, bits: input.depth } });
         rows
     }
 
     fn delivered(&self, fragment: &FragmentTrace) -> Vec<Row> {
         let registers = fragment.shading.delivered.iter();
-        registers.flat_map(|(r, value)| (0..4).map(|c| Row::new(r, c, self.format(), value[c]))).collect()
+        registers
+            .flat_map(|(r, value)| (0..4).map(|c| Row::new(&self.setup.pixel, r, c, self.format(), value[c])))
+            .collect()
     }
 
     /// What a step wrote, component by component; truth values of predicates are 0 and 1.
@@ -85,7 +93,7 @@ impl Traced<'_> {
         let format = FragmentFormats::new(&self.setup.profile.rules).of_file(file);
         let shown = |c: usize| {
             let one = if step.value[c] != 0 { self.format().one() } else { 0 };
-            Row::new(&destination.register, c, format, if truth { one } else { step.value[c] })
+            Row::new(&self.setup.pixel, &destination.register, c, format, if truth { one } else { step.value[c] })
         };
         step.mask.components().map(shown).collect()
     }

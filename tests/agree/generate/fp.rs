@@ -64,13 +64,15 @@ impl Writer<'_> {
     fn choose(&mut self) {
         let n = self.r.below(8);
         let nv = self.nv;
-        self.attribute = match self.r.below(6) {
+        self.attribute = match self.r.below(7) {
             0 if nv => "f[COL0]".to_owned(),
             1 if nv => "f[COL1]".to_owned(),
             2 if nv => "f[FOGC]".to_owned(),
+            3 if nv => "f[WPOS]".to_owned(),
             0 => "fragment.color".to_owned(),
             1 => "fragment.color.secondary".to_owned(),
             2 => "fragment.fogcoord".to_owned(),
+            3 => "fragment.position".to_owned(),
             _ if nv => format!("f[TEX{n}]"),
             _ => format!("fragment.texcoord[{n}]"),
         };

@@ -24,7 +24,7 @@ const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nice
 /// Reads a program whose first word is `!!ARBfp1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
     let cursor = Cursor::new(text, header.end);
-    let mut parser = Parser { cursor, build: Build::default(), names: BTreeMap::new(), temporaries: 0 };
+    let mut parser = Parser { cursor, build: Build::default(), names: BTreeMap::new(), temporaries: 0, hint: None };
     while parser.cursor.goes_on() {
         let token = parser.cursor.peek();
         if token.kind == Kind::End || token.text == "END" {
@@ -68,6 +68,8 @@ pub(super) struct Parser<'a> {
     build: Build,
     pub(super) names: BTreeMap<&'a str, Name>,
     temporaries: u16,
+    /// The precision hint, if there was one.
+    hint: Option<&'a str>,
 }
 
 impl<'a> Parser<'a> {
@@ -91,16 +93,20 @@ impl<'a> Parser<'a> {
 
     fn option(&mut self) -> Parsed<()> {
         let token = self.cursor.next();
-        if HINTS.contains(&token.text) {
-            return Ok(());
-        }
-        Err(SyntaxError::new(
-            ErrorKind::UnknownOption,
-            token.span,
-            format!("one of {}", HINTS.join(", ")),
-            token.found(),
-            "other options change what a program means",
-        ))
+        let help = match token.text {
+            text if HINTS.contains(&text) => {
+                if self.hint.replace(text).is_none_or(|before| before == text) {
+                    return Ok(());
+                }
+                "a program asks for one of the two"
+            }
+            text if text.starts_with("ARB_fog_") => {
+                "there is no fog after the program: blend with `fragment.fogcoord` in it, the colour in program.local[0]"
+            }
+            _ => "other options change what a program means",
+        };
+        let expected = format!("one of {}", HINTS.join(", "));
+        Err(SyntaxError::new(ErrorKind::UnknownOption, token.span, expected, token.found(), help))
     }
 
     /// A name that means nothing yet.

@@ -13,7 +13,7 @@ mod token;
 
 use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
 use crate::isa::{Program, Span, Version};
-pub(super) use print::print;
+pub(super) use print::{print, register_name};
 
 /// Whether the text is meant to be one of OpenGL's programs: it starts with `!!`.
 pub(super) fn is_program(text: &str) -> bool {

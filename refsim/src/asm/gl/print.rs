@@ -39,6 +39,14 @@ pub(in super::super) fn print(program: &Program) -> String {
     out
 }
 
+/// A register as programs write it.
+pub(in super::super) fn register_name(program: &Program, register: &Register) -> String {
+    let mut out = String::new();
+    let arb = program.version == Version::ArbFp1_0;
+    Printer { program, arb, out: &mut out }.register(register, false);
+    out
+}
+
 fn vector(bits: [u32; 4]) -> String {
     let [x, y, z, w] = bits.map(float_text);
     format!("{{{x}, {y}, {z}, {w}}}")

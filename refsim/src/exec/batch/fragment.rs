@@ -6,9 +6,8 @@ use super::graph::{Arith, Detail, Kind, Node};
 use super::ops::Code;
 use super::slots::TRUE;
 use super::translate::{Effect, Translator};
-use crate::exec::precision_of;
 use crate::isa::{
-    Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source,
+    Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
 };
 
 /// A condition code as masks: less than, equal to, greater than zero.
@@ -99,7 +98,7 @@ impl Translator<'_> {
         }
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         match instruction.opcode {
-            Opcode::Mov if plain && precision_of(instruction) == Precision::Full => {
+            Opcode::Mov if plain && instruction.precision() == Precision::Full => {
                 Some(source.swizzle.0.map(|c| self.held(&source.register, usize::from(c & 3))))
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
@@ -178,7 +177,7 @@ impl Translator<'_> {
     /// The result in the format of the destination.
     fn fragment_arithmetic(&mut self, instruction: &Instruction) -> Vector {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
-        let k = arith(precision_of(instruction));
+        let k = arith(instruction.precision());
         let raw = self.fragment_raw(instruction, k);
         let to = of_file(destination.register.file);
         raw.map(|x| {
@@ -206,6 +205,9 @@ impl Translator<'_> {
         let mut s = [[zero; 4]; 3];
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
+        }
+        if opcode == Opcode::Rsq && self.program.version == Version::ArbFp1_0 {
+            s[0] = s[0].map(|x| self.make.unary(k, Code::Abs, x));
         }
         match opcode {
             Opcode::Dsx => s[0].map(|x| self.make.unary(k, Code::DifferenceX, x)),

@@ -187,7 +187,9 @@ impl Graph {
             let same = match *kind {
                 Kind::Constant(_) => true,
                 Kind::Input(component) => input(component),
-                // Differences of equal lanes are zeros, whose sign depends on the format: computed like the rest.
+                // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a zero,
+                // whose sign depends on the format.)
+                Kind::Compute(_, Code::DifferenceX | Code::DifferenceY, _) => false,
                 Kind::Held(_) | Kind::Fetch(..) | Kind::Relative(..) => false,
                 _ => {
                     let mut all = true;

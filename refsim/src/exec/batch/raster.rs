@@ -127,6 +127,26 @@ impl TileWeights {
         }
     }
 
+    /// A component of the window position in every lane, single precision; `origin` is the tile's.
+    pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, origin: (u32, u32), out: &mut Row) {
+        let half = setup.half_pixels() as f32 * 0.5;
+        match axis {
+            0 | 1 => {
+                for (i, slot) in out.iter_mut().enumerate() {
+                    let (x, y) = place(i);
+                    let at = if axis == 0 { origin.0 + x } else { origin.1 + y };
+                    *slot = (at as f32 + half).to_bits();
+                }
+            }
+            2 => self.depth(setup, out),
+            _ if setup.affine => out.fill(setup.reciprocal_w[0]),
+            _ => self.simd.run(
+                #[inline(always)]
+                || along(&setup.reciprocal_w_plane(), &self.linear, out),
+            ),
+        }
+    }
+
     /// A component that varies, in every lane, single precision; `format` is that of the plane.
     pub(crate) fn plane(&self, plane: &Plane, format: Format, single: &AnyLane, out: &mut Row) {
         if format == Format::FP32 {

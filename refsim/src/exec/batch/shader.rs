@@ -49,6 +49,15 @@ pub(crate) struct Shader {
     inputs_hold: bool,
 }
 
+/// Where the rows of what varies go.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Inputs {
+    /// Components: row of the surfaces, slot.
+    pub(crate) rows: Vec<(usize, Slot)>,
+    /// The window position: component of it, slot.
+    pub(crate) position: Vec<(usize, Slot)>,
+}
+
 /// How triangles are to be taken.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Manner {
@@ -164,7 +173,7 @@ impl Shader {
     }
 
     /// Fills the slots of components that vary; false if they hold these values already.
-    pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &[(usize, Slot)], formats: &Formats) -> bool {
+    pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &Inputs, formats: &Formats) -> bool {
         if self.inputs_hold {
             return false;
         }
@@ -173,10 +182,18 @@ impl Shader {
         let mut spare = [0; LANES];
         for (i, member) in self.members[..self.used].iter_mut().enumerate() {
             let setup = &surfaces.shapes[member.shape as usize];
-            if !inputs.is_empty() {
+            if !inputs.rows.is_empty() || !inputs.position.is_empty() {
                 member.weights.make(setup, self.origin);
             }
-            for &(number, slot) in inputs {
+            for &(axis, slot) in &inputs.position {
+                member.weights.position(setup, axis, self.origin, &mut spare);
+                if i == 0 {
+                    *self.slots.row_mut(slot) = spare;
+                } else {
+                    lay_over(self.slots.row_mut(slot), &spare, &member.cover);
+                }
+            }
+            for &(number, slot) in &inputs.rows {
                 let (plane, constant) = plane(surfaces, number, member.planes);
                 let to = if i == 0 { self.slots.row_mut(slot) } else { &mut spare };
                 if constant {

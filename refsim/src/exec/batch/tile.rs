@@ -15,9 +15,9 @@ use super::lane::LANES;
 use super::output::{Output, Results, Shaded, Survivors};
 use super::program::{StraightPlan, StraightProgram, has_flow, pixel_formats};
 use super::schedule::Block;
-use super::shader::{Manner, Shader};
+use super::shader::{Inputs, Manner, Shader};
 use super::simd::SimdLevel;
-use super::slots::{Slot, Slots};
+use super::slots::Slots;
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use super::surfaces::{Surfaces, Triangle};
 use super::targets::Targets;
@@ -28,7 +28,7 @@ use crate::exec::{
 };
 use crate::isa::Program;
 use crate::output::{DepthFormat, TargetTile};
-use crate::raster::{ComponentMask, TriangleSetup};
+use crate::raster::{ComponentMask, POSITION_COMPONENT, TriangleSetup};
 use crate::texture::{Region, TextureKind};
 
 /// Triangles whose constants are computed sooner than a worker is woken up.
@@ -71,8 +71,7 @@ pub struct Round<'s> {
     code: RoundCode<'s>,
     /// For each value that the plan's varying block is given, a row of values by triangle.
     given: Vec<Vec<u32>>,
-    /// Components that vary: row of the surfaces, slot.
-    inputs: Vec<(usize, Slot)>,
+    inputs: Inputs,
 }
 
 #[derive(Debug)]
@@ -149,7 +148,11 @@ impl<'a> BatchTiles<'a> {
             RoundCode::Flow(plan) => plan.inputs(),
         };
         let row = |component: u16| surfaces.rows.iter().position(|row| row.component == usize::from(component));
-        let inputs = wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect();
+        let axis = |component: u16| usize::from(component).checked_sub(POSITION_COMPONENT).filter(|&axis| axis < 4);
+        let inputs = Inputs {
+            rows: wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect(),
+            position: wanted.iter().filter_map(|&(component, slot)| Some((axis(component)?, slot))).collect(),
+        };
         Round { surfaces, constant, code, given, inputs }
     }
 

@@ -25,12 +25,13 @@ use super::translate::{Effect, Translator};
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::scalar::{DepthValue, FragmentResult};
 use crate::exec::trace::{as_written, canonical};
+use crate::exec::usage::registers_delivered;
 use crate::exec::{PixelTracer, ResolvedConstants, Shading, Step, TileDraw, TileExecutor, inputs_read, sample_rules};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile};
 use crate::num::{Flags, ops};
 use crate::output::{FragmentFate, TargetTile};
 use crate::raster::{
-    COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, FragmentInput, TEXCOORD_COMPONENT, TriangleSetup,
+    COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT, TriangleSetup,
 };
 
 /// Instructions whose results are kept in one run; a longer program is run again for the next ones.
@@ -73,7 +74,7 @@ impl<'a> BatchTracer<'a> {
         let rules = sample_rules(draw.rules);
         let reads = inputs_read(program);
         let translator = || Translator::new(program, draw.rules, formats.clone(), &constants, Some(&draw.bindings));
-        let delivered = delivered(&mut translator(), program, reads);
+        let delivered = delivered(&mut translator(), program);
         let code = if has_flow(program) {
             Code::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings))
         } else {
@@ -119,15 +120,8 @@ impl<'a> BatchTracer<'a> {
 }
 
 /// The input registers that hold interpolated values, and a block that computes them.
-fn delivered(t: &mut Translator<'_>, program: &Program, reads: ComponentMask) -> (Vec<Register>, Block) {
-    let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
-    let sets = (0u16..8).filter(|_| program.version.reads_coordinates());
-    let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
-    let registers: Vec<Register> = colors
-        .chain(sets)
-        .filter(|(register, first)| reads.has(first + 4 * usize::from(register.index)))
-        .map(|(register, _)| register)
-        .collect();
+fn delivered(t: &mut Translator<'_>, program: &Program) -> (Vec<Register>, Block) {
+    let registers = registers_delivered(program);
     let roots: Vec<Node> = registers.iter().flat_map(|r| [0, 1, 2, 3].map(|c| t.held(r, c))).collect();
     let block = schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0);
     (registers, block)
@@ -194,7 +188,11 @@ impl Rows<'_> {
         self.weights.make(self.triangle, self.origin);
         for &(component, slot) in inputs {
             let single = formats.lane(Arith::Single);
-            self.weights.component(self.triangle, component.into(), single, slots.row_mut(slot));
+            let row = slots.row_mut(slot);
+            match usize::from(component).checked_sub(POSITION_COMPONENT) {
+                Some(axis) => self.weights.position(self.triangle, axis, self.origin, row),
+                None => self.weights.component(self.triangle, component.into(), single, row),
+            }
         }
     }
 
@@ -204,6 +202,12 @@ impl Rows<'_> {
         self.weights.make(self.triangle, self.origin);
         self.weights.depth(self.triangle, &mut row);
         let mut input = FragmentInput { depth: row[self.lane], ..FragmentInput::default() };
+        if reads.has(POSITION_COMPONENT) {
+            for (axis, value) in input.position.iter_mut().enumerate() {
+                self.weights.position(self.triangle, axis, self.origin, &mut row);
+                *value = single.encode(row[self.lane]);
+            }
+        }
         for component in (0..COMPONENTS).filter(|&c| reads.has(c)) {
             self.weights.component(self.triangle, component, single, &mut row);
             let value = single.encode(row[self.lane]);

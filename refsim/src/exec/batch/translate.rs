@@ -12,7 +12,7 @@ use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
 };
-use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, TEXCOORD_COMPONENT};
+use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
 pub(crate) type Place = (RegisterFile, u16, u8);
@@ -140,6 +140,10 @@ impl<'a> Translator<'a> {
                 3 => self.make.one(Arith::Main),
                 _ => self.make.zero(),
             },
+            RegisterFile::WindowPosition => {
+                let node = self.make.graph.node(Kind::Input((POSITION_COMPONENT + component) as u16));
+                self.make.convert(Arith::Single, Arith::Main, node)
+            }
             RegisterFile::Texture if self.program.version.reads_coordinates() => {
                 let node = self.coordinate(register.index, component);
                 self.make.convert(Arith::Single, Arith::Main, node)

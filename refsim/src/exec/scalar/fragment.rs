@@ -13,10 +13,10 @@ use super::interpreter::{Interpreter, LANES};
 use super::operation::{self, Context, Vector};
 use super::pack;
 use crate::device::Rules;
-use crate::exec::{FragmentFormats, Observer, precision_of};
+use crate::exec::{FragmentFormats, Observer};
 use crate::isa::{
     Condition, ConditionTest, Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, Program, RegisterFile,
-    Source,
+    Source, Version,
 };
 use crate::num::{Flags, Format, ops};
 
@@ -195,7 +195,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         if let Some(word) = self.moved_bits(lane, instruction) {
             return word;
         }
-        let precision = precision_of(instruction);
+        let precision = instruction.precision();
         let raw = self.fragment_raw(lane, instruction, precision, destination.mask);
         let unit = self.unit(precision);
         let mut out = [0; 4];
@@ -216,7 +216,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         }
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         match instruction.opcode {
-            Opcode::Mov if plain && precision_of(instruction) == Precision::Full => {
+            Opcode::Mov if plain && instruction.precision() == Precision::Full => {
                 Some([0, 1, 2, 3].map(|i| self.bits(lane, source, i)))
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
@@ -258,9 +258,13 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         for (slot, source) in s.iter_mut().zip(&instruction.sources) {
             *slot = self.fragment_operand(lane, source, k, wanted, instruction.fragment.negate);
         }
-        let arb = opcode == Opcode::Cmp;
+        let arb = self.prepared.program.version == Version::ArbFp1_0;
         let unit = self.unit(k);
-        if arb {
+        if arb && opcode == Opcode::Rsq {
+            // ARB takes the magnitude, whatever the card's own instruction does.
+            s[0] = s[0].map(|x| unit.abs(x));
+        }
+        if opcode == Opcode::Cmp {
             // ARB chooses by `< 0`, Direct3D by `>= 0`: a NaN chooses the other operand.
             return operation::each(mask, |i| if unit.less(s[0][i], 0) { s[1][i] } else { s[2][i] });
         }

@@ -4,10 +4,11 @@ use super::interpreter::{Interpreter, LANES};
 use super::prepared::Prepared;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
+use crate::exec::usage::registers_delivered;
 use crate::exec::{CheckedProgram, NoObserver, Observer, PixelBindings, delivered_color};
 use crate::isa::{Register, RegisterFile};
 use crate::num::{Format, ops};
-use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, TEXCOORD_COMPONENT};
+use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A pixel program ready to run on fragments.
 pub struct PixelProgram<'a> {
@@ -51,21 +52,29 @@ impl<'a> PixelProgram<'a> {
         interpolated.map(|x| delivered_color(self.prepared.rules, x))
     }
 
-    /// A coordinate set as arithmetic instructions of ps_2_x read it.
+    /// What is interpolated in FP32 as arithmetic instructions read it.
     fn coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
         interpolated.map(|x| ops::convert(&Format::FP32, self.prepared.format, x).bits)
     }
 
+    /// The fog coordinate as instructions of OpenGL's programs read it.
+    fn fog(&self, input: &FragmentInput) -> [u32; 4] {
+        let [x, ..] = self.coordinates([input.fog; 4]);
+        [x, 0, 0, self.prepared.format.one()]
+    }
+
     /// The input registers that hold interpolated values, as instructions read them.
     pub(super) fn delivered(&self, input: &FragmentInput) -> Vec<(Register, [u32; 4])> {
-        let reads = self.prepared.reads;
-        let colors = (0u16..).zip(&input.v).filter(|&(n, _)| reads.has(COLOR_COMPONENT + 4 * usize::from(n)));
-        let mut out: Vec<_> = colors.map(|(n, v)| (Register::new(RegisterFile::Input, n), self.color(*v))).collect();
-        if self.prepared.program.version.reads_coordinates() {
-            let sets = (0u16..).zip(&input.t).filter(|&(n, _)| reads.has(TEXCOORD_COMPONENT + 4 * usize::from(n)));
-            out.extend(sets.map(|(n, t)| (Register::new(RegisterFile::Texture, n), self.coordinates(*t))));
-        }
-        out
+        let value = |register: &Register| {
+            let number = usize::from(register.index);
+            match register.file {
+                RegisterFile::Input => self.color(input.v[number]),
+                RegisterFile::FogIn => self.fog(input),
+                RegisterFile::WindowPosition => self.coordinates(input.position),
+                _ => self.coordinates(input.t[number]),
+            }
+        };
+        registers_delivered(self.prepared.program).into_iter().map(|register| (register, value(&register))).collect()
     }
 
     /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
@@ -107,8 +116,10 @@ impl<'a> PixelProgram<'a> {
         }
         if let Some(fragment) = &mut run.fragment {
             for (lane, input) in inputs.iter().enumerate() {
-                let fog = ops::convert(&Format::FP32, format, input.fog).bits;
-                fragment.fog[lane] = [fog, 0, 0, format.one()];
+                fragment.fog[lane] = self.fog(input);
+                if prepared.reads.has(POSITION_COMPONENT) {
+                    fragment.position[lane] = self.coordinates(input.position);
+                }
             }
         }
         run.run();

@@ -10,7 +10,7 @@ use crate::exec::{CheckedProgram, Shading, program};
 use crate::isa::Opcode;
 use crate::num::Format;
 use crate::output::FragmentFate;
-use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, FragmentInput};
+use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
 
 /// The kernel's entry point: a workgroup of one invocation a pixel.
 pub const ENTRY: &str = "follow_main";
@@ -20,7 +20,7 @@ pub const JOB_WORDS: usize = 5;
 pub const HEAD: usize = RESULTS + 19;
 /// Where a record holds interpolated components and depth, what the program left.
 const INPUT: usize = 4;
-const RESULTS: usize = INPUT + 42;
+const RESULTS: usize = INPUT + 46;
 const NOTHING: u32 = 1;
 const FRAGMENT: u32 = 2;
 const UNFINISHED: u32 = 3;
@@ -130,7 +130,8 @@ impl<'w> Record<'w> {
             t: std::array::from_fn(|set| std::array::from_fn(|c| at(4 * set + c))),
             v: std::array::from_fn(|color| std::array::from_fn(|c| at(COLOR_COMPONENT + 4 * color + c))),
             fog: at(FOG_COMPONENT),
-            depth: at(41),
+            position: std::array::from_fn(|c| at(POSITION_COMPONENT + c)),
+            depth: at(POSITION_COMPONENT + 4),
         }
     }
 

@@ -67,11 +67,11 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         if (!r_cover(at, x & 0xfffffffeu, y & 0xfffffffeu)[lane]) {
             continue;
         }
-        r_interpolate(at);
-        for (var c = 0u; c < 41u; c++) {
+        r_interpolate(at, x & 0xfffffffeu, y & 0xfffffffeu);
+        for (var c = 0u; c < 45u; c++) {
             video[record + FOLLOW_INPUT + c] = q_input[c][lane];
         }
-        video[record + FOLLOW_INPUT + 41u] = q_depth[lane];
+        video[record + FOLLOW_INPUT + 45u] = q_depth[lane];
         q_covered = vec4<u32>(lane) == vec4<u32>(0u, 1u, 2u, 3u);
         q_run = vec4<bool>(true);
         q_trace = lane + 1u;

@@ -28,9 +28,10 @@ fn format(k: u32) -> Format {
     );
 }
 
-// Given to the program: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog),
+// Given to the program: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog, 41 to 44 window
+// position),
 // the lanes that run (a quad with a covered lane runs whole) and those that are fragments.
-var<private> q_input: array<vec4<u32>, 41>;
+var<private> q_input: array<vec4<u32>, 45>;
 var<private> q_run: vec4<bool>;
 var<private> q_covered: vec4<bool>;
 // Where the program's registers lie: value `slot` at scratch[slot * q_stride + q_invocation].

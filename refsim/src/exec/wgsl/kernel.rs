@@ -6,7 +6,7 @@ use crate::device::Rules;
 use crate::exec::FragmentFormats;
 use crate::num::{Format, Kind, Overflow, ops};
 use crate::output::{BlendEquation, BlendFactor, BlendOp, CompareFunction, DepthFormat, OutputRules, OutputState};
-use crate::raster::{COMPONENTS, ComponentMask, TriangleSetup};
+use crate::raster::{COMPONENTS, ComponentMask, POSITION_COMPONENT, TriangleSetup};
 use crate::texture::TargetRounding;
 
 const WIDE: &str = include_str!("wide.wgsl");
@@ -61,14 +61,17 @@ const FIELDS: [(&str, usize); 25] = [
     ("D_PROOF", 148),
     // How many, then their numbers.
     ("D_COMPONENTS", 150),
-    ("D_TARGETS", 192),
+    ("D_TARGETS", 193),
     // Where records begin in `video`, words of each, how many words of steps are kept, and from which on.
-    ("D_FOLLOW", 192 + 4 * target::WORDS),
-    ("D_END", 196 + 4 * target::WORDS),
+    ("D_FOLLOW", 193 + 4 * target::WORDS),
+    ("D_END", 197 + 4 * target::WORDS),
 ];
 
 /// Words of `draw` that the kernel reads.
-pub const DRAW_WORDS: usize = 196 + 4 * target::WORDS;
+pub const DRAW_WORDS: usize = 197 + 4 * target::WORDS;
+
+/// The component of the window position that a set-up has a plane for; the others are known without.
+const RECIPROCAL: usize = POSITION_COMPONENT + 3;
 
 /// Loop passes of finding out whether a triangle covers anything.
 const LOOK_COST: u32 = 12;
@@ -197,7 +200,7 @@ impl DrawWords {
     /// Of a draw.
     pub fn new(state: &DrawState<'_>) -> Self {
         let rules = state.rules;
-        let components: Vec<usize> = (0..COMPONENTS).filter(|&c| state.components.has(c)).collect();
+        let components: Vec<usize> = (0..COMPONENTS).chain([RECIPROCAL]).filter(|&c| state.components.has(c)).collect();
         let mut words = Self { words: vec![0; DRAW_WORDS], components, iterator: rules.iterator_format };
         let main = rules.format;
         let fragment = FragmentFormats::new(rules);
@@ -328,17 +331,24 @@ impl DrawWords {
             out.extend([edge.a, edge.b, edge.c].map(pair).as_flattened());
             out.push(edge.bias as u32);
         }
-        let varies = !setup.depth_constant || self.components.iter().any(|&c| !setup.constant.has(c));
-        let flags = u32::from(setup.affine) | u32::from(setup.depth_constant) << 1 | u32::from(!varies) << 2;
+        let constant = if setup.affine { setup.constant.with(RECIPROCAL) } else { setup.constant };
+        let varies = !setup.depth_constant || self.components.iter().any(|&c| !constant.has(c));
+        let flags = u32::from(setup.affine)
+            | u32::from(setup.depth_constant) << 1
+            | u32::from(!varies) << 2
+            | setup.half_pixels() << 3;
         let bounds = &setup.bounds;
         out.extend([setup.area_bits, bounds.x, bounds.y, bounds.width, bounds.height, flags]);
         out.extend(setup.reciprocal_w);
         out.extend([setup.depth.base, setup.depth.d1, setup.depth.d2].map(|x| raw(&Format::FP32, x)));
-        out.extend([setup.constant.0 as u32, (setup.constant.0 >> 32) as u32]);
-        for plane in self.components.iter().filter_map(|&c| setup.planes.get(c).map(|p| (c, p))) {
-            let (component, plane) = plane;
-            let format = if setup.constant.has(component) { Format::FP32 } else { self.iterator };
-            out.extend([raw(&format, plane.base), raw(&self.iterator, plane.d1), raw(&self.iterator, plane.d2)]);
+        out.extend([constant.0 as u32, (constant.0 >> 32) as u32]);
+        for &component in &self.components {
+            let (plane, varying) = match setup.planes.get(component) {
+                Some(plane) => (*plane, self.iterator),
+                None => (setup.reciprocal_w_plane(), Format::FP32),
+            };
+            let format = if constant.has(component) { Format::FP32 } else { varying };
+            out.extend([raw(&format, plane.base), raw(&varying, plane.d1), raw(&varying, plane.d2)]);
         }
     }
 }

@@ -48,7 +48,7 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
             atomicStore(&k_most[eight], 0u);
         }
         q_budget = budget - spent;
-        r_interpolate(at);
+        r_interpolate(at, x, y);
         q_run = vec4<bool>(true);
         shade();
         let used = budget - spent - q_budget;

@@ -12,6 +12,11 @@ const S_PLANES: u32 = 35u;
 const S_IS_AFFINE: u32 = 1u;
 const S_DEPTH_CONSTANT: u32 = 2u;
 const S_ALL_CONSTANT: u32 = 4u;
+// Set: centres of pixels lie between their corners.
+const S_HALF: u32 = 8u;
+
+// The component that is 1 / w; the others of the window position come before it.
+const R_RECIPROCAL: u32 = 44u;
 
 // The edge functions at the four lanes.
 var<private> r_edge: array<array<vec2<u32>, 4>, 3>;
@@ -75,9 +80,19 @@ fn r_plane(at: u32) {
     r_value[8] = vec4<u32>(setups[at + 2u]);
 }
 
+// Columns or rows of a quad's pixels as single precision, at their centres.
+fn r_centers(first: u32, steps: vec4<u32>, half: u32) -> vec4<u32> {
+    var result: vec4<u32>;
+    for (var lane = 0u; lane < 4u; lane++) {
+        let doubled = k_to_single(vec2<u32>(2u * (first + steps[lane]) + half, 0u));
+        result[lane] = select(doubled - 0x800000u, 0u, doubled == 0u);
+    }
+    return result;
+}
+
 // Depth and the components of the draw for a quad whose edge functions are known. All steps run at one place, since
 // each place costs a copy of the arithmetic.
-fn r_interpolate(at: u32) {
+fn r_interpolate(at: u32, x: u32, y: u32) {
     let flags = setups[at + S_FLAGS];
     let affine = (flags & S_IS_AFFINE) != 0u;
     let count = draw[D_COMPONENTS];
@@ -125,10 +140,22 @@ fn r_interpolate(at: u32) {
                 r_value[14] = r_value[6];
                 let constant = (setups[at + S_CONSTANT + (component >> 5u)] >> (component & 31u)) & 1u;
                 first = STEPS_COMPONENT;
-                end = select(STEPS_COMPONENT + 4u + draw[D_CONVERTS_BACK], STEPS_COMPONENT, constant == 1u);
+                end = STEPS_COMPONENT + 4u + draw[D_CONVERTS_BACK];
+                if (component == R_RECIPROCAL) {
+                    // Along the screen, in single precision, like depth.
+                    first = STEPS_DEPTH;
+                    end = STEPS_DEPTH + 4u;
+                }
+                end = select(end, first, constant == 1u);
             }
         }
         r_run(first, end);
+        if (component == R_RECIPROCAL) {
+            let half = select(0u, 1u, (flags & S_HALF) != 0u);
+            q_input[R_RECIPROCAL - 3u] = r_centers(x, vec4<u32>(0u, 1u, 0u, 1u), half);
+            q_input[R_RECIPROCAL - 2u] = r_centers(y, vec4<u32>(0u, 0u, 1u, 1u), half);
+            q_input[R_RECIPROCAL - 1u] = q_depth;
+        }
         if (item == 2u) {
             q_depth = r_value[14];
         } else if (item > 2u) {

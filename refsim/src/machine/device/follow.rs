@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// Steps of a record in a program with flow control, which may run any number.
 const FLOW_STEPS: usize = 256;
 /// Input registers that are told of before the steps, at most.
-const INPUTS: usize = 10;
+const INPUTS: usize = 12;
 
 /// A fragment of a followed pixel: the triangle's place among the set-ups of the pass; what it found, what was done, what
 /// it left.

@@ -26,29 +26,63 @@ impl FragmentClocks {
     }
 }
 
+/// What a phase asks of arithmetic, in clocks of a unit that issues one slot a clock.
+#[derive(Clone, Copy, Debug, Default)]
+struct Work {
+    /// Of the float unit.
+    float: u64,
+    /// Of a fixed point unit: multiplications, of which it does two a clock, and the rest.
+    multiplications: u64,
+    operations: u64,
+}
+
 /// The clocks of a fragment. A phase is a pass through the units, and takes whole clocks of each; a program takes at least
 /// one. Of samplers that are not named, plain 32-bit texels are taken.
 pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates: &Rates) -> FragmentClocks {
+    let takes_turns = rates.texture_blocks_arithmetic == Some(1);
     let (mut arithmetic, mut textures) = (0_u64, 0_u64);
     for phase in &program.phases {
-        arithmetic = arithmetic.saturating_add(arithmetic_clocks(phase, rates));
-        textures = textures.saturating_add(texture_clocks(phase, samplers, rates));
+        let reads = texture_clocks(phase, samplers, rates);
+        let blocked = if takes_turns { reads } else { 0 };
+        arithmetic = arithmetic.saturating_add(arithmetic_clocks(phase, blocked, rates));
+        textures = textures.saturating_add(reads);
     }
     let pressed = |clocks| under_pressure(clocks, program.live_halves, rates);
-    FragmentClocks {
-        arithmetic: Clocks(pressed(arithmetic).max(1)),
-        textures: Clocks(pressed(textures)),
-        takes_turns: rates.texture_blocks_arithmetic == Some(1),
-    }
+    FragmentClocks { arithmetic: Clocks(pressed(arithmetic).max(1)), textures: Clocks(pressed(textures)), takes_turns }
 }
 
-/// Slots over slots a clock.
-fn arithmetic_clocks(phase: &PhaseWork, rates: &Rates) -> u64 {
-    let slots = phase.arithmetic.iter().fold(0_u64, |sum, slot| {
-        let once = slot_clocks(slot, rates);
-        sum.saturating_add(once.saturating_mul(slot.times))
-    });
-    slots.div_ceil(rates.alu_pairs_per_clock.unwrap_or(1).max(1))
+/// Slots over slots a clock. Fixed point goes to its own units, where there are any, while the float unit is busy (reading
+/// textures for `blocked` clocks too); what is left over is shared with the float unit.
+fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
+    let units = rates.fixed_units.unwrap_or(0);
+    let mut work = Work::default();
+    for slot in &phase.arithmetic {
+        let clocks = slot_clocks(slot, rates).saturating_mul(slot.times);
+        let sum = match (slot.fixed && units > 0, slot.opcode) {
+            (false, _) => &mut work.float,
+            (true, Opcode::Mul) => &mut work.multiplications,
+            (true, _) => &mut work.operations,
+        };
+        *sum = sum.saturating_add(clocks);
+    }
+    let float = work.float.div_ceil(rates.alu_pairs_per_clock.unwrap_or(1).max(1));
+    float.saturating_add(taken_over(&work, float.saturating_add(blocked), units))
+}
+
+/// Clocks that the float unit spends on fixed point so that the fixed point units get done with the rest meanwhile; it is
+/// busy for `busy` clocks before. An operation is worth two multiplications, so operations are taken over first.
+fn taken_over(work: &Work, busy: u64, units: u64) -> u64 {
+    // In multiplications, of which the units do this many a clock.
+    let [operations, multiplications, done] =
+        [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);
+    let meanwhile = done * u128::from(busy);
+    let left = (2 * operations + multiplications).saturating_sub(meanwhile);
+    let clocks = left.div_ceil(2 + done);
+    let clocks = match clocks > operations {
+        true => (operations + multiplications).saturating_sub(meanwhile).div_ceil(1 + done),
+        false => clocks,
+    };
+    u64::try_from(clocks).unwrap_or(u64::MAX)
 }
 
 /// Clocks of a slot in a unit that issues one a clock.

@@ -1,6 +1,5 @@
 //! Programs on their way to a GPU: the batch executor's graph, and what becomes of its values.
 
-use super::trace::delivered_registers;
 use crate::device::Rules;
 use crate::exec::batch::arith::Formats;
 use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts, loop_counter};
@@ -9,6 +8,7 @@ use crate::exec::batch::ops::Code;
 use crate::exec::batch::program::{Ends, decode, has_flow, one};
 use crate::exec::batch::slots::{Slot, TRUE};
 use crate::exec::batch::translate::{Effect, Place, Translator};
+use crate::exec::usage::registers_delivered;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
 use std::collections::BTreeMap;
@@ -275,7 +275,7 @@ fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
         nodes.extend([all; 4]);
         Sink::new(Use::Trace(at, Mask::ALL), nodes)
     };
-    numbers.zip(delivered_registers(program)).map(sink).collect()
+    numbers.zip(registers_delivered(program)).map(sink).collect()
 }
 
 /// What an instruction under lane masks does with its results.

@@ -5,10 +5,10 @@ use crate::exec::batch::fragment::of_file;
 use crate::exec::batch::graph::Arith;
 use crate::exec::batch::program::pixel_formats;
 use crate::exec::trace::as_written;
-use crate::exec::{CheckedProgram, Step, inputs_read, program};
-use crate::isa::{Mask, Program, Register, RegisterFile};
+use crate::exec::usage::registers_delivered;
+use crate::exec::{CheckedProgram, Step, program};
+use crate::isa::{Mask, Register, RegisterFile};
 use crate::num::{Flags, ops};
-use crate::raster::{COLOR_COMPONENT, TEXCOORD_COMPONENT};
 
 /// Words that an executed instruction puts down: its number, the components written, four raw values. Input registers come
 /// first, with numbers past those of the instructions.
@@ -45,18 +45,8 @@ pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -
     let main = formats.lane(Arith::Main);
     let first = source.instructions.len();
     let told = |at: usize| words.chunks_exact(TRACE_WORDS).find(|words| words[0] as usize == at);
-    let registers = (first..).zip(delivered_registers(source));
+    let registers = (first..).zip(registers_delivered(source));
     registers
         .filter_map(|(at, register)| told(at).map(|words| (register, [2, 3, 4, 5].map(|i| main.encode(words[i])))))
         .collect()
-}
-
-/// The input registers that hold interpolated values.
-pub(super) fn delivered_registers(program: &Program) -> Vec<Register> {
-    let reads = inputs_read(program);
-    let colors = (0u16..2).map(|n| (Register::new(RegisterFile::Input, n), COLOR_COMPONENT));
-    let sets = (0u16..8).filter(|_| program.version.reads_coordinates());
-    let sets = sets.map(|n| (Register::new(RegisterFile::Texture, n), TEXCOORD_COMPONENT));
-    let read = |(register, first): &(Register, usize)| reads.has(first + 4 * usize::from(register.index));
-    colors.chain(sets).filter(read).map(|(register, _)| register).collect()
 }

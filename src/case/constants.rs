@@ -1,0 +1,127 @@
+//! The constants of a case.
+
+use std::{collections::BTreeMap, ops::Range};
+
+use refsim::{
+    exec::{CheckedProgram, Constants},
+    isa::{FIRST_ENVIRONMENT, Version},
+};
+use toml::Spanned;
+
+use super::{
+    CaseError,
+    schema::Constant,
+    setup::{Binder, register},
+    value::Number,
+};
+
+/// Where a constant goes.
+enum Home {
+    Float(usize),
+    Int(usize),
+    Bool(usize),
+    Named,
+}
+
+impl Binder<'_> {
+    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names that they
+    /// write, and those that they declare.
+    pub(super) fn constants(
+        &self,
+        written: &BTreeMap<String, Spanned<Constant>>,
+        program: &CheckedProgram,
+    ) -> Result<Constants, CaseError> {
+        let mut constants = Constants::default();
+        for (name, value) in written {
+            let span = value.span();
+            match (self.home(name, program, span.clone())?, value.get_ref()) {
+                (Home::Float(number), Constant::Vector(numbers)) => {
+                    *place_at(&mut constants.float, number) = self.four(numbers, span)?;
+                }
+                (Home::Named, Constant::Vector(numbers)) => {
+                    constants.named.insert(name.clone(), self.four(numbers, span)?);
+                }
+                (Home::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
+                    Some(four) => *place_at(&mut constants.int, number) = four,
+                    None => return self.odd(span, format!("expected 4 whole numbers of 32 bits for `{name}`")),
+                },
+                (Home::Bool(number @ 0..16), Constant::Bool(value)) => {
+                    *place_at(&mut constants.boolean, number) = *value;
+                }
+                _ => {
+                    let message = format!("the value of `{name}` does not fit the register, or there is no such one");
+                    return self.odd(span, message);
+                }
+            }
+        }
+        Ok(constants)
+    }
+
+    fn odd<T>(&self, span: Range<usize>, message: String) -> Result<T, CaseError> {
+        let help = "write for example `c0 = [0.5, 0, 0, 1]`, `i0 = [3, 0, 1, 0]` or `b0 = true`";
+        Err(self.place.wrong(span, message, help))
+    }
+
+    fn home(&self, name: &str, program: &CheckedProgram, span: Range<usize>) -> Result<Home, CaseError> {
+        if program.parameters.iter().any(|p| p.name == *name) {
+            return Ok(Home::Named);
+        }
+        let opengl = program.version.is_fragment_program();
+        let number = register(name, 256);
+        match (name.bytes().next(), number) {
+            (Some(b'c'), Some(number)) => return Ok(Home::Float(number)),
+            (Some(b'i'), Some(number)) if !opengl => return Ok(Home::Int(number)),
+            (Some(b'b'), Some(number)) if !opengl => return Ok(Home::Bool(number)),
+            _ if !opengl => {
+                return self
+                    .odd(span, format!("expected a constant c0 to c255, i0 to i15 or b0 to b15, found `{name}`"));
+            }
+            _ => {}
+        }
+        if let Some(number) = parameter(name, program.version) {
+            return Ok(Home::Float(number));
+        }
+        let examples = match program.version {
+            Version::Fp1_0 => "`p[0]` to `p[255]`",
+            _ => "`program.local[0]` to `program.local[255]`, `program.env[0]` to `program.env[255]`",
+        };
+        let declared: Vec<String> = program.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
+        let message = format!("expected {examples} or a name that the program declares, found `{name}`");
+        let help = match &*declared {
+            [] => "the program declares no names".to_owned(),
+            names => format!("the program declares {}", names.join(", ")),
+        };
+        Err(self.place.wrong(span, message, help))
+    }
+}
+
+/// The number of a constant that an OpenGL program calls by number: `p[3]`, `program.local[3]`, `program.env[3]`.
+fn parameter(name: &str, version: Version) -> Option<usize> {
+    let (words, rest) = name.split_once('[')?;
+    let digits = rest.strip_suffix(']')?;
+    let number = register(&format!("c{digits}"), 256)?;
+    match (words, version) {
+        ("p", Version::Fp1_0) | ("program.local", Version::ArbFp1_0) => Some(number),
+        ("program.env", Version::ArbFp1_0) => Some(usize::from(FIRST_ENVIRONMENT) + number),
+        _ => None,
+    }
+}
+
+fn place_at<T: Clone + Default>(list: &mut Vec<T>, index: usize) -> &mut T {
+    if list.len() <= index {
+        list.resize(index + 1, T::default());
+    }
+    &mut list[index]
+}
+
+fn integers(numbers: &[Number]) -> Option<[i32; 4]> {
+    let whole = |number: &Number| match *number {
+        // Within the range of `i32` a whole double converts exactly.
+        Number::Value(value) if (-2_147_483_648.0..=2_147_483_647.0).contains(&value) && value % 1.0 == 0.0 => {
+            Some(value as i32)
+        }
+        _ => None,
+    };
+    let four: Vec<i32> = numbers.iter().map(whole).collect::<Option<_>>()?;
+    four.try_into().ok()
+}
