@@ -25,7 +25,17 @@ pub struct Line {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Lines over two linear axes that start at 0.
+/// How an axis grows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// From 0, evenly.
+    #[default]
+    Linear,
+    /// By powers of ten; what is not above 0 is left out.
+    Logarithmic,
+}
+
+/// Lines over an axis to the right that starts at 0 and an axis upward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// What the chart shows.
@@ -34,6 +44,8 @@ pub struct Chart {
     pub x: String,
     /// The axis upward, with its unit.
     pub y: String,
+    /// How the axis upward grows.
+    pub y_scale: Scale,
     /// The lines, at most six of different colours.
     pub lines: Vec<Line>,
 }
@@ -45,24 +57,42 @@ impl Chart {
     /// [`ReportError::Encode`] if there is nothing to draw.
     pub fn svg(&self) -> Result<String, ReportError> {
         let fail = |reason: String| ReportError::Encode { format: "SVG", reason };
-        let most = |of: fn(&(f64, f64)) -> f64| {
-            self.lines.iter().flat_map(|line| &line.points).map(of).filter(|v| v.is_finite()).fold(0.0, f64::max)
+        let shown: Vec<Vec<(f64, f64)>> = self.lines.iter().map(|line| self.shown(&line.points)).collect();
+        let most = |of: fn(&(f64, f64)) -> f64| shown.iter().flatten().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let (right, top) = (most(|p| p.0), most(|p| p.1));
+        let [low, high] = match self.y_scale {
+            Scale::Linear => [0.0, top * 1.05],
+            Scale::Logarithmic => {
+                let least = shown.iter().flatten().map(|p| p.1).fold(f64::INFINITY, f64::min);
+                [least.floor(), top.ceil().max(least.floor() + 1.0)]
+            }
         };
-        let (right, top) = (most(|p| p.0), most(|p| p.1) * 1.05);
-        if right <= 0.0 || top <= 0.0 {
+        let space = |from: f64, to: f64| from.is_finite() && to.is_finite() && to > from;
+        if !(space(0.0, right) && space(low, high)) {
             return Err(fail("no point with positive coordinates".to_owned()));
         }
         let mut text = String::new();
-        let drawn = self.draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), right, top);
-        drawn.map_err(|e| fail(e.to_string()))?;
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        self.draw(&area, &shown, right, [low, high]).map_err(|e| fail(e.to_string()))?;
+        drop(area);
         Ok(text)
+    }
+
+    /// Points as they are drawn: on a logarithmic axis by the logarithms.
+    fn shown(&self, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let finite = points.iter().copied().filter(|p| p.0.is_finite() && p.1.is_finite());
+        match self.y_scale {
+            Scale::Linear => finite.collect(),
+            Scale::Logarithmic => finite.filter(|p| p.1 > 0.0).map(|(x, y)| (x, libm::log10(y))).collect(),
+        }
     }
 
     fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
+        shown: &[Vec<(f64, f64)>],
         right: f64,
-        top: f64,
+        [low, high]: [f64; 2],
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         area.fill(&WHITE)?;
         let mut chart = ChartBuilder::on(area)
@@ -70,24 +100,27 @@ impl Chart {
             .margin(12)
             .x_label_area_size(42)
             .y_label_area_size(60)
-            .build_cartesian_2d(0.0..right, 0.0..top)?;
-        chart
-            .configure_mesh()
-            .x_desc(&self.x)
-            .y_desc(&self.y)
-            .light_line_style(WHITE)
-            .label_style(("sans-serif", 13))
-            .draw()?;
-        for (line, color) in self.lines.iter().zip(PALETTE.iter().cycle()) {
-            let points = line.points.iter().copied().filter(|p| p.0.is_finite() && p.1.is_finite());
+            .build_cartesian_2d(0.0..right, low..high)?;
+        let power = |y: &f64| format!("1e{y:.0}");
+        let mut mesh = chart.configure_mesh();
+        if self.y_scale == Scale::Logarithmic {
+            // A label a power of ten while there are few, so that no label is rounded.
+            mesh.y_labels(((high - low) as usize + 1).min(25)).y_label_formatter(&power);
+        }
+        mesh.x_desc(&self.x).y_desc(&self.y).light_line_style(WHITE).label_style(("sans-serif", 13)).draw()?;
+        for ((line, points), color) in self.lines.iter().zip(shown).zip(PALETTE.iter().cycle()) {
             chart
-                .draw_series(LineSeries::new(points, color.stroke_width(2)))?
+                .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?
                 .label(&line.label)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::LowerRight)
+            .position(match self.y_scale {
+                Scale::Linear => SeriesLabelPosition::LowerRight,
+                // What is drawn by powers of ten falls, as residuals do.
+                Scale::Logarithmic => SeriesLabelPosition::UpperRight,
+            })
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 13))
@@ -102,7 +135,13 @@ mod tests {
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
         let line = Line { label: "a <line>".to_owned(), points };
-        Chart { title: "title".to_owned(), x: "x".to_owned(), y: "y".to_owned(), lines: vec![line] }
+        Chart {
+            title: "title".to_owned(),
+            x: "x".to_owned(),
+            y: "y".to_owned(),
+            y_scale: Scale::Linear,
+            lines: vec![line],
+        }
     }
 
     #[test]
@@ -110,6 +149,16 @@ mod tests {
         let svg = chart(vec![(0.0, 0.0), (1.0, 2.0)]).svg().expect("two points");
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
         assert!(svg.contains("a &lt;line&gt;") && svg.contains("polyline"));
+    }
+
+    #[test]
+    fn powers_of_ten_are_labels() {
+        let points = vec![(0.0, 1.0), (1.0, 0.01), (2.0, 0.0), (3.0, 1e-4)];
+        let svg = Chart { y_scale: Scale::Logarithmic, ..chart(points) }.svg().expect("three points above 0");
+        for label in ["1e0", "1e-2", "1e-4"] {
+            assert!(svg.contains(&format!("\n{label}\n")), "{label}: {svg}");
+        }
+        assert!(Chart { y_scale: Scale::Logarithmic, ..chart(vec![(1.0, 0.0)]) }.svg().is_err());
     }
 
     #[test]

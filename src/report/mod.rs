@@ -12,7 +12,7 @@ mod provenance;
 mod table;
 pub mod trace;
 
-pub use self::chart::{Chart, Line};
+pub use self::chart::{Chart, Line, Scale};
 pub use self::exr::{Channel, exr};
 pub use page::{Figure, Page};
 pub use provenance::Provenance;
