@@ -3,7 +3,6 @@
 mod run;
 mod sensitivity;
 mod show;
-mod traced;
 
 use std::path::PathBuf;
 
@@ -14,6 +13,7 @@ use refsim::timing::Level;
 use super::size::Size;
 use super::{Out, Problem, Progress, Verdict};
 use crate::io::atomic::write_file;
+use crate::study::timeline_trace::trace;
 use run::{Input, Timed};
 
 const EXAMPLES: &str = "\
@@ -132,7 +132,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         timed.push(Timed::new(*level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.trace, timed.last()) {
-        let trace = traced::trace(&input, last);
+        let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);
         write_file(path, |file| trace.write(file)).map_err(Problem::from)?;
     }
     if out.json() {

@@ -3,7 +3,7 @@
 use super::equation_11::{GAMMAS, MEGA, rates};
 use super::{Findings, NamedChart, ReproduceError, pipeline};
 use crate::ray_engine::model::CostRates;
-use crate::report::{Chart, Line, Table};
+use crate::report::{Chart, Line, Scale, Table};
 
 /// The cards of the figure, with their names in it.
 const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
@@ -77,6 +77,7 @@ fn chart(gamma: f64, lines: Vec<Line>) -> NamedChart {
             title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
             x: "triangles T".to_owned(),
             y: "M tests/s".to_owned(),
+            y_scale: Scale::Linear,
             lines,
         },
         caption: format!("Figure 7 of the Ray Engine paper for gamma = {gamma}, in both models."),

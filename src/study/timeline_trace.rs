@@ -1,14 +1,14 @@
 //! A timeline as a trace for a viewer.
 
-use refsim::timing::timeline::{Segment, SpanKind, Unit};
+use refsim::device::Profile;
+use refsim::timing::timeline::{Segment, SpanKind, Timeline, Unit};
 use serde_json::{Map, Value, json};
 
-use super::run::{Input, Timed};
 use crate::report::trace::{Arrow, Slice, Trace};
 
-/// Spans and waits on a lane a unit, arrows where the critical path goes from one to another.
-pub(super) fn trace(input: &Input, timed: &Timed) -> Trace {
-    let timeline = &timed.replay.timeline;
+/// Spans and waits on a lane a unit, arrows where the critical path goes from one to another. `model` made the timeline of what
+/// `what` names.
+pub fn trace(profile: &Profile, model: &str, what: &str, timeline: &Timeline) -> Trace {
     let spans = timeline.spans().iter().map(|span| Slice {
         lane: span.unit.index(),
         name: span.label.to_string(),
@@ -29,13 +29,13 @@ pub(super) fn trace(input: &Input, timed: &Timed) -> Trace {
         }
     });
     Trace {
-        title: format!("{} ({} model): {}", input.profile().title, timed.name(), input.title()),
+        title: format!("{} ({model} model): {what}", profile.title),
         lanes: Unit::ALL.iter().map(ToString::to_string).collect(),
         slices: spans.chain(waits).collect(),
         arrows: arrows(&timeline.critical_path()),
         about: details([
-            ("device", json!(input.profile().name)),
-            ("model", json!(timed.name())),
+            ("device", json!(profile.name)),
+            ("model", json!(model)),
             ("makespan_ps", json!(timeline.makespan().0)),
             ("version", json!(env!("CARGO_PKG_VERSION"))),
         ]),

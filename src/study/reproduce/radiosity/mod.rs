@@ -1,0 +1,28 @@
+//! Matrix radiosity, section 3.1: Figure 3, the printed rates, Figure 4.
+
+mod figure_3;
+mod figure_4;
+mod host;
+mod rates;
+
+use refsim::device::Profile;
+
+use super::{Findings, ReproduceError, pipeline::failed};
+use crate::radiosity::on_card::Storage;
+use crate::radiosity::packing::Packing;
+use crate::radiosity::rate::{Timed, Timing, timed_iteration};
+
+pub(super) use figure_3::findings as figure_3;
+pub(super) use figure_4::findings as figure_4;
+pub(super) use rates::findings as rates;
+
+/// The paper's card.
+const CARD: &str = "nv35";
+/// Patches of the paper's scene: the least number for which both pairs of printed rates hold (docs/papers/radiosity.md).
+const PATCHES: u32 = 1540;
+
+/// An iteration of so many patches on the paper's card, by the pipeline model.
+fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<Timed, ReproduceError> {
+    let timing = Timing { patches: patches as usize, packing, storage, cache: false };
+    timed_iteration(&Profile::named(CARD)?, &timing).map_err(|e| failed(CARD)(&e))
+}
