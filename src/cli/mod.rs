@@ -15,10 +15,12 @@ mod leaky_teapot;
 mod out;
 mod pixel;
 mod progress;
+mod radiosity;
 mod render;
 mod reproduce;
 mod run;
 mod scene;
+mod scene_name;
 mod size;
 mod switch;
 mod timeline;
@@ -91,6 +93,7 @@ enum Command {
     Devices(devices::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
+    Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
     Run(run::Args),
@@ -140,6 +143,7 @@ fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
         Command::Devices(args) => devices::run(&args, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => leaky_teapot::run(&args, out),
+        Command::Radiosity(args) => radiosity::run(&args, out),
         Command::Render(args) => render::run(&args, out),
         Command::Reproduce(args) => reproduce::run(&args, out),
         Command::Run(args) => run::run(&args, out),

@@ -32,6 +32,17 @@ pub enum Packing {
     Luminance,
 }
 
+impl Packing {
+    /// Texels across and down of a matrix of so many patches.
+    #[must_use]
+    pub const fn matrix_texels(self, patches: usize) -> [usize; 2] {
+        match self {
+            Self::Rgb => [patches; 2],
+            Self::Luminance => [patches.div_ceil(4), 4 * patches.div_ceil(4)],
+        }
+    }
+}
+
 /// A texture that the card does not have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
@@ -83,8 +94,7 @@ fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
 /// # Errors
 /// [`TooLarge`].
 pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLarge> {
-    let n = matrices[0].size();
-    Texels::filled("a matrix", [n, n], limit, |x, y| {
+    Texels::filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].size()), limit, |x, y| {
         let [r, g, b] = matrices.map(|m| element(m, y, x));
         [r, g, b, 0.0]
     })
@@ -106,8 +116,9 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge>
 /// # Errors
 /// [`TooLarge`].
 pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
-    let width = matrix.size().div_ceil(4);
-    Texels::filled("a matrix", [width, 4 * width], limit, |x, y| [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c)))
+    Texels::filled("a matrix", Packing::Luminance.matrix_texels(matrix.size()), limit, |x, y| {
+        [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c))
+    })
 }
 
 /// A vector, four elements a texel.

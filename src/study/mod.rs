@@ -3,5 +3,7 @@
 pub mod configuration;
 pub mod leaky_teapot;
 pub mod leaky_teapot_report;
+pub mod radiosity;
 pub mod reproduce;
 pub mod shade;
+pub mod timeline_trace;

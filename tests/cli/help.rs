@@ -9,6 +9,7 @@ const COMMANDS: &[&str] = &[
     "devices",
     "intersect",
     "leaky-teapot",
+    "radiosity",
     "render",
     "reproduce",
     "run",

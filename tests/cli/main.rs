@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod devices;
 mod help;
+mod radiosity;
 mod render;
 mod reproduce;
 mod scene;

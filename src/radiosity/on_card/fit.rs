@@ -54,6 +54,18 @@ impl Fit {
         Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
     }
 
+    /// Whether a system of so many patches is not too large: to be asked before form factors are worked out, which take long.
+    ///
+    /// # Errors
+    /// [`CardError::TooLarge`].
+    pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
+        let [width, height] = packing.matrix_texels(patches);
+        if width.max(height) <= self.limit {
+            return Ok(());
+        }
+        Err(too_large(profile, TooLarge { what: "a matrix", limit: self.limit, width, height }))
+    }
+
     /// All that a system is on the device: one system of three channels, or three of one.
     ///
     /// # Errors

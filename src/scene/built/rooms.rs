@@ -98,7 +98,8 @@ pub fn cornell(what: CornellBox) -> Scene {
         block(&mut room, [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]], 3.3);
     }
     let eye = if what.open { [2.75, -8.0, 2.75] } else { [2.75, 0.05, 2.75] };
-    room.scene(eye, [2.75, 2.75, 2.75], if what.open { 0.345 } else { 0.8 })
+    // From inside wide enough to have the light in the picture.
+    room.scene(eye, [2.75, 2.75, 2.75], if what.open { 0.345 } else { 1.2 })
 }
 
 /// Nine pieces, the middle one shines.

@@ -1,0 +1,73 @@
+//! A scene by name or from a file, and from where it is looked at.
+
+use std::path::Path;
+
+use miette::IntoDiagnostic as _;
+
+use super::size::Size;
+use super::{Problem, view};
+use crate::io::scene_file::load;
+use crate::scene::{Camera, Scene, built};
+
+/// A scene of the project, if the path is its name; `None` for a file.
+pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
+    let name = path.to_str().unwrap_or_default();
+    if let Some(scene) = built::build(name) {
+        return Ok(Some(scene));
+    }
+    // A word without a dot or a folder is a name, not a file.
+    if !path.exists() && path.components().count() == 1 && !name.contains('.') {
+        let names: Vec<&str> = built::names().collect();
+        let help = format!("the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
+        return Err(Problem::usage(format!("there is no scene `{name}`"), help));
+    }
+    Ok(None)
+}
+
+/// A scene of the project by its name, or of a scene file or an OBJ.
+pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
+    Ok(match by_name(path)? {
+        Some(scene) => scene,
+        None => load(path)?,
+    })
+}
+
+/// From where a picture is taken, as the command line says it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand<'a> {
+    pub(super) size: Size,
+    pub(super) view: Option<&'a str>,
+    pub(super) eye: Option<[f32; 3]>,
+    pub(super) target: Option<[f32; 3]>,
+    pub(super) up: [f32; 3],
+    pub(super) tan_half_height: f32,
+}
+
+impl Stand<'_> {
+    /// The view asked for, else the eye asked for, else the scene's first view, else so that all is seen.
+    pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
+        let aimed = self.eye.is_some() || self.target.is_some();
+        let view = match self.view {
+            Some(_) if aimed => {
+                let help = "leave out `--view`, or `--eye` and `--target`";
+                return Err(Problem::usage("`--view` says where the eye is", help).into());
+            }
+            Some(name) => Some(scene.view(name).ok_or_else(|| no_view(scene, name))?),
+            None if aimed => None,
+            None => scene.views.first(),
+        };
+        match view {
+            Some(view) => view.camera(self.size.width, self.size.height).into_diagnostic(),
+            None => view::framing(scene.mesh(), self.size, self.tan_half_height, (self.eye, self.target, self.up)),
+        }
+    }
+}
+
+fn no_view(scene: &Scene, name: &str) -> Problem {
+    let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+    let help = match names.is_empty() {
+        true => "it has none: use `--eye` and `--target`".to_owned(),
+        false => format!("its views are {}", names.join(", ")),
+    };
+    Problem::usage(format!("the scene has no view `{name}`"), help)
+}

@@ -1,0 +1,67 @@
+//! Dynamic relighting: another light or another paint, the same form factors (section 1: "while the geometry is fixed, the emittance
+//! is not").
+
+use super::StudyError;
+use crate::radiosity::{Patches, System};
+use crate::scene::{Color, Scene};
+
+/// What becomes of the patches of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Change {
+    /// Another radiance.
+    Emission {
+        /// The material's name.
+        material: String,
+        /// The new radiance.
+        radiance: Color,
+    },
+    /// Another reflectance, in [0, 1).
+    Reflectance {
+        /// The material's name.
+        material: String,
+        /// The new reflectance.
+        reflectance: Color,
+    },
+}
+
+/// A solution after changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relit {
+    /// The radiosity of each patch.
+    pub radiosity: Vec<[f64; 3]>,
+    /// Iterations from the solution before; `None` if the tolerance was not reached.
+    pub from_last: Option<usize>,
+    /// Iterations from 0.
+    pub from_nothing: Option<usize>,
+}
+
+/// The system after all changes; `None` if there are none.
+pub(super) fn apply(
+    changes: &[Change],
+    scene: &Scene,
+    patches: &Patches,
+    system: &System,
+) -> Result<Option<System>, StudyError> {
+    if changes.is_empty() {
+        return Ok(None);
+    }
+    let (mut emittance, mut reflectance) = (system.emittance().to_vec(), system.reflectance().to_vec());
+    for change in changes {
+        let (name, values, value) = match change {
+            Change::Emission { material, radiance } => {
+                (material, &mut emittance, radiance.map(|l| std::f64::consts::PI * f64::from(l)))
+            }
+            Change::Reflectance { material, reflectance: rho } => (material, &mut reflectance, rho.map(f64::from)),
+        };
+        let Some(material) = scene.materials().iter().position(|m| m.name == *name) else {
+            let known = scene.materials().iter().map(|m| m.name.clone()).collect();
+            return Err(StudyError::NoMaterial { name: name.clone(), known });
+        };
+        let painted = patches.list().iter().zip(values.iter_mut()).filter(|(p, _)| p.material as usize == material);
+        painted.for_each(|(_, old)| *old = value);
+    }
+    let mut changed = system.clone();
+    changed.set_emittance(emittance)?;
+    changed.set_reflectance(reflectance)?;
+    Ok(Some(changed))
+}

@@ -1,0 +1,65 @@
+//! What can be wrong with what a study of radiosity is asked.
+
+use miette::Diagnostic;
+use refsim::machine::MachineError;
+use refsim::timing::replay::ReplayError;
+use thiserror::Error;
+
+use crate::radiosity::on_card::CardError;
+use crate::radiosity::solve::SolveError;
+use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
+use crate::report::ReportError;
+
+/// Why there is no outcome.
+#[derive(Debug, Error, Diagnostic)]
+pub enum StudyError {
+    /// The scene makes no patches.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::patches))]
+    Patches(#[from] PatchError),
+    /// There are no form factors, or not such as were asked for.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::form_factors))]
+    FormFactors(#[from] FormFactorError),
+    /// There is no system.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::system))]
+    System(#[from] SystemError),
+    /// No light.
+    #[error("expected a scene with a material that shines, found none")]
+    #[diagnostic(code(radiosity::dark), help("give a material an emission: `Ke` in an MTL file"))]
+    Dark,
+    /// A material that is to change is not there.
+    #[error("the scene has no material `{name}`")]
+    #[diagnostic(code(radiosity::material), help("its materials are {}", known.join(", ")))]
+    NoMaterial {
+        /// The name given.
+        name: String,
+        /// The names that there are.
+        known: Vec<String>,
+    },
+    /// A solver of the host.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::solve))]
+    Solve(#[from] SolveError),
+    /// The card.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::card))]
+    Card(#[from] CardError),
+    /// The pictures.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::display))]
+    Draw(#[from] DrawError),
+    /// A machine for the pictures.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::machine))]
+    Machine(#[from] MachineError),
+    /// The timeline.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Replay(#[from] ReplayError),
+    /// A file that cannot be encoded.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
+}

@@ -1,0 +1,125 @@
+//! How the room looks, drawn by the card: from the solver's own texture where one texture holds all three channels, else uploaded.
+
+use refsim::machine::{Executor, Machine, MachineError};
+use refsim::texture::TexelFormat;
+
+use super::way::{CardFacts, Solved};
+use super::{Parameters, StudyError, Way, time};
+use crate::radiosity::display::{Display, DisplayOptions, Picture};
+use crate::radiosity::{Patches, System};
+use crate::renderer::tone;
+
+/// Linear light that is seen as the middle between black and white.
+const MIDDLE_GREY: f64 = 0.18;
+/// Rec. 709's weights of red, green and blue.
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+/// The card keeps all digits; the curve of a display comes after it.
+const OPTIONS: DisplayOptions =
+    DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
+
+/// Pictures of a solution: red, green, blue bytes, rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pictures {
+    /// Each patch in its radiosity.
+    pub flat: Vec<u8>,
+    /// Interpolated between corners.
+    pub smooth: Vec<u8>,
+    /// After the changes, interpolated.
+    pub relit: Option<Vec<u8>>,
+}
+
+/// The room after some iterations on the card.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Iterations.
+    pub iteration: u32,
+    /// Each patch in its radiosity.
+    pub flat: Vec<u8>,
+}
+
+/// The exposure at which what does not shine is grey in the mean over its area.
+pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
+    let (mut light, mut area) = (0.0, 0.0);
+    for ((patch, e), b) in patches.list().iter().zip(emittance).zip(radiosity) {
+        if e.iter().all(|&e| e == 0.0) {
+            light += patch.area() * crate::geom::vector::dot(LUMINANCE, *b) / std::f64::consts::PI;
+            area += patch.area();
+        }
+    }
+    // Where everything shines, or nothing is lit, radiance is shown as it is.
+    if light > 0.0 && light.is_finite() { MIDDLE_GREY * area / light } else { 1.0 }
+}
+
+/// A card to draw on that no solution is on.
+pub(super) struct Studio<'a> {
+    patches: &'a Patches,
+    parameters: &'a Parameters,
+    exposure: f64,
+    machine: Machine,
+    display: Display,
+}
+
+impl<'a> Studio<'a> {
+    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
+        let mut machine = machine(&parameters.executor, parameters)?;
+        let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
+        Ok(Self { patches, parameters, exposure, machine, display })
+    }
+
+    fn bytes(&self, picture: &Picture) -> Vec<u8> {
+        // The program has multiplied already.
+        tone::bytes(&picture.pixels, 1.0)
+    }
+
+    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
+        let texture = self.display.upload(&mut self.machine, radiosity)?;
+        let picture = self.display.flat(&mut self.machine, texture, self.exposure)?;
+        Ok(self.bytes(&picture))
+    }
+
+    fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
+        let texture = self.display.upload(&mut self.machine, radiosity)?;
+        let picture = self.display.smooth(&mut self.machine, texture, self.exposure)?;
+        Ok(self.bytes(&picture))
+    }
+
+    /// Pictures of a solution and of what came after it, and what its card says.
+    pub(super) fn show(
+        &mut self,
+        solved: &mut Solved,
+        system: &System,
+    ) -> Result<(Pictures, Option<CardFacts>), StudyError> {
+        let relit = solved.relit.as_ref().map(|relit| self.smooth(&relit.radiosity)).transpose()?;
+        let Some(card) = &mut solved.card else {
+            let (flat, smooth) = (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?);
+            return Ok((Pictures { flat, smooth, relit }, None));
+        };
+        let (flat, smooth) = match card.radiosity_textures()[..] {
+            [all] => {
+                let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, OPTIONS)?;
+                let flat = display.flat(card.machine_mut(), all, self.exposure)?;
+                let smooth = display.smooth(card.machine_mut(), all, self.exposure)?;
+                (self.bytes(&flat), self.bytes(&smooth))
+            }
+            _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
+        };
+        let facts = match solved.way {
+            Way::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
+            Way::Host(_) => None,
+        };
+        Ok((Pictures { flat, smooth, relit }, facts))
+    }
+
+    /// The room after the iterations that were kept.
+    pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<Frame>, StudyError> {
+        let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
+        let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {
+            Ok(Frame { iteration: *iteration, flat: self.flat(radiosity)? })
+        };
+        first.kept.iter().map(frame).collect()
+    }
+}
+
+fn machine(executor: &Executor, parameters: &Parameters) -> Result<Machine, MachineError> {
+    executor.clone().machine(parameters.profile.clone())
+}

@@ -1,0 +1,79 @@
+//! What an iteration costs on the card, and the log of a relit scene.
+
+use refsim::timing::Bottleneck;
+
+use super::way::{CardFacts, CardWay};
+use super::{Parameters, StudyError};
+use crate::radiosity::display::{Display, DisplayOptions};
+use crate::radiosity::on_card::{CardSolver, PassProgram, Storage};
+use crate::radiosity::packing::Packing;
+use crate::radiosity::rate::{Timing, timed_iteration};
+use crate::radiosity::{Patches, System, model};
+
+/// Iterations of the log.
+pub(super) const LOGGED: u32 = 4;
+/// Red, green, blue.
+const CHANNELS: f64 = 3.0;
+
+/// An iteration of all three channels by the pipeline model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IterationTime {
+    /// From one iteration to the next.
+    pub seconds: f64,
+    /// Million operations a second: two an element and channel, indexing not counted.
+    pub mflops: f64,
+    /// What the longest draw waits for most.
+    pub bound_by: Bottleneck,
+    /// Bytes moved, of the most that the memory can move in that time.
+    pub bandwidth: f64,
+}
+
+/// Changes the light, iterates, shows the room, and says what it takes.
+pub(super) fn facts(
+    card: &mut CardSolver,
+    how: CardWay,
+    system: &System,
+    patches: &Patches,
+    parameters: &Parameters,
+) -> Result<CardFacts, StudyError> {
+    let systems = card.radiosity_textures().len();
+    let options = DisplayOptions::default();
+    let display = match systems {
+        1 => Some(Display::new(card.machine_mut(), patches, &parameters.camera, options)?),
+        _ => None,
+    };
+    card.record(true);
+    card.set_emittance(system)?;
+    for _ in 0..LOGGED {
+        card.iterate()?;
+    }
+    if let (Some(display), [all]) = (display, &card.radiosity_textures()[..]) {
+        display.flat(card.machine_mut(), *all, 1.0)?;
+    }
+    let log = card.take_log();
+    card.record(false);
+    let elements = if how.packing == Packing::Rgb { 1 } else { 4 };
+    let texel = if how.storage == Storage::Fp32 { 16 } else { 8 };
+    let programs = card.programs();
+    Ok(CardFacts {
+        passes: card.passes() * systems,
+        block: programs.iter().map(|p| p.texels).max().unwrap_or(0),
+        instructions: programs.iter().map(PassProgram::instructions).max().unwrap_or(0),
+        matrix_bytes: model::matrix_bytes(card.len() as u32, elements, texel) * systems as f64,
+        time: time(how, systems, card.len(), parameters),
+        log,
+    })
+}
+
+/// `None` for devices without time.
+fn time(how: CardWay, systems: usize, patches: usize, parameters: &Parameters) -> Option<IterationTime> {
+    let timing = Timing { patches, packing: how.packing, storage: how.storage, cache: false };
+    let timed = timed_iteration(&parameters.profile, &timing).ok()?;
+    let seconds = timed.time.seconds() * systems as f64;
+    Some(IterationTime {
+        seconds,
+        mflops: CHANNELS * model::mflops(patches as u32, 1.0 / seconds),
+        bound_by: timed.bottleneck,
+        bandwidth: timed.bandwidth,
+    })
+}

@@ -1,0 +1,210 @@
+//! One way of solving: a solver of the host, or equation 4 on the card.
+
+use std::fmt;
+
+use refsim::device::Profile;
+use refsim::event::Event;
+
+use super::change::Relit;
+use super::time::IterationTime;
+use super::{Parameters, StudyError};
+use crate::radiosity::System;
+use crate::radiosity::on_card::{CardOptions, CardSolver, Storage};
+use crate::radiosity::packing::Packing;
+use crate::radiosity::solve::{Options, Solver, mean_square};
+
+/// How a system is solved on a card.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CardWay {
+    /// How elements lie in texels.
+    pub packing: Packing,
+    /// What registers, textures and targets hold.
+    pub storage: Storage,
+}
+
+/// How a system is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// On the host, in f64.
+    Host(Solver),
+    /// By fragment programs.
+    Card(CardWay),
+}
+
+/// Why an iteration stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stopped {
+    /// The residual is small enough.
+    Tolerance,
+    /// The last iteration changed no bit.
+    FixedPoint,
+    /// There were to be no more.
+    Iterations,
+    /// It was no iteration.
+    Direct,
+}
+
+/// What a way costs on a card.
+#[derive(Clone, Debug)]
+pub struct CardFacts {
+    /// Passes an iteration, of all its systems.
+    pub passes: usize,
+    /// Texels of a block.
+    pub block: usize,
+    /// Instructions of the longest program.
+    pub instructions: usize,
+    /// Bytes of matrices.
+    pub matrix_bytes: f64,
+    /// An iteration by the pipeline model; `None` for devices without time.
+    pub time: Option<IterationTime>,
+    /// What was asked of the card to change the light, iterate and show: the start of a relit scene.
+    pub log: Vec<Event>,
+}
+
+/// How a way was solved, its card still holding what it found.
+pub(super) struct Solved {
+    pub(super) way: Way,
+    pub(super) radiosity: Vec<[f64; 3]>,
+    pub(super) history: Vec<f64>,
+    /// Of no radiosity at all: what residuals are shares of.
+    pub(super) emitted: f64,
+    pub(super) stopped: Stopped,
+    pub(super) relit: Option<Relit>,
+    pub(super) card: Option<CardSolver>,
+    /// Radiosities after the iterations of which there are to be pictures.
+    pub(super) kept: Vec<(u32, Vec<[f64; 3]>)>,
+}
+
+impl Way {
+    /// Elimination on the host.
+    pub const DIRECT: Self = Self::Host(Solver::Direct);
+
+    /// A name that is unique among ways on one device, and fit for a file name.
+    pub fn label(&self, profile: &Profile) -> String {
+        match self {
+            Self::Host(solver) => solver.to_string().replace(':', "-"),
+            Self::Card(CardWay { packing, storage }) => {
+                let packing = if *packing == Packing::Rgb { "rgb" } else { "luminance" };
+                let storage = if *storage == Storage::Fp32 { "fp32" } else { "fp16" };
+                format!("{}-{packing}-{storage}", profile.name)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Tolerance => "tolerance",
+            Self::FixedPoint => "no bit changes",
+            Self::Iterations => "iterations",
+            Self::Direct => "elimination",
+        })
+    }
+}
+
+/// The mean square of what is emitted, over all channels.
+fn emitted(system: &System) -> f64 {
+    mean([0, 1, 2].map(|c| mean_square(&system.right(c))))
+}
+
+fn mean([r, g, b]: [f64; 3]) -> f64 {
+    (r + g + b) / 3.0
+}
+
+/// Solves; after the changes again.
+pub(super) fn solve(
+    way: Way,
+    system: &System,
+    changed: Option<&System>,
+    parameters: &Parameters,
+) -> Result<Solved, StudyError> {
+    match way {
+        Way::Host(solver) => on_host(solver, system, changed, &parameters.options),
+        Way::Card(how) => on_card(how, system, changed, parameters),
+    }
+}
+
+fn on_host(solver: Solver, system: &System, changed: Option<&System>, options: &Options) -> Result<Solved, StudyError> {
+    let found = system.solve(solver, options, None)?;
+    let radiosity = found.radiosity();
+    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
+        let again = changed.solve(solver, options, Some(&radiosity))?;
+        let anew = changed.solve(solver, options, None)?;
+        let count = |s: &crate::radiosity::RgbSolution| {
+            let all = s.channels.iter().all(|c| c.converged);
+            all.then(|| s.channels.iter().map(crate::radiosity::solve::Solution::iterations).max().unwrap_or(0))
+        };
+        Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: again.radiosity() })
+    });
+    // Channels stop by themselves; one that has stopped stays where it is.
+    let longest = found.channels.iter().map(|c| c.history.len()).max().unwrap_or(0);
+    let at = |k: usize| [0, 1, 2].map(|c| found.channels[c].history[k.min(found.channels[c].history.len() - 1)]);
+    let converged = found.channels.iter().all(|c| c.converged);
+    Ok(Solved {
+        way: Way::Host(solver),
+        history: (0..longest).map(|k| mean(at(k))).collect(),
+        emitted: emitted(system),
+        stopped: match (solver, converged) {
+            (Solver::Direct, _) => Stopped::Direct,
+            (_, true) => Stopped::Tolerance,
+            (_, false) => Stopped::Iterations,
+        },
+        relit: relit.transpose()?,
+        radiosity,
+        card: None,
+        kept: Vec::new(),
+    })
+}
+
+fn on_card(
+    how: CardWay,
+    system: &System,
+    changed: Option<&System>,
+    parameters: &Parameters,
+) -> Result<Solved, StudyError> {
+    let executor = parameters.executor.clone();
+    let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
+    let Options { tolerance, most_iterations } = parameters.options;
+    let options = CardOptions { tolerance, most_iterations, check_every: 1 };
+    let mut kept = Vec::new();
+    let found = card.solve(system, &options, &mut |at| {
+        if parameters.frames.contains(&at.number) {
+            kept.push((at.number, widened(at.radiosity)));
+        }
+    })?;
+    let radiosity = widened(&found.radiosity);
+    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
+        let mut run = |start: &[[f32; 3]]| {
+            card.load(start)?;
+            card.set_system(changed)?;
+            card.solve(changed, &options, &mut |_| ())
+        };
+        let again = run(&found.radiosity)?;
+        let anew = run(&vec![[0.0; 3]; found.radiosity.len()])?;
+        // The card goes on to show the first solution.
+        card.load(&found.radiosity)?;
+        card.set_system(system)?;
+        let count = |s: &crate::radiosity::on_card::CardSolution| s.converged.then(|| s.iterations() as usize);
+        Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: widened(&again.radiosity) })
+    });
+    let relit = relit.transpose()?;
+    Ok(Solved {
+        way: Way::Card(how),
+        radiosity,
+        history: found.history.iter().map(|(_, residual)| mean(*residual)).collect(),
+        emitted: emitted(system),
+        stopped: match (found.converged, found.settled) {
+            (true, _) => Stopped::Tolerance,
+            (false, true) => Stopped::FixedPoint,
+            (false, false) => Stopped::Iterations,
+        },
+        relit,
+        card: Some(card),
+        kept,
+    })
+}
+
+fn widened(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
+    radiosity.iter().map(|b| b.map(f64::from)).collect()
+}

@@ -1,0 +1,113 @@
+//! `crossbar radiosity`.
+
+use crate::{Ran, crossbar_in};
+
+fn radiosity(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let mut all = vec!["radiosity"];
+    all.extend(arguments);
+    (crossbar_in(folder.path(), &all, ""), folder)
+}
+
+const SMALL: [&str; 9] =
+    ["cornell-room", "--patches", "60", "--factors", "unoccluded", "--size", "24x24", "--solver", "card"];
+
+#[test]
+fn what_it_says_and_writes() {
+    let mut arguments = SMALL.to_vec();
+    arguments.extend(["--solver", "gauss-seidel", "--solver", "direct", "--packing", "rgb", "--packing", "luminance"]);
+    arguments.extend(["--storage", "fp32", "--storage", "fp16", "--frames", "1,4"]);
+    arguments.extend(["--emit", "light=4,12,17", "--paint", "red=0.1,0.1,0.6"]);
+    let (ran, folder) = radiosity(&arguments);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    insta::assert_snapshot!("radiosity_tables", ran.stdout);
+    let mut written: Vec<String> = std::fs::read_dir(folder.path().join("out/radiosity"))
+        .expect("a folder")
+        .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
+        .collect();
+    written.sort();
+    insta::assert_snapshot!("radiosity_files", written.join("\n"));
+    let page = std::fs::read_to_string(folder.path().join("out/radiosity/index.html")).expect("a page");
+    assert_eq!(page.matches("<img").count(), 6 * 2 + 6 + 2, "two pictures a way, one relit, two frames");
+}
+
+#[test]
+fn the_same_bytes_for_every_executor_and_thread_count() {
+    let folders =
+        [&["--executor", "scalar"][..], &["--executor", "batch", "--threads", "1"], &["--threads", "3"]].map(|more| {
+            let mut arguments = SMALL.to_vec();
+            arguments.extend(["--iterations", "5"]);
+            arguments.extend(more);
+            let (ran, folder) = radiosity(&arguments);
+            assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
+            folder
+        });
+    for file in ["nv35-rgb-fp32-flat.png", "nv35-rgb-fp32-smooth.png", "patches.csv", "timeline.json", "index.html"] {
+        let read = |folder: &tempfile::TempDir| {
+            std::fs::read(folder.path().join("out/radiosity").join(file)).expect("written")
+        };
+        let first = read(&folders[0]);
+        assert!(folders.iter().all(|folder| read(folder) == first), "{file}");
+    }
+}
+
+#[test]
+fn a_document_for_machines() {
+    let mut arguments = SMALL.to_vec();
+    arguments.extend(["--solver", "direct", "--enforce", "closure", "--json"]);
+    let (ran, _folder) = radiosity(&arguments);
+    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!(found["room"][0]["enforced"], "closure, reciprocity");
+    let [card, direct] = &found["ways"].as_array().expect("ways")[..] else { panic!("{found}") };
+    assert_eq!((card["way"].as_str(), direct["way"].as_str()), (Some("nv35-rgb-fp32"), Some("direct")));
+    assert!(card["largest_error"].as_f64().expect("a number") < 1e-3, "{card}");
+    assert!(direct["light_unaccounted"].as_f64().expect("a number") < 1e-12, "{direct}");
+    assert_eq!(found["card"][0]["passes"], 1);
+    assert_eq!(found["provenance"]["profiles"][0], "nv35");
+}
+
+/// An open sheet, a sheet with a triangle without area, a mirror, and nothing.
+const FILES: [(&str, &str); 5] = [
+    ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
+    ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\n"),
+    ("mirror.obj", "mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl glass\nf 1 2 3\n"),
+    ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\n"),
+    ("empty.obj", "v 0 0 0\n"),
+];
+
+#[test]
+fn bad_input() {
+    let cases: [(&str, &[&str]); 19] = [
+        ("unknown_scene", &["cornell-rooms"]),
+        ("no_surface", &["empty.obj"]),
+        ("zero_area", &["flat.obj"]),
+        ("not_diffuse", &["mirror.obj"]),
+        ("dark", &["sheet.obj"]),
+        ("open", &["cornell-box", "--patches", "60", "--require-closed", "1e-3"]),
+        ("reflects_all", &["cornell-room", "--patches", "60", "--paint", "red=1,0,0"]),
+        ("negative_light", &["cornell-room", "--patches", "60", "--emit", "light=1,-1,0"]),
+        ("no_material", &["cornell-room", "--patches", "60", "--paint", "blue=0,0,0.5"]),
+        ("bad_colour", &["cornell-room", "--paint", "red"]),
+        ("unknown_solver", &["cornell-room", "--solver", "cg"]),
+        ("over_relaxed", &["cornell-room", "--solver", "sor:2.5"]),
+        ("packing_of_the_host", &["cornell-room", "--solver", "direct", "--packing", "rgb"]),
+        ("frames_of_the_host", &["cornell-room", "--solver", "direct", "--frames", "1"]),
+        ("no_fragment_programs", &["cornell-room", "--patches", "60", "--device", "r300"]),
+        ("too_large", &["cornell-room", "--patches", "5000", "--factors", "unoccluded", "--solver", "card"]),
+        ("no_patches", &["cornell-room", "--patches", "0"]),
+        ("too_many_patches", &["cornell-room", "--per-side", "1024"]),
+        ("unknown_view", &["cornell-room", "--view", "behind"]),
+    ];
+    for (name, arguments) in cases {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        for (file, text) in FILES {
+            std::fs::write(folder.path().join(file), text).expect("written");
+        }
+        let mut all = vec!["radiosity"];
+        all.extend(arguments);
+        let ran = crossbar_in(folder.path(), &all, "");
+        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{name} left something behind");
+        insta::assert_snapshot!(format!("radiosity_{name}"), ran.stderr);
+    }
+}
