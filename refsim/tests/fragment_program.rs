@@ -174,8 +174,7 @@ fn named_constants_are_the_hosts_to_change() {
 
 #[test]
 fn fog_and_colors_are_read() {
-    let mut input = FragmentInput::default();
-    input.fog = 0.75_f32.to_bits();
+    let mut input = FragmentInput { fog: 0.75_f32.to_bits(), ..FragmentInput::default() };
     input.v[1] = bits([0.25, 0.5, 2.0, -1.0]);
     let ran = run_with("MOVR R1, f[FOGC]; MOVR R0, f[COL1]; ADDR R0.x, R0, R1;", &Constants::default(), &input);
     assert_eq!(color(&ran), [1.0, 0.5, 1.0, 0.0]);

@@ -18,8 +18,9 @@ fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>>
 /// Case number `n`: the suites of random pixel programs one after the other, drawn once, all pixels followed.
 fn case(n: u64) -> Case {
     let suites = suite::all();
-    let pixel: Vec<_> = suites.iter().filter(|s| s.name.starts_with("programs::ps_")).collect();
-    let mut case = pixel[(n as usize * 5) % pixel.len()].case(1000 + n);
+    let is_pixel = |name: &str| name.starts_with("programs::") && !name.starts_with("programs::vs_");
+    let pixel: Vec<_> = suites.iter().filter(|s| is_pixel(&s.name)).collect();
+    let mut case = pixel[(n as usize * 61) % pixel.len()].case(1000 + n);
     (case.scene.draws, case.scene.second_pass) = (1, false);
     case.scene.size = case.scene.size.map(|side| side.min(17));
     case

@@ -372,31 +372,15 @@ fn live_halves(program: &Program) -> u32 {
 
 /// The lanes of its sources that an instruction looks at.
 fn lanes_read(instruction: &Instruction) -> Mask {
+    use Opcode as Op;
+    let written = instruction.destination.map_or(Mask::ALL, |d| d.mask);
     match instruction.opcode {
-        Opcode::Dp3 | Opcode::Crs | Opcode::Nrm | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
-        Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow | Opcode::SinCos => Mask(0b0001),
-        Opcode::Cos | Opcode::Sin | Opcode::Scs | Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub => {
-            Mask(0b0001)
-        }
-        Opcode::Rfl => Mask::RGB,
-        Opcode::Pk2h | Opcode::Pk2us => Mask(0b0011),
-        Opcode::Flr | Opcode::Seq | Opcode::Sne | Opcode::Sgt | Opcode::Sle => {
-            instruction.destination.map_or(Mask::ALL, |d| d.mask)
-        }
-        Opcode::Mov
-        | Opcode::Add
-        | Opcode::Sub
-        | Opcode::Mul
-        | Opcode::Mad
-        | Opcode::Lrp
-        | Opcode::Cnd
-        | Opcode::Cmp
-        | Opcode::Abs
-        | Opcode::Min
-        | Opcode::Max
-        | Opcode::Frc
-        | Opcode::Sge
-        | Opcode::Slt => instruction.destination.map_or(Mask::ALL, |d| d.mask),
+        Op::Dp3 | Op::Crs | Op::Nrm | Op::Rfl | Op::M3x2 | Op::M3x3 | Op::M3x4 => Mask::RGB,
+        Op::Rcp | Op::Rsq | Op::Exp | Op::Log | Op::Pow | Op::SinCos | Op::Cos | Op::Sin | Op::Scs => Mask(0b0001),
+        Op::Up2h | Op::Up2us | Op::Up4b | Op::Up4ub => Mask(0b0001),
+        Op::Pk2h | Op::Pk2us => Mask(0b0011),
+        Op::Mov | Op::Add | Op::Sub | Op::Mul | Op::Mad | Op::Lrp | Op::Cnd | Op::Cmp | Op::Abs | Op::Min => written,
+        Op::Max | Op::Frc | Op::Flr | Op::Sge | Op::Slt | Op::Seq | Op::Sne | Op::Sgt | Op::Sle => written,
         _ => Mask::ALL,
     }
 }

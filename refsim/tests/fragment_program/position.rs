@@ -93,9 +93,9 @@ fn differences_of_what_is_constant_are_zero_on_every_executor() {
 #[test]
 fn the_position_enters_the_format_of_the_registers() {
     let half = Profile::named("ideal-e5m10").unwrap();
-    let mut input = FragmentInput::default();
     // 2049.5 has no place in fp16, whose numbers are two apart there.
-    input.position = [2049.5_f32, 0.5, 0.1, 1.0].map(f32::to_bits);
+    let position = [2049.5_f32, 0.5, 0.1, 1.0].map(f32::to_bits);
+    let input = FragmentInput { position, ..FragmentInput::default() };
     let host = Constants::default();
     let ran = run_quad(NV, &half, &PixelBindings::new(&host), &[input; 4]);
     assert_eq!(ran.results[0].colors[0], [0x6801, 0x3800, 0x2e66, 0x3c00]);
