@@ -2,6 +2,7 @@
 //!
 //! - between two patches with nothing in between: a Gauss product far away, a contour integral near by, both in f64;
 //! - with something in between: that, times the share of sample rays that get through, asked of whoever traces;
+//! - by hemicubes that a card draws ([`FormFactors::hemicube`]);
 //! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
 //! - checks and their enforcement: reciprocity, and rows that sum to 1 in a closed room.
 
@@ -9,6 +10,7 @@ mod closure;
 mod contour;
 mod exchange;
 mod gauss;
+mod hemicube;
 mod polygon;
 pub mod rectangles;
 mod visibility;
@@ -16,12 +18,13 @@ mod visibility;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::Patches;
+use super::{DrawError, Patches};
 use crate::geom::{CastError, Caster};
 use crate::linalg::{Matrix, MatrixError};
 use exchange::Prepared;
 
 pub use closure::RowSums;
+pub use hemicube::Hemicube;
 pub use polygon::point_to_polygon;
 pub use visibility::VisibilityParameters;
 pub(super) use visibility::point_share;
@@ -82,6 +85,24 @@ pub enum FormFactorError {
     /// A side of patches without samples.
     #[error("expected 1 sample or more along a side of a patch, found 0")]
     NoSamples,
+    /// A hemicube that the card cannot draw.
+    #[error(
+        "expected an even number of pixels from 2 to {most} along a side of a hemicube, found {found}; its five faces lie in one target, \
+         which {device} allows {limit} pixels a side"
+    )]
+    Resolution {
+        /// What was asked for.
+        found: u32,
+        /// The most.
+        most: u32,
+        /// The device.
+        device: String,
+        /// Its limit.
+        limit: u32,
+    },
+    /// The card could not draw.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
     /// Whoever traces could not.
     #[error(transparent)]
     Cast(#[from] CastError),

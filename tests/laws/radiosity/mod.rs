@@ -4,6 +4,7 @@ mod bounds;
 mod display;
 mod errors;
 mod factors;
+mod hemicube;
 mod light;
 mod on_card;
 mod others;

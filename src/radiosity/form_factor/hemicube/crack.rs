@@ -1,0 +1,101 @@
+//! Cracks: pixels that show nothing, or the inside of a solid, although a front is there.
+//!
+//! Where the patches of one face end in the middle of a patch of the next, snapping to the raster's grid opens cracks of a sixteenth of a
+//! pixel. A pixel centre that falls into one is asked of the geometry itself; a real opening stays one.
+
+use super::item::Eye;
+use crate::geom::vector::{Vec3, add, cross, dot, scale, sub};
+use crate::radiosity::draw::Projection;
+use crate::radiosity::{Patch, Patches};
+
+/// How far outside a side of a patch a ray may pass and still meet it, in shares of the side: neighbours' corners agree in f32.
+const SLACK: f64 = 1e-6;
+
+/// Fills the cracks of a face of `width` pixels a row; returns how many there were.
+pub(super) fn fill(patches: &Patches, eye: &Eye, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
+    let height = codes.len() / width;
+    let cracks: Vec<usize> =
+        (0..codes.len()).filter(|&at| codes[at] <= 0.0 && is_edge(codes, width, height, at)).collect();
+    let mut filled = 0;
+    for at in cracks {
+        let centre = [(at % width, width), (at / width, height)].map(|(i, n)| (2 * i + 1) as f64 / n as f64 - 1.0);
+        let found = nearest(patches, eye, face, direction(face, [centre[0], -centre[1]]));
+        codes[at] = found as f32;
+        filled += usize::from(found > 0.0);
+    }
+    filled
+}
+
+/// Whether a pixel lies at the face's border or beside one that shows a front.
+fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
+    let (x, y) = (at % width, at / width);
+    if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+        return true;
+    }
+    (y - 1..=y + 1).any(|y| codes[y * width + x - 1..=y * width + x + 1].iter().any(|&code| code > 0.0))
+}
+
+/// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right angles, but for
+/// `upwards` of a side, which is twice the normal less `forward`.
+fn direction(face: &Projection, [x, y]: [f64; 2]) -> Vec3 {
+    let leaning = dot(face.upwards, face.forward);
+    let up = sub(face.upwards, scale(leaning, face.forward));
+    let height = (y - leaning) / dot(up, up);
+    add(add(face.forward, scale(x, face.across)), scale(height, up))
+}
+
+/// The colour of the nearest patch along a ray from the eye; 0 for none.
+fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: Vec3) -> f64 {
+    let (mut best, mut first) = (0.0, f64::INFINITY);
+    for &(i, code) in &eye.seen {
+        let patch = &patches.list()[i as usize];
+        let (height, fall) = (patch.height(face.eye), dot(patch.normal(), direction));
+        let t = -height / fall;
+        if t > 0.0 && t < first && holds(patch, add(face.eye, scale(t, direction))) {
+            (best, first) = (code, t);
+        }
+    }
+    best
+}
+
+/// Whether a point of a patch's plane is in the patch, or a hair outside.
+fn holds(patch: &Patch, point: Vec3) -> bool {
+    let corners = patch.corners();
+    (0..corners.len()).all(|i| {
+        let side = sub(corners[(i + 1) % corners.len()], corners[i]);
+        dot(cross(side, sub(point, corners[i])), patch.normal()) >= -SLACK * dot(side, side)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::radiosity::{Subdivision, rooms};
+
+    #[test]
+    fn a_direction_goes_through_its_pixel() {
+        let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
+        let patch = &patches.list()[5];
+        let eye = Eye::new(&patches, patch, patch.centre());
+        for face in &eye.faces {
+            for [x, y] in [[0.3, -0.7], [-1.0, 1.0], [0.0, 0.25]] {
+                let d = direction(face, [x, y]);
+                let found = [face.across, face.upwards, face.forward].map(|axis| dot(axis, d));
+                assert!(found.iter().zip([x, y, 1.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn cracks_are_filled_with_what_is_there() {
+        let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
+        let patch = &patches.list()[0];
+        let eye = Eye::new(&patches, patch, patch.centre());
+        let ceiling = |code: f32| patches.list()[code as usize - 1].face == 1;
+        let mut codes = vec![0.0; 25];
+        codes[12] = 9.0;
+        // All pixels beside the middle or at the border, which are all.
+        assert_eq!(fill(&patches, &eye, &eye.faces[0], 5, &mut codes), 24);
+        assert!(codes.iter().all(|&code| code > 0.0) && ceiling(codes[13]));
+    }
+}

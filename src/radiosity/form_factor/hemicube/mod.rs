@@ -1,0 +1,144 @@
+//! Form factors by hemicubes (Cohen and Greenberg, 1985), drawn by a card: from a point of each patch five faces of half a cube into an
+//! item buffer, and for each pixel its delta form factor to the patch that is seen there.
+
+mod crack;
+mod delta;
+mod item;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use refsim::device::Profile;
+use refsim::machine::Executor;
+
+use super::{FormFactorError, FormFactors};
+use crate::geom::vector::Vec3;
+use crate::linalg::Matrix;
+use crate::radiosity::draw::{DrawError, patch_of};
+use crate::radiosity::{Patch, Patches};
+use delta::Deltas;
+use item::{Eye, ItemBuffer, size};
+
+/// Hemicubes that are drawn between two reports of progress.
+const BUNDLE: usize = 64;
+/// Where else on a patch the eye may be, if its centre sees nothing: thirds of both sides.
+const ELSEWHERE: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
+
+/// How hemicubes are drawn.
+#[derive(Clone, Debug)]
+pub struct Hemicube {
+    /// Pixels along a side of the top face: even, at least 2.
+    pub resolution: u32,
+    /// The card. It needs fragment programs (`!!FP1.0`).
+    pub device: Arc<Profile>,
+}
+
+impl Hemicube {
+    /// So many pixels along a side of the top face, on a GeForce FX 5900 Ultra.
+    ///
+    /// # Panics
+    /// Never: the device is a built-in one.
+    #[must_use]
+    pub fn new(resolution: u32) -> Self {
+        Self { resolution, device: Arc::new(Profile::named("nv35").expect("a built-in device")) }
+    }
+
+    /// Whether the card can draw it.
+    fn check(&self) -> Result<(), FormFactorError> {
+        let limit = self.device.limits.max_target_size.unwrap_or(16_384);
+        let most = limit / 4 * 2;
+        let [width, height] = size(self.resolution.min(limit));
+        if self.resolution < 2 || self.resolution % 2 == 1 || width.max(height) > limit {
+            let device = self.device.name.clone();
+            return Err(FormFactorError::Resolution { found: self.resolution, most, device, limit });
+        }
+        Ok(())
+    }
+}
+
+impl Default for Hemicube {
+    /// 64 pixels on nv35.
+    fn default() -> Self {
+        Self::new(64)
+    }
+}
+
+impl FormFactors {
+    /// By hemicubes at the patches' centres; where a centre sees nothing, at the first of nine points of the patch that does. What stands
+    /// in between hides what is behind it, from either side; a back takes light from nobody. `done` hears of patches done, and of how many.
+    ///
+    /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
+    /// [`FormFactors::enforce_reciprocity`].
+    ///
+    /// # Errors
+    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment programs.
+    pub fn hemicube(
+        patches: &Patches,
+        hemicube: &Hemicube,
+        executor: &Executor,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, FormFactorError> {
+        hemicube.check()?;
+        let mut matrix = Matrix::zero(patches.list().len())?;
+        let work = Work { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
+        let all = patches.list().len();
+        let mut rows: Vec<&mut [f64]> = matrix.par_rows_mut().collect();
+        for (bundle, rows) in rows.chunks_mut(BUNDLE).enumerate() {
+            let first = bundle * BUNDLE;
+            // A card a worker; what it draws does not depend on which.
+            let each = rows.len().div_ceil(rayon::current_num_threads()).max(1);
+            rows.par_chunks_mut(each).enumerate().try_for_each(|(part, rows)| work.fill(first + part * each, rows))?;
+            done(first + rows.len(), all);
+        }
+        Self::from_values(patches.areas(), matrix)
+    }
+}
+
+/// What all hemicubes share.
+struct Work<'a> {
+    patches: &'a Patches,
+    hemicube: &'a Hemicube,
+    executor: &'a Executor,
+    deltas: Deltas,
+}
+
+impl Work<'_> {
+    /// The rows of some patches in a row.
+    fn fill(&self, first: usize, rows: &mut [&mut [f64]]) -> Result<(), DrawError> {
+        let mut buffer = ItemBuffer::new(self.executor, &self.hemicube.device, self.hemicube.resolution)?;
+        for (patch, row) in self.patches.list()[first..].iter().zip(rows) {
+            if !self.look(&mut buffer, patch, patch.centre(), row)? {
+                self.look_elsewhere(&mut buffer, patch, row)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn look_elsewhere(&self, buffer: &mut ItemBuffer, patch: &Patch, row: &mut [f64]) -> Result<(), DrawError> {
+        for v in ELSEWHERE {
+            for u in ELSEWHERE {
+                if self.look(buffer, patch, patch.at(u, v).at, row)? {
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what a hemicube sees to a row; false if it sees nothing.
+    fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: Vec3, row: &mut [f64]) -> Result<bool, DrawError> {
+        let eye = Eye::new(self.patches, patch, point);
+        let mut any = false;
+        for (face, mut codes) in buffer.see(self.patches, &eye)?.into_iter().enumerate() {
+            crack::fill(self.patches, &eye, &eye.faces[face], self.hemicube.resolution as usize, &mut codes);
+            let deltas = if face == 0 { &self.deltas.top } else { &self.deltas.side };
+            for (&code, delta) in codes.iter().zip(deltas) {
+                if let Some(seen) = patch_of(code) {
+                    row[seen as usize] += delta;
+                    any = true;
+                }
+            }
+        }
+        Ok(any)
+    }
+}
