@@ -35,7 +35,7 @@ pub(crate) struct Programs(pub(crate) Vec<Program>);
 
 /// All kernels of the project, walked from their folders.
 pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
-    let rooms = walk(&root().join("src"), &["psa", "vsa"]);
+    let rooms = walk(&root().join("src"), &["psa", "vsa", "fp"]);
     Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))))
 });
 

@@ -14,12 +14,13 @@ use crate::radiosity::packing::TooLarge;
 pub enum CardError {
     /// The card's shader versions have no program of this length.
     #[error(
-        "device `{device}` runs no `!!FP1.0` programs, in which alone a block of matrix times vector is written: each texel is read at a \
-         coordinate that the program has stepped on, hundreds of instructions long; expected one of {have}"
+        "device `{device}` runs no `!!FP1.0` programs, in which the passes are written{why}; expected one of {have}"
     )]
     NoPrograms {
         /// The device.
         device: String,
+        /// Why its own programs would not do, if that is known.
+        why: String,
         /// The devices that do.
         have: String,
     },
@@ -73,6 +74,12 @@ impl CardError {
         let runs = |name: &&str| Profile::named(name).is_ok_and(|p| p.limits.versions.contains(&Version::Fp1_0));
         let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();
         have.push("ideal-<format>");
-        Self::NoPrograms { device: profile.name.clone(), have: have.join(", ") }
+        let chain = |reads: u32| {
+            format!(
+                " (its own allow a chain of {reads} dependent reads (limits.dependent_reads); a block has hundreds)"
+            )
+        };
+        let why = profile.limits.dependent_reads.map_or_else(String::new, chain);
+        Self::NoPrograms { device: profile.name.clone(), why, have: have.join(", ") }
     }
 }
