@@ -66,22 +66,46 @@ fn a_document_for_machines() {
     assert_eq!(found["provenance"]["profiles"][0], "nv35");
 }
 
+#[test]
+fn the_card_draws_its_own_form_factors() {
+    let (ran, _folder) = radiosity(&[
+        "cornell-room-blocks",
+        "--patches",
+        "60",
+        "--factors",
+        "hemicube",
+        "--hemicube",
+        "16",
+        "--size",
+        "8x8",
+        "--json",
+    ]);
+    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect(&ran.stderr);
+    assert_eq!(found["room"][0]["form_factors"], "hemicubes of 16");
+    let sum = found["room"][0]["least_row_sum"].as_f64().expect("a number");
+    assert!((sum - 1.0).abs() < 1e-2, "closed: {sum}");
+}
+
 /// An open sheet, a sheet with a triangle without area, a mirror, and nothing.
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 7] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
     ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\n"),
     ("mirror.obj", "mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl glass\nf 1 2 3\n"),
     ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\n"),
+    ("white.obj", "mtllib white.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl snow\nf 1 2 3\n"),
+    ("white.mtl", "newmtl snow\nKd 1 1 1\nKe 1 1 1\n"),
     ("empty.obj", "v 0 0 0\n"),
 ];
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 19] = [
+    let cases: [(&str, &[&str]); 21] = [
         ("unknown_scene", &["cornell-rooms"]),
         ("no_surface", &["empty.obj"]),
         ("zero_area", &["flat.obj"]),
         ("not_diffuse", &["mirror.obj"]),
+        ("white_of_a_file", &["white.obj"]),
+        ("odd_hemicube", &["cornell-room", "--patches", "60", "--factors", "hemicube", "--hemicube", "63"]),
         ("dark", &["sheet.obj"]),
         ("open", &["cornell-box", "--patches", "60", "--require-closed", "1e-3"]),
         ("reflects_all", &["cornell-room", "--patches", "60", "--paint", "red=1,0,0"]),

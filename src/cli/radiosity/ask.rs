@@ -104,6 +104,7 @@ pub(super) fn wishes(args: &Args) -> Wishes {
         FactorsArg::Rays => {
             Factors::Rays(VisibilityParameters { side: args.strata, seed: args.seed, ..Default::default() })
         }
+        FactorsArg::Hemicube => Factors::Hemicube { resolution: args.hemicube },
     };
     Wishes {
         from,
@@ -185,6 +186,7 @@ pub(super) fn spelled(args: &Args) -> String {
     match args.factors {
         FactorsArg::Unoccluded => (),
         FactorsArg::Rays => add(format_args!("--strata {} --seed {}", args.strata, args.seed)),
+        FactorsArg::Hemicube => add(format_args!("--hemicube {}", args.hemicube)),
     }
     if let Some(x) = args.require_closed {
         add(format_args!("--require-closed {x}"));

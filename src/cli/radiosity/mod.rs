@@ -55,6 +55,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
     strata: u32,
 
+    /// For hemicubes: pixels along a side of the top face, an even number
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    hemicube: u32,
+
     /// Which random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -151,6 +155,8 @@ enum FactorsArg {
     Unoccluded,
     /// Closed forms and contour integrals, times what sample rays find open
     Rays,
+    /// Pictures of the scene from each patch, drawn by the emulated card
+    Hemicube,
 }
 
 /// What form factors obey.

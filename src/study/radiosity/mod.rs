@@ -4,6 +4,7 @@
 //! of light or paint, how many iterations each way needs from where it stands, and from nothing.
 
 mod change;
+mod difference;
 mod error;
 mod page;
 mod pictures;
@@ -22,6 +23,7 @@ use crate::radiosity::{Patches, Subdivision, System};
 use crate::scene::{Camera, Scene};
 
 pub use change::{Change, Relit};
+pub use difference::Difference;
 pub use error::StudyError;
 pub use page::files;
 pub use pictures::{Frame, Pictures};
@@ -76,8 +78,8 @@ pub struct Row {
     pub stopped: Stopped,
     /// Light that it leaves unaccounted for, of what is emitted; the largest of the channels.
     pub imbalance: f64,
-    /// The largest and the root mean square difference from the direct solution, of the brightest patch's radiosity.
-    pub off: Option<[f64; 2]>,
+    /// How far it is from the direct solution, if that was asked for.
+    pub off: Option<Difference>,
     /// On a card.
     pub card: Option<CardFacts>,
     /// After the changes.
@@ -166,7 +168,7 @@ fn row(
         label: one.way.label(&parameters.profile),
         residual: (last / one.emitted).sqrt(),
         imbalance: imbalance(system, &one.radiosity),
-        off: truth.map(|truth| difference(&one.radiosity, truth)),
+        off: truth.map(|truth| Difference::between(&one.radiosity, truth, system.emittance())),
         pictures,
         card,
         way: one.way,
@@ -186,24 +188,13 @@ fn imbalance(system: &System, radiosity: &[[f64; 3]]) -> f64 {
     (0..3).filter(|&c| emitted(c) > 0.0).map(|c| (left[c] / emitted(c)).abs()).fold(0.0, f64::max)
 }
 
-/// The largest and the root mean square difference, of the largest true value.
-fn difference(found: &[[f64; 3]], truth: &[[f64; 3]]) -> [f64; 2] {
-    let pairs = || found.as_flattened().iter().zip(truth.as_flattened());
-    let brightest = truth.as_flattened().iter().copied().fold(0.0, f64::max);
-    // A difference that is no number is the largest of all.
-    let worse = |worst: f64, off: f64| if off <= worst { worst } else { off };
-    let largest = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, worse);
-    let squares: f64 = pairs().map(|(a, b)| (a - b) * (a - b)).sum();
-    let count = truth.len().max(1) as f64 * 3.0;
-    [largest / brightest, (squares / count).sqrt() / brightest]
-}
-
 /// Unoccluded, sampled or rendered, for people.
 impl std::fmt::Display for Factors {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Unoccluded => f.write_str("unoccluded"),
             Self::Rays(VisibilityParameters { side, .. }) => write!(f, "{} rays a pair", side * side),
+            Self::Hemicube { resolution } => write!(f, "hemicubes of {resolution}"),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! From patches to form factors: where they come from, and what is asked of them.
 
+use std::sync::Arc;
+
 use super::{Parameters, StudyError, Watch};
 use crate::geom::exact::Sides;
-use crate::radiosity::form_factor::{RowSums, VisibilityParameters};
+use crate::radiosity::form_factor::{Hemicube, RowSums, VisibilityParameters};
 use crate::radiosity::{FormFactors, Patches};
 use crate::ray_engine::HostTracer;
 use crate::ray_engine::octree::OctreeParameters;
@@ -14,6 +16,11 @@ pub enum Factors {
     Unoccluded,
     /// Closed forms and contour integrals, times what rays find open.
     Rays(VisibilityParameters),
+    /// Pictures of the scene from each patch, drawn by the study's card.
+    Hemicube {
+        /// Pixels along a side of the top face.
+        resolution: u32,
+    },
 }
 
 /// What is asked of form factors.
@@ -44,6 +51,10 @@ pub(super) fn find(patches: &Patches, parameters: &Parameters, watch: &mut Watch
         Factors::Rays(how) => {
             let mut tracer = HostTracer::new(patches.mesh(), OctreeParameters::default(), Sides::Both);
             FormFactors::with_visibility(patches, &mut tracer, how, &mut done)?
+        }
+        Factors::Hemicube { resolution } => {
+            let hemicube = Hemicube { resolution, device: Arc::new(parameters.profile.clone()) };
+            FormFactors::hemicube(patches, &hemicube, &parameters.executor, &mut done)?
         }
     };
     let (found_sums, reciprocity_error) = (factors.summary(), factors.reciprocity_error());

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Outcome, Parameters, Row, Way};
+use super::{Difference, Outcome, Parameters, Row, Way};
 use crate::report::{Cell, Table};
 
 /// The tables of a study.
@@ -79,21 +79,31 @@ fn room(parameters: &Parameters, outcome: &Outcome) -> Table {
 }
 
 fn ways(outcome: &Outcome) -> Table {
-    let headings = ["way", "iterations", "stopped_by", "residual", "light_unaccounted", "largest_error", "rms_error"];
+    let headings = [
+        "way",
+        "iterations",
+        "stopped_by",
+        "residual",
+        "light_unaccounted",
+        "largest_error",
+        "largest_relative",
+        "mean_relative",
+    ];
     let mut table = Table::new(
-        "Ways of solving; the residual's length as a share of the emittance's, errors as shares of the brightest patch",
+        "Ways of solving; errors against the direct solution: of the brightest patch, of each patch, and with its sign in the mean",
         &headings,
     );
     for row in &outcome.rows {
-        let off = |k: usize| row.off.map_or(Cell::Empty, |off| digits(off[k], 3));
+        let off = |of: fn(Difference) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
         table.push([
             row.label.as_str().into(),
             if row.way == Way::DIRECT { Cell::Empty } else { row.iterations().into() },
             row.stopped.to_string().into(),
             digits(row.residual, 3),
             digits(row.imbalance, 3),
-            off(0),
-            off(1),
+            off(|off| off.largest),
+            off(|off| off.relative),
+            off(|off| off.bias),
         ]);
     }
     table
