@@ -246,6 +246,29 @@ fn fp16_agrees_on_pairs() {
     }
 }
 
+/// NV30's binary32 is the host's up to the largest number; between that and 2^128 it stays finite.
+#[test]
+fn single_floats_agree_at_their_largest_and_smallest() {
+    let near = |exponent: u32| {
+        let power = exponent << 23;
+        [power - 2, power - 1, power, power + 1, power + 2, power + 0x40_0000]
+    };
+    let exponents = [1, 24, 63, 64, 126, 127, 128, 190, 191, 192, 229, 230, 231, 253, 254, 255];
+    let magnitudes = exponents.into_iter().flat_map(near).chain([0, 1, 2, 0x7f_ffff, 0x7fc0_0000]);
+    let all: Vec<u32> = magnitudes.flat_map(|bits| [bits, bits | 0x8000_0000]).collect();
+    for text in ["fp32:ftz:nvovf:nv", "fp32:nvovf", "fp32:ftz", "fp32:nvovf:rtz"] {
+        let f = layout(text);
+        for &a in &all {
+            let first = vec![a; all.len()];
+            for op in [Op::Add, Op::Sub, Op::Mul, Op::Mad, Op::Div, Op::FusedMad] {
+                compare(f, op, &first, &all, &all);
+                let opposite: Vec<u32> = all.iter().map(|b| b ^ 0x8000_0000).collect();
+                compare(f, op, &first, &all, &opposite);
+            }
+        }
+    }
+}
+
 #[test]
 fn conversions_agree() {
     let texts = [
@@ -270,6 +293,7 @@ fn conversions_agree() {
         "fp24:sat",
         "fp32",
         "fp32:ftz",
+        "fp32:ftz:nvovf:nv",
         "fp32:rdn",
         "bf16",
         "e3m4",

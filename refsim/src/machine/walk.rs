@@ -46,7 +46,7 @@ pub(super) fn draw(
     };
     let stage = VertexStage::new(call, &profile.rules, kind, needed);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
-    let mut work = tiles(plan.raster.scissor);
+    let mut work = tiles(plan.raster.scissor, matches!(executor, Tiles::Batch(_)));
     let round = (ROUND / plan.triangles.len().max(1)).max(1);
     let mut first = 0;
     while first < plan.instance_count {
@@ -87,18 +87,20 @@ pub(super) fn draw(
     Ok(Drawn { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
 }
 
-/// The tiles of a region, row by row. They start at multiples of [`TILE`].
-fn tiles(region: Region) -> Vec<Work> {
+/// The tiles of a region, row by row. They start at multiples of their size: [`TILE`] each way, or where `flat` ones are possible and
+/// the region is one row of quads, as many pixels in two rows.
+fn tiles(region: Region, flat: bool) -> Vec<Work> {
     let mut out = Vec::new();
     if region.width == 0 || region.height == 0 {
         return out;
     }
-    let step = TILE as usize;
-    for y in (region.y - region.y % TILE..region.y + region.height).step_by(step) {
-        for x in (region.x - region.x % TILE..region.x + region.width).step_by(step) {
-            let whole = Region { x, y, width: TILE, height: TILE };
-            let counts = FragmentCounts::default();
-            out.push(Work { region: whole.intersect(region), tile: None, counts });
+    let (last_x, last_y) = (region.x + region.width - 1, region.y + region.height - 1);
+    let one_row = region.y / 2 == last_y / 2;
+    let [width, height] = if flat && one_row { [TILE * TILE / 2, 2] } else { [TILE; 2] };
+    for y in region.y / height..=last_y / height {
+        for x in region.x / width..=last_x / width {
+            let whole = Region { x: x * width, y: y * height, width, height };
+            out.push(Work { region: whole.intersect(region), tile: None, counts: FragmentCounts::default() });
         }
     }
     out

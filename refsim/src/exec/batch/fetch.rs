@@ -12,6 +12,7 @@ use super::odd;
 use super::schedule::{FetchDetail, FetchStep};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slots};
+use super::stored::Stored;
 use crate::exec::SamplerBinding;
 use crate::num::Format;
 use crate::num::ops;
@@ -20,7 +21,7 @@ use crate::texture::{
     decode_channel, fetch_nearest, lod_from_derivatives, sample,
 };
 
-/// Texels of the largest image that gets a table: 4 MiB of it.
+/// Texels of the largest image that gets a table: 4 MiB of it. Those of larger ones are decoded as they are read.
 const LARGEST_TABLE: usize = 1 << 18;
 /// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded once.
 const FEW_TEXELS: usize = 1024;
@@ -42,10 +43,12 @@ type TableKey = (u64, SamplerState, SampleRules);
 /// with them.
 static TABLES: Cache<TableKey, Table> = Cache::new();
 
-/// All texels of a plane in the register format, as slots hold them, the border texel last.
+/// A plane that is read in rows.
 #[derive(Debug)]
 struct Table {
+    /// All texels in the register format, as slots hold them, the border texel last; of a large image the border texel alone.
     texels: Vec<[u32; 4]>,
+    large: bool,
     width: u32,
     height: u32,
     /// What a coordinate of 1 is in texels.
@@ -59,11 +62,11 @@ impl<'a> BatchTexture<'a> {
         let fit = Table::fits(&binding);
         let make = || Table::new(&binding, &rules, lane);
         let table = fit.then(|| match binding.image.contents_name() {
-            Some(name) => {
+            Some(name) if !is_large(binding.image) => {
                 let key = (name, binding.state, rules);
                 TABLES.get(|known| *known == key, || (key, make()))
             }
-            None => Arc::new(make()),
+            _ => Arc::new(make()),
         });
         Self { binding, rules, table }
     }
@@ -78,6 +81,10 @@ impl<'a> BatchTexture<'a> {
                     #[inline(always)]
                     || table.indices(u, v, &mut index),
                 );
+                if table.large {
+                    let stored = Stored::new(self.binding.image, &self.rules);
+                    return stored.read(&index, &table.texels, step, formats, (run, slots));
+                }
                 for (c, to) in step.to.iter().enumerate() {
                     let Some(to) = *to else { continue };
                     for (value, &i) in slots.row_mut(to).iter_mut().zip(&index) {
@@ -139,14 +146,15 @@ impl Table {
     fn fits(binding: &SamplerBinding<'_>) -> bool {
         let image = binding.image;
         let plane = matches!(image.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
-        binding.is_plain() && plane && image.width() as usize * image.height() as usize <= LARGEST_TABLE
+        binding.is_plain() && plane
     }
 
     fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Self {
         let image = binding.image;
         let kind = image.kind();
         let (width, height) = (image.width(), image.height());
-        let mut texels = all_texels(image, rules, lane);
+        let large = is_large(image);
+        let mut texels = if large { Vec::new() } else { all_texels(image, rules, lane) };
         let state = &binding.state;
         let modes = match kind {
             TextureKind::Rectangle => [state.address_u, state.address_v]
@@ -168,7 +176,7 @@ impl Table {
             TextureKind::D1 => [f64::from(width), 0.0],
             _ => [f64::from(width), f64::from(height)],
         };
-        Self { texels, width, height, scale, modes }
+        Self { texels, large, width, height, scale, modes }
     }
 
     /// The index of each lane's texel.
@@ -216,6 +224,11 @@ fn each(coordinate: &Row, scale: f64, out: &mut [i32; LANES], number: impl Fn(f6
         let tamed = if low < FAR { low } else { FAR };
         out[i] = number((tamed * scale).floor()) as i32;
     }
+}
+
+/// Whether a table of an image's texels would be too large.
+fn is_large(image: &Image) -> bool {
+    image.width() as usize * image.height() as usize > LARGEST_TABLE
 }
 
 /// All texels of level 0 in the register format, as slots hold them, row by row.
@@ -301,7 +314,7 @@ fn decode_block<'t>(
 
 /// Values divided by a number below 2^24, rounded into the format.
 #[inline(always)]
-fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut Row) {
+pub(super) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut Row) {
     if divisor == 1.0 {
         for i in 0..LANES {
             out[i] = L::store(lane.round_f64(values[i]));
@@ -314,7 +327,7 @@ fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut Row)
 }
 
 /// The bits of a channel.
-fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
+pub(super) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
     let first = usize::from(channel.shift / 8);
     match (channel.shift % 8, channel.bits, texel.get(first..)) {
         (0, 8, Some(&[a, ..])) => a.into(),
@@ -328,7 +341,7 @@ fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
 }
 
 /// A channel's value in the register format, as slots hold it.
-fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
+pub(super) fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
     fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
         L::store(lane.round_f64(x))
     }

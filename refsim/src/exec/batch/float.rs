@@ -18,10 +18,13 @@ pub(crate) const SINGLE: u8 = 1;
 /// Through a double, rounded to odd: every format, every rounding.
 pub(crate) const DOUBLE: u8 = 2;
 
+/// As [`HOST`], but for what lies between the largest number and `2^128`: NV30's binary32.
+pub(crate) const HOST_NV: u8 = 3;
+
 /// Rounding decided at run time.
 pub(crate) const ANY: u8 = 4;
 
-/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`]; `R` is a [`Rounding`] as a
+/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`HOST_NV`]; `R` is a [`Rounding`] as a
 /// number, or [`ANY`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
@@ -63,6 +66,8 @@ pub(crate) fn path(format: &Format) -> u8 {
         DOUBLE
     } else if (exp_bits, man_bits) == (8, 23) && ieee {
         HOST
+    } else if (exp_bits, man_bits) == (8, 23) && format.overflow == Overflow::Nv30 {
+        HOST_NV
     } else if exp_bits <= 6 && man_bits <= 10 {
         SINGLE
     } else {
@@ -182,6 +187,14 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if mag < f32::INFINITY { fits } else { x }
     }
 
+    /// A host result under NV30's overflow: infinite only if the exact one is `2^128` or more. As a double the exact one is no smaller than
+    /// that unless it really is: products have 48 bits, and what a sum of two singles lacks to `2^128` is a multiple of `2^80`.
+    #[inline(always)]
+    fn below_huge(&self, x: f32, exact: f64) -> f32 {
+        let over = if exact < 0.0 { self.over[1] } else { self.over[0] };
+        if (x.abs() == f32::INFINITY) & (exact.abs() < self.huge_from) { over } else { x }
+    }
+
     /// Flushes a host result.
     #[inline(always)]
     fn flushed(&self, x: f32) -> f32 {
@@ -265,13 +278,14 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn round_f64(&self, x: f64) -> f32 {
-        self.narrow(x)
+        if PATH == HOST_NV { self.flushed(self.below_huge(x as f32, x)) } else { self.narrow(x) }
     }
 
     #[inline(always)]
     fn add(&self, a: f32, b: f32) -> f32 {
         match PATH {
             HOST => self.flushed(a + b),
+            HOST_NV => self.flushed(self.below_huge(a + b, f64::from(a) + f64::from(b))),
             SINGLE => self.narrow_single(a + b),
             _ => {
                 let (a, b) = (f64::from(a), f64::from(b));
@@ -289,6 +303,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     fn mul(&self, a: f32, b: f32) -> f32 {
         match PATH {
             HOST => self.flushed(a * b),
+            HOST_NV => self.flushed(self.below_huge(a * b, f64::from(a) * f64::from(b))),
             SINGLE => self.narrow_single(a * b),
             // 24 bits times 24 bits: exact.
             _ => self.narrow(f64::from(a) * f64::from(b)),

@@ -1,7 +1,7 @@
 //! Which lane arithmetic a format gets.
 
 use super::fixed::FixedLane;
-use super::float::{self, ANY, DOUBLE, FloatLane, HOST, SINGLE};
+use super::float::{self, ANY, DOUBLE, FloatLane, HOST, HOST_NV, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
 use super::ops::Code;
@@ -21,6 +21,7 @@ pub(crate) enum AnyLane {
     IeeeSingle(IeeeLane<SINGLE>),
     IeeeDouble(IeeeLane<DOUBLE>),
     Host(FloatLane<HOST, 0>),
+    HostNv(FloatLane<HOST_NV, 0>),
     Single(FloatLane<SINGLE, 0>),
     DoubleEven(FloatLane<DOUBLE, 0>),
     Double(FloatLane<DOUBLE, ANY>),
@@ -43,6 +44,7 @@ impl AnyLane {
                 (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(format)?),
                 (Some(_), _) => Self::IeeeDouble(IeeeLane::new(format)?),
                 (_, HOST) => Self::Host(FloatLane::new(format)?),
+                (_, HOST_NV) => Self::HostNv(FloatLane::new(format)?),
                 (_, SINGLE) => Self::Single(FloatLane::new(format)?),
                 _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(format)?),
                 _ => Self::Double(FloatLane::new(format)?),
@@ -65,6 +67,7 @@ macro_rules! with_any_lane {
             $crate::exec::batch::lanes::AnyLane::IeeeSingle($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::IeeeDouble($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Host($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::HostNv($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Single($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::DoubleEven($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Double($lane) => $body,

@@ -6,7 +6,7 @@
 //! - `graph`, `arith`, `macros`, `translate`, `translate_texture`, `fragment`: a program as a graph of component values under a
 //!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
 //!   reads, and with what only one operation reads as part of that.
-//! - `ops`, `loops`, `steps`, `fetch`: carrying the steps out, 256 lanes at a time.
+//! - `ops`, `loops`, `steps`, `fetch`, `stored`: carrying the steps out, 256 lanes at a time.
 //! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
 //! - `raster`, `shader`, `output`, `store`, `targets`: what happens to a tile around the steps.
 //! - `program`, `flow`, `flow_run`: programs without and with flow control; `tile`, `trace`: the ways in; `cache`: what was decoded.
@@ -44,6 +44,7 @@ mod simd;
 pub(in crate::exec) mod slots;
 mod steps;
 mod store;
+mod stored;
 mod surfaces;
 mod targets;
 mod tile;

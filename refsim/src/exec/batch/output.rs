@@ -199,8 +199,7 @@ impl Output {
         let main = formats.lane(Arith::Main);
         let colors = fragment.colors.map(|c| c.map(|raw| main.encode(raw)));
         let output = FragmentOutput { colors, written, depth: None, killed: false };
-        let (x, y) = super::raster::place(fragment.lane.into());
-        merge(targets.tile, (targets.origin.0 + x, targets.origin.1 + y), &output, 0, &state, &self.rules);
+        merge(targets.tile, targets.frame.pixel(fragment.lane.into()), &output, 0, &state, &self.rules);
     }
 
     /// [`Self::merge`] for one fragment.

@@ -9,19 +9,54 @@ use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;
 
-/// Column and row of a lane within its tile.
-pub(crate) const fn place(lane: usize) -> (u32, u32) {
-    ((lane & 15) as u32, (lane >> 4) as u32)
+/// Where the lanes of a tile are. In either shape the lanes of a quad differ in bits 0 (across) and 4 (down).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Frame {
+    /// Column and row of lane 0.
+    pub(crate) origin: (u32, u32),
+    /// 128 x 2 pixels, 16 x 2 after 16 x 2; else 16 x 16.
+    pub(crate) flat: bool,
 }
 
-/// Which lanes of the tile at `origin` a triangle covers within `region`. Returns how many.
-pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, simd: SimdLevel, out: &mut Row) -> u64 {
+impl Frame {
+    /// The tile around a region that fits one: a flat one if it does not fit a square one. Where it fits both, the lanes are the same.
+    pub(crate) fn around(region: Region) -> Self {
+        let flat = (region.x & 15) + region.width > 16;
+        Self { origin: (region.x & !15, if flat { region.y & !1 } else { region.y & !15 }), flat }
+    }
+
+    /// Column and row of a lane, in the target.
+    pub(crate) fn pixel(self, lane: usize) -> (u32, u32) {
+        let (x, y) = if self.flat { place::<true>(lane) } else { place::<false>(lane) };
+        (self.origin.0 + x, self.origin.1 + y)
+    }
+
+    /// The lane of a pixel of the tile.
+    pub(crate) fn lane(self, x: u32, y: u32) -> usize {
+        let (x, y) = ((x - self.origin.0) as usize, (y - self.origin.1) as usize);
+        (if self.flat { x & 15 | y << 4 | x >> 4 << 5 } else { y << 4 | x }) & (LANES - 1)
+    }
+}
+
+/// Column and row of a lane within its tile.
+#[inline(always)]
+const fn place<const FLAT: bool>(lane: usize) -> (u32, u32) {
+    if FLAT {
+        ((lane & 15 | lane >> 5 << 4) as u32, (lane >> 4 & 1) as u32)
+    } else {
+        ((lane & 15) as u32, (lane >> 4) as u32)
+    }
+}
+
+/// Which lanes of a tile a triangle covers within `region`. Returns how many.
+pub(crate) fn cover(setup: &TriangleSetup, frame: Frame, region: Region, simd: SimdLevel, out: &mut Row) -> u64 {
+    let origin = frame.origin;
     let inside = region.intersect(setup.bounds);
     if inside.width == 0 || inside.height == 0 {
         out.fill(0);
         return 0;
     }
-    if inside.width == 16 && inside.height == 16 && setup.covers(inside) {
+    if (inside.width * inside.height) as usize == LANES && setup.covers(inside) {
         out.fill(TRUE);
         return LANES as u64;
     }
@@ -30,15 +65,18 @@ pub(crate) fn cover(setup: &TriangleSetup, origin: (u32, u32), region: Region, s
     let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);
     simd.run(
         #[inline(always)]
-        || cover_lanes(&edges, columns, rows, out),
+        || match frame.flat {
+            true => cover_lanes::<true>(&edges, columns, rows, out),
+            false => cover_lanes::<false>(&edges, columns, rows, out),
+        },
     );
     out.iter().map(|&m| u64::from(m & 1)).sum()
 }
 
 #[inline(always)]
-fn cover_lanes(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
+fn cover_lanes<const FLAT: bool>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
     for (i, lane) in out.iter_mut().enumerate() {
-        let (x, y) = place(i);
+        let (x, y) = place::<FLAT>(i);
         let at = |e: &[i64; 3]| e[0] * i64::from(x) + e[1] * i64::from(y) + e[2];
         let within = (x >= columns.0) & (x < columns.1) & (y >= rows.0) & (y < rows.1);
         // All three at least zero: no sign bit in any.
@@ -69,7 +107,7 @@ pub(crate) struct TileWeights {
 }
 
 /// What weights depend on within a tile.
-type Origin = ([[i64; 3]; 2], u32, Option<[u32; 3]>, (u32, u32));
+type Origin = ([[i64; 3]; 2], u32, Option<[u32; 3]>, Frame);
 
 impl TileWeights {
     pub(crate) fn new(simd: SimdLevel) -> Self {
@@ -77,22 +115,25 @@ impl TileWeights {
     }
 
     /// Computes the weights of a triangle, unless they are those of the triangle before.
-    pub(crate) fn make(&mut self, setup: &TriangleSetup, origin: (u32, u32)) {
+    pub(crate) fn make(&mut self, setup: &TriangleSetup, frame: Frame) {
         let edges = [1, 2].map(|i: usize| [setup.edges[i].a, setup.edges[i].b, setup.edges[i].c]);
         let w = (!setup.affine).then_some(setup.reciprocal_w);
-        let made_from = Some((edges, setup.area_bits, w, origin));
+        let made_from = Some((edges, setup.area_bits, w, frame));
         if self.made_from == made_from {
             return;
         }
         self.made_from = made_from;
         let local = [1, 2].map(|i: usize| {
             let e = &setup.edges[i];
-            [e.a, e.b, e.at(origin.0, origin.1)]
+            [e.a, e.b, e.at(frame.origin.0, frame.origin.1)]
         });
         let area = f32::from_bits(setup.area_bits);
         self.simd.run(
             #[inline(always)]
-            || linear(&local, area, &mut self.linear),
+            || match frame.flat {
+                true => linear::<true>(&local, area, &mut self.linear),
+                false => linear::<false>(&local, area, &mut self.linear),
+            },
         );
         match w {
             Some(w) => {
@@ -127,14 +168,14 @@ impl TileWeights {
         }
     }
 
-    /// A component of the window position in every lane, single precision; `origin` is the tile's.
-    pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, origin: (u32, u32), out: &mut Row) {
+    /// A component of the window position in every lane, single precision.
+    pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, frame: Frame, out: &mut Row) {
         let half = setup.half_pixels() as f32 * 0.5;
         match axis {
             0 | 1 => {
                 for (i, slot) in out.iter_mut().enumerate() {
-                    let (x, y) = place(i);
-                    let at = if axis == 0 { origin.0 + x } else { origin.1 + y };
+                    let (x, y) = frame.pixel(i);
+                    let at = if axis == 0 { x } else { y };
                     *slot = (at as f32 + half).to_bits();
                 }
             }
@@ -171,10 +212,10 @@ pub(crate) fn lay_over(to: &mut Row, from: &Row, mask: &Row) {
 }
 
 #[inline(always)]
-fn linear(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
+fn linear<const FLAT: bool>(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
     for (e, row) in edges.iter().zip(out) {
         for (i, weight) in row.iter_mut().enumerate() {
-            let (x, y) = place(i);
+            let (x, y) = place::<FLAT>(i);
             *weight = (e[0] * i64::from(x) + e[1] * i64::from(y) + e[2]) as f32 / area;
         }
     }

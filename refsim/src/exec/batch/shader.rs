@@ -8,7 +8,7 @@
 use super::arith::Formats;
 use super::graph::Arith;
 use super::lane::LANES;
-use super::raster::{TileWeights, cover, lay_over, quads};
+use super::raster::{Frame, TileWeights, cover, lay_over, quads};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 use super::surfaces::Surfaces;
@@ -31,7 +31,7 @@ struct Member {
 #[derive(Debug)]
 pub(crate) struct Shader {
     simd: SimdLevel,
-    origin: (u32, u32),
+    frame: Frame,
     region: Region,
     pub(crate) slots: Slots,
     members: Vec<Member>,
@@ -73,7 +73,7 @@ impl Shader {
     pub(crate) fn new(slots: usize, simd: SimdLevel) -> Self {
         Self {
             simd,
-            origin: (0, 0),
+            frame: Frame::default(),
             region: Region::default(),
             slots: Slots::new(slots),
             members: Vec::new(),
@@ -94,7 +94,7 @@ impl Shader {
 
     /// Goes to a tile. Nothing that belongs to another tile, or to other surfaces, is used again.
     pub(crate) fn start(&mut self, region: Region) {
-        self.origin = (region.x & !15, region.y & !15);
+        self.frame = Frame::around(region);
         self.region = region;
         self.used = 0;
         self.inputs_hold = false;
@@ -140,7 +140,7 @@ impl Shader {
         let member = &mut self.members[self.used];
         (member.shape, member.planes) = (shape, planes);
         let setup = &surfaces.shapes[shape as usize];
-        let count = cover(setup, self.origin, self.region, self.simd, &mut member.cover);
+        let count = cover(setup, self.frame, self.region, self.simd, &mut member.cover);
         if self.used == 0 {
             self.covered = member.cover;
             self.covered_count = count;
@@ -160,7 +160,7 @@ impl Shader {
         for (i, member) in self.members[..self.used].iter_mut().enumerate() {
             let setup = &surfaces.shapes[member.shape as usize];
             if !setup.depth_constant {
-                member.weights.make(setup, self.origin);
+                member.weights.make(setup, self.frame);
             }
             if i == 0 {
                 member.weights.depth(setup, &mut self.depth);
@@ -183,10 +183,10 @@ impl Shader {
         for (i, member) in self.members[..self.used].iter_mut().enumerate() {
             let setup = &surfaces.shapes[member.shape as usize];
             if !inputs.rows.is_empty() || !inputs.position.is_empty() {
-                member.weights.make(setup, self.origin);
+                member.weights.make(setup, self.frame);
             }
             for &(axis, slot) in &inputs.position {
-                member.weights.position(setup, axis, self.origin, &mut spare);
+                member.weights.position(setup, axis, self.frame, &mut spare);
                 if i == 0 {
                     *self.slots.row_mut(slot) = spare;
                 } else {

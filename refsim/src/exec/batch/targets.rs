@@ -2,6 +2,7 @@
 //! stay in the first-level cache while all triangles of the tile go by, and are copied back once.
 
 use super::lane::LANES;
+use super::raster::Frame;
 use super::slots::Row;
 use crate::output::{ColorTile, MOST_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
 use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
@@ -78,7 +79,7 @@ pub(crate) struct ColorRows {
 #[derive(Debug)]
 pub(crate) struct Targets<'t> {
     pub(crate) tile: &'t mut TargetTile,
-    pub(crate) origin: (u32, u32),
+    pub(crate) frame: Frame,
     /// Depths of the lanes within the tile's region.
     pub(crate) depth: Option<Box<Row>>,
     /// Targets that are written in rows; the others are written in the tile.
@@ -88,7 +89,7 @@ pub(crate) struct Targets<'t> {
 impl<'t> Targets<'t> {
     /// Brings a tile into rows. Bit `i` of `written`: the program writes colour `i`.
     pub(crate) fn load(tile: &'t mut TargetTile, written: u8, state: &OutputState, rules: &OutputRules) -> Self {
-        let (region, origin) = (tile.region, (tile.region.x & !15, tile.region.y & !15));
+        let (region, frame) = (tile.region, Frame::around(tile.region));
         let depth = tile.depth.as_ref().map(|buffer| {
             let mut row = Box::new([0; LANES]);
             for (lane, index) in lanes(region) {
@@ -102,7 +103,7 @@ impl<'t> Targets<'t> {
             Some(ColorRows { words: load_words(target, region, packing.words()), packing })
         };
         let colors = [rows(0), rows(1), rows(2), rows(3)];
-        Self { tile, origin, depth, colors }
+        Self { tile, frame, depth, colors }
     }
 
     /// Brings the rows back into the tile.
@@ -125,9 +126,10 @@ impl<'t> Targets<'t> {
 
 /// The lanes of a tile's region with the indices of their pixels, in order.
 fn lanes(region: Region) -> impl Iterator<Item = (usize, usize)> {
-    let (width, left, top) = (region.width.min(16) as usize, region.x as usize & 15, region.y as usize & 15);
-    (0..region.height.min(16) as usize)
-        .flat_map(move |y| (0..width).map(move |x| ((((top + y) << 4) | (left + x)) & 255, y * width + x)))
+    let frame = Frame::around(region);
+    let pixels = (region.y..region.y + region.height)
+        .flat_map(move |y| (region.x..region.x + region.width).map(move |x| (x, y)));
+    pixels.map(move |(x, y)| frame.lane(x, y)).enumerate().map(|(index, lane)| (lane, index))
 }
 
 fn load_words(target: &ColorTile, region: Region, words: usize) -> Vec<Row> {

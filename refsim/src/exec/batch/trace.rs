@@ -15,7 +15,7 @@ use super::graph::{Arith, Node};
 use super::lane::LANES;
 use super::output::Results;
 use super::program::{Ends, decode, has_flow, pixel_formats};
-use super::raster::{TileWeights, cover, quads};
+use super::raster::{Frame, TileWeights, cover, quads};
 use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
@@ -176,7 +176,7 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
 /// The rows of one tile that a triangle is followed on.
 struct Rows<'t> {
     triangle: &'t TriangleSetup,
-    origin: (u32, u32),
+    frame: Frame,
     weights: TileWeights,
     covered: Row,
     run: Row,
@@ -185,12 +185,12 @@ struct Rows<'t> {
 
 impl Rows<'_> {
     fn fill(&mut self, inputs: &[(u16, Slot)], formats: &Formats, slots: &mut Slots) {
-        self.weights.make(self.triangle, self.origin);
+        self.weights.make(self.triangle, self.frame);
         for &(component, slot) in inputs {
             let single = formats.lane(Arith::Single);
             let row = slots.row_mut(slot);
             match usize::from(component).checked_sub(POSITION_COMPONENT) {
-                Some(axis) => self.weights.position(self.triangle, axis, self.origin, row),
+                Some(axis) => self.weights.position(self.triangle, axis, self.frame, row),
                 None => self.weights.component(self.triangle, component.into(), single, row),
             }
         }
@@ -199,12 +199,12 @@ impl Rows<'_> {
     fn input(&mut self, reads: ComponentMask, formats: &Formats) -> FragmentInput {
         let single = formats.lane(Arith::Single);
         let mut row = [0; LANES];
-        self.weights.make(self.triangle, self.origin);
+        self.weights.make(self.triangle, self.frame);
         self.weights.depth(self.triangle, &mut row);
         let mut input = FragmentInput { depth: row[self.lane], ..FragmentInput::default() };
         if reads.has(POSITION_COMPONENT) {
             for (axis, value) in input.position.iter_mut().enumerate() {
-                self.weights.position(self.triangle, axis, self.origin, &mut row);
+                self.weights.position(self.triangle, axis, self.frame, &mut row);
                 *value = single.encode(row[self.lane]);
             }
         }
@@ -332,13 +332,13 @@ impl PixelTracer for BatchTracer<'_> {
         let (x, y) = (tile.region.x, tile.region.y);
         let mut rows = Rows {
             triangle,
-            origin: (x & !15, y & !15),
+            frame: Frame { origin: (x & !15, y & !15), flat: false },
             weights: TileWeights::new(self.formats.simd()),
             covered: [0; LANES],
             run: [0; LANES],
             lane: ((y & 15) * 16 + (x & 15)) as usize,
         };
-        cover(triangle, rows.origin, tile.region, self.formats.simd(), &mut rows.covered);
+        cover(triangle, rows.frame, tile.region, self.formats.simd(), &mut rows.covered);
         quads(&rows.covered, &mut rows.run);
         let (registers, block) = &self.delivered;
         let slots = self.run_block(block, &mut rows);

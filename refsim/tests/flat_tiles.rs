@@ -1,0 +1,140 @@
+//! Targets of one row of quads, which the batch executor walks in flat tiles, and textures that are too large for its tables: the bits
+//! and counts of the scalar executor.
+
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::Profile;
+use refsim::event::DrawEvents;
+use refsim::exec::Constants;
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::num::Format;
+use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState};
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{AddressMode, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
+
+/// Numbers in [0, 1), always the same.
+struct Numbers(u32);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (self.0 >> 8) as f32 / 16_777_216.0
+    }
+}
+
+/// Looks at its neighbours and its place, and reads texture 0.
+const PROGRAM: &str = "!!FP1.0
+TEX R0, f[TEX0], TEX0, 2D;
+DDX R1, f[TEX1];
+DDY R2, f[TEX1];
+MADR R0, R1, R2, R0;
+MADR R0.xy, f[WPOS], {0.001}.x, R0;
+MOVR o[COLR], R0;
+END";
+
+/// What is drawn where.
+struct Case {
+    size: [u32; 2],
+    scissor: Option<Region>,
+    texture: Image,
+    state: SamplerState,
+    target: TexelFormat,
+}
+
+fn image(format: TexelFormat, side: u32, random: &mut Numbers) -> Image {
+    let values: Vec<[u32; 4]> = (0..side * side).map(|_| [(); 4].map(|()| random.next().to_bits())).collect();
+    let (kind, extents) = (TextureKind::D2, [side, side, 1]);
+    Image::from_values(format, kind, extents, Format::FP32, &values, TargetRounding::Nearest).unwrap()
+}
+
+fn triangles(count: usize, random: &mut Numbers) -> Vec<Vertex> {
+    let vertex = |random: &mut Numbers| {
+        let mut spread = |by: f32| by * (2.0 * random.next() - 1.0);
+        let mut vertex = Vertex::default();
+        vertex.position = [spread(1.5), spread(2.5), 0.5 + spread(0.4), 1.0 + spread(0.3)].map(f32::to_bits);
+        for set in &mut vertex.texcoords[..2] {
+            *set = [spread(1.5), spread(1.5), spread(1.0), 1.0].map(f32::to_bits);
+        }
+        vertex
+    };
+    (0..3 * count).map(|_| vertex(random)).collect()
+}
+
+fn draw(case: &Case, vertices: &[Vertex], mut machine: Machine) -> (Vec<u8>, Vec<u32>, DrawEvents) {
+    let program = check(assemble(PROGRAM).unwrap(), machine.profile()).unwrap();
+    let [width, height] = case.size;
+    let target = machine.create_target(case.target, width, height).unwrap();
+    let depth = machine.create_depth(DepthFormat::Unorm24, width, height).unwrap();
+    let texture = machine.create_texture(case.texture.clone()).unwrap();
+    let constants = Constants::default();
+    let source = VertexSource::Transformed(vertices);
+    let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &constants, target)
+        .with_texture(0, texture, case.state);
+    call.center = PixelCenter::OpenGl;
+    call.scissor = case.scissor;
+    call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
+    call.depth_buffer = Some(depth);
+    if case.target == TexelFormat::Bgra8 {
+        call.blend = Some(BlendState::both(BlendFactor::One, BlendFactor::One, BlendOp::Add));
+    }
+    let events = machine.draw(&call).unwrap();
+    let depths = machine.read_depth(depth).unwrap().data().to_vec();
+    (machine.read_back(target).unwrap().bytes().to_vec(), depths, events)
+}
+
+fn agrees(case: &Case, vertices: &[Vertex]) {
+    let nv35 = Profile::named("nv35").unwrap();
+    let expected = draw(case, vertices, Machine::new(nv35.clone(), ExecutorKind::Scalar));
+    for threads in [1, 3] {
+        let machine = Machine::with_threads(nv35.clone(), ExecutorKind::Batch, threads).unwrap();
+        let found = draw(case, vertices, machine);
+        let what = format!("{:?}, scissor {:?}, {threads} threads", case.size, case.scissor);
+        assert_eq!(found.2, expected.2, "{what}: counts");
+        let differing = found.0.iter().zip(&expected.0).position(|(a, b)| a != b);
+        assert_eq!(differing, None, "{what}: the first byte that differs");
+        assert!(found.1 == expected.1, "{what}: depths");
+    }
+    assert!(expected.2.fragments.generated > 0, "something is drawn");
+}
+
+#[test]
+fn targets_of_one_row_of_quads_are_drawn_alike() {
+    let mut random = Numbers(1);
+    let texture = image(TexelFormat::Rgba32f, 20, &mut random);
+    let region = |x, y, width, height| Some(Region { x, y, width, height });
+    let flat = [[1, 1], [16, 1], [17, 1], [40, 2], [128, 1], [130, 2], [300, 1], [300, 2]].map(|size| (size, None));
+    let cut = [
+        ([300, 1], region(120, 0, 9, 1)),
+        ([300, 2], region(97, 1, 150, 1)),
+        ([150, 40], region(3, 22, 140, 2)),
+        ([150, 40], region(3, 21, 140, 2)),
+        ([150, 40], region(125, 17, 6, 1)),
+        ([150, 40], region(20, 39, 130, 1)),
+        ([17, 30], region(4, 28, 26, 31)),
+        ([17, 6], region(12, 5, 6, 36)),
+        ([34, 3], region(10, 0, 9, 2)),
+    ];
+    for (size, scissor) in flat.into_iter().chain(cut) {
+        for target in [TexelFormat::Rgba32f, TexelFormat::Bgra8, TexelFormat::Rgba16f] {
+            let state = SamplerState::NEAREST_CLAMP;
+            let case = Case { size, scissor, texture: texture.clone(), state, target };
+            agrees(&case, &triangles(25, &mut random));
+        }
+    }
+}
+
+#[test]
+fn textures_without_a_table_are_read_alike() {
+    let mut random = Numbers(2);
+    let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::R32f, TexelFormat::Bgra8, TexelFormat::L16];
+    for format in formats {
+        let texture = image(format, 600, &mut random);
+        for mode in [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border] {
+            let border = [0.25_f32, 0.5, 0.75, 1.0].map(f32::to_bits);
+            let state = SamplerState { address_u: mode, address_v: mode, border, ..SamplerState::NEAREST_CLAMP };
+            let case =
+                Case { size: [50, 21], scissor: None, texture: texture.clone(), state, target: TexelFormat::Rgba32f };
+            agrees(&case, &triangles(12, &mut random));
+        }
+    }
+}
