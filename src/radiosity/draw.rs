@@ -132,15 +132,6 @@ pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
     vector.map(|x| (x as f32).to_bits())
 }
 
-/// A rectangle that fills the target, its texture coordinates counting texels from the upper left.
-pub(super) fn full_target([width, height]: [u32; 2]) -> [Vertex; 4] {
-    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]: [f64; 2]| {
-        let mut vertex = Vertex { position: bits([2.0 * x - 1.0, 1.0 - 2.0 * y, 0.5, 1.0]), ..Vertex::default() };
-        vertex.texcoords[0] = bits([x * f64::from(width), y * f64::from(height), 0.0, 1.0]);
-        vertex
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,11 +4,11 @@
 //! corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the host.
 
 mod corners;
-pub mod programs;
+pub(super) mod programs;
 mod resample;
 
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DepthId, DrawCall, Machine, TextureId, VertexSource};
+use refsim::machine::{DepthId, DrawCall, Machine, MachineError, TextureId, VertexSource};
 use refsim::num::Format;
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
@@ -16,11 +16,14 @@ use refsim::texture::{Image, SamplerState, SignedTexelMinimum, TexelFormat};
 
 use super::draw::{DrawError, Projection, bits, patch_of};
 use super::{Patch, Patches};
+use crate::card;
 use crate::scene::Camera;
 use corners::Meetings;
 pub use corners::at_corners;
-use programs::{KernelText, checked};
-use resample::{Resampler, rectangle};
+use programs::checked;
+
+use super::kernels::{self, KernelText};
+use resample::Resampler;
 
 /// Which way a vector of radiosities lies in its texture, a rectangle of `rgba32f`: texel i is red, green and blue of patch i.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,8 +108,8 @@ impl Display {
         options: DisplayOptions,
     ) -> Result<Self, DrawError> {
         let program = |kernel: KernelText| checked(machine.profile(), kernel);
-        let (flat, id) = (program(programs::FLAT)?, program(programs::ID)?);
-        let (quad, triangle) = (program(programs::SMOOTH_QUAD)?, program(programs::SMOOTH_TRIANGLE)?);
+        let (flat, id) = (program(kernels::FLAT)?, program(kernels::ID)?);
+        let (quad, triangle) = (program(kernels::SMOOTH_QUAD)?, program(kernels::SMOOTH_TRIANGLE)?);
         let meetings = Meetings::new(patches);
         let resampler = Resampler::new(machine, &meetings, options.vector)?;
         let view = View { patches, camera, meetings: &meetings, resampler: &resampler, vector: options.vector };
@@ -129,10 +132,11 @@ impl Display {
         if radiosity.len() != self.patches {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
         }
-        let texels: Vec<[u32; 4]> = radiosity.iter().map(|&[r, g, b]| bits([r, g, b, 0.0])).collect();
-        let long = texels.len() as u32;
+        let texels: Vec<[f32; 4]> = radiosity.iter().map(|b| [b[0] as f32, b[1] as f32, b[2] as f32, 0.0]).collect();
+        let long = texels.len();
         let size = if self.options.vector == VectorTexture::Row { [long, 1] } else { [1, long] };
-        Ok(machine.create_texture(rectangle(size, &texels)?)?)
+        let image = card::float_image(TexelFormat::Rgba32f, size, &texels).map_err(MachineError::from)?;
+        Ok(machine.create_texture(image)?)
     }
 
     /// Each patch in its radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.

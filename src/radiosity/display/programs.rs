@@ -1,4 +1,4 @@
-//! The fragment programs that draw, as period assembly, embedded.
+//! A fragment program that draws, as a device takes it.
 
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -6,34 +6,7 @@ use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 
 use crate::radiosity::draw::DrawError;
-
-/// A program text with the name under which messages speak of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct KernelText {
-    /// The file's name.
-    pub name: &'static str,
-    /// Its contents.
-    pub text: &'static str,
-}
-
-macro_rules! kernels {
-    ($($constant:ident $file:literal)*) => {
-        $(
-            #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
-            pub const $constant: KernelText = KernelText { name: $file, text: include_str!(concat!("../kernels/", $file)) };
-        )*
-        /// Every program that draws.
-        pub const ALL: &[KernelText] = &[$($constant),*];
-    };
-}
-
-kernels! {
-    FLAT "flat.fp"
-    ID "id.fp"
-    RESAMPLE "resample.fp"
-    SMOOTH_QUAD "smooth_quad.fp"
-    SMOOTH_TRIANGLE "smooth_triangle.fp"
-}
+use crate::radiosity::kernels::KernelText;
 
 /// A program, judged by the device's own rules.
 pub(in crate::radiosity) fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, DrawError> {

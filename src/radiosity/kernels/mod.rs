@@ -1,5 +1,5 @@
-//! The fragment programs of matrix radiosity as text: each file is a program for a block of one texel, whose middle is written out as
-//! often as a block has texels. There are no loops in these programs.
+//! The fragment programs of matrix radiosity as text. Those that solve are programs for a block of one texel, whose middle is written out
+//! as often as a block has texels: there are no loops in these programs. Those that draw are used as they stand.
 
 use std::fmt::Write as _;
 
@@ -13,22 +13,24 @@ const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
 pub struct KernelText {
     /// The file's name.
     pub name: &'static str,
-    /// Its contents: a program for one texel.
+    /// Its contents; of a program that solves, for one texel.
     pub text: &'static str,
 }
 
 macro_rules! kernels {
-    ($($constant:ident $file:literal)*) => {
+    ($(#[$doc:meta])* $list:ident: $($constant:ident $file:literal)*) => {
         $(
             #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
             pub const $constant: KernelText = KernelText { name: $file, text: include_str!($file) };
         )*
-        /// Every program of this folder.
-        pub const ALL: &[KernelText] = &[$($constant),*];
+        $(#[$doc])*
+        pub const $list: &[KernelText] = &[$($constant),*];
     };
 }
 
 kernels! {
+    /// The programs that are written out for a block.
+    BLOCKS:
     RGB_FIRST "rgb_first.fp"
     RGB_NEXT "rgb_next.fp"
     LUMINANCE_FIRST "luminance_first.fp"
@@ -39,6 +41,16 @@ kernels! {
     LUMINANCE_NEXT_HALF "luminance_next_half.fp"
     PRODUCT_FIRST "product_first.fp"
     PRODUCT_NEXT "product_next.fp"
+}
+
+kernels! {
+    /// The programs that draw, as they stand.
+    DRAWING:
+    FLAT "flat.fp"
+    ID "id.fp"
+    RESAMPLE "resample.fp"
+    SMOOTH_QUAD "smooth_quad.fp"
+    SMOOTH_TRIANGLE "smooth_triangle.fp"
 }
 
 impl KernelText {
@@ -106,7 +118,7 @@ mod tests {
     #[test]
     fn a_block_of_the_paper_is_the_longest_that_fits() {
         let most = MOST_INSTRUCTIONS as usize;
-        for kernel in ALL {
+        for kernel in BLOCKS {
             let [rest, each] = [kernel.overhead(), kernel.per_texel()];
             let block = kernel.block(most);
             let expected = if each == 4 { BLOCK as usize } else { 204 };
@@ -120,7 +132,7 @@ mod tests {
 
     #[test]
     fn files_are_programs_for_one_texel() {
-        for kernel in ALL {
+        for kernel in BLOCKS {
             let stripped = |text: &str| -> Vec<String> {
                 text.lines().filter(|line| line.ends_with(';')).map(str::to_owned).collect()
             };

@@ -3,9 +3,9 @@
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{Vec3, add, cross, dot, scale, sub};
 use crossbar::geom::{Mesh, Ray};
-use crossbar::radiosity::display::{Display, DisplayOptions, Picture, VectorTexture, at_corners, programs};
+use crossbar::radiosity::display::{Display, DisplayOptions, Picture, VectorTexture, at_corners};
 use crossbar::radiosity::rooms::{self, CornellBox};
-use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision};
+use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind, Machine};
@@ -225,7 +225,7 @@ fn a_gpu_draws_the_same_pictures_in_integer_mode() {
 fn every_program_runs_on_both_cards() {
     for device in ["nv30", "nv35"] {
         let profile = Profile::named(device).expect("a device");
-        for kernel in programs::ALL {
+        for kernel in kernels::DRAWING {
             let program = refsim::asm::assemble(kernel.text).unwrap_or_else(|e| panic!("{}: {e}", kernel.name));
             refsim::check::check(program, &profile).unwrap_or_else(|e| panic!("{} on {device}: {e}", kernel.name));
         }

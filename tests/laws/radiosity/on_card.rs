@@ -146,7 +146,7 @@ fn programs_are_as_long_as_the_card_takes() {
     assert_eq!(counts(Packing::Luminance, Storage::Fp32, 1540), luminance);
     assert_eq!(counts(Packing::Rgb, Storage::Fp16, 254), [("rgb_first_half.fp", 254, 1021)]);
     assert_eq!(counts(Packing::Luminance, Storage::Fp16, 1016), [("luminance_first_half.fp", 254, 1023)]);
-    for kernel in kernels::ALL {
+    for kernel in kernels::BLOCKS {
         let verdict = |texels| check(assemble(&kernel.unrolled(texels)).expect("a program"), &nv35);
         let block = kernel.block(1024);
         assert_eq!(verdict(block).expect("it fits").instructions.len(), kernel.overhead() + block * kernel.per_texel());

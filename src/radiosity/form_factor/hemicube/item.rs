@@ -10,8 +10,9 @@ use refsim::raster::{PixelCenter, Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
 use crate::geom::vector::{Vec3, cross, scale, sub, unit};
-use crate::radiosity::display::programs::{self, checked};
+use crate::radiosity::display::programs::checked;
 use crate::radiosity::draw::{DrawError, Projection, bits};
+use crate::radiosity::kernels;
 use crate::radiosity::{Patch, Patches};
 
 /// Faces of a hemicube: the top, then the sides.
@@ -30,7 +31,7 @@ pub(super) struct ItemBuffer {
 impl ItemBuffer {
     pub(super) fn new(executor: &Executor, profile: &Arc<Profile>, resolution: u32) -> Result<Self, DrawError> {
         let mut machine = executor.machine(Arc::clone(profile))?;
-        let program = checked(profile, programs::ID)?;
+        let program = checked(profile, kernels::ID)?;
         let [width, height] = size(resolution);
         let target = machine.create_target(TexelFormat::R32f, width, height)?;
         let depth = machine.create_depth(DepthFormat::Unorm24, width, height)?;
