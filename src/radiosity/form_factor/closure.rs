@@ -57,20 +57,31 @@ impl FormFactors {
         (0..self.len()).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
     }
 
-    /// Every row within `tolerance` of 1.
+    /// Every row within `tolerance` of 1, but for blind patches: those that see nothing at all, because something stands on them. No
+    /// light reaches them or leaves them, so none is lost; [`FormFactors::blind`] names them. A room of blind patches alone is not closed.
     ///
     /// # Errors
     /// [`FormFactorError::Open`] names the patch farthest from it.
     pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
         let sums = self.row_sums();
+        let blind = sums.iter().filter(|&&sum| sum == 0.0).count();
         // A sum that is no number is not closed either.
         let closed = sums.iter().filter(|&&sum| (sum - 1.0).abs() <= tolerance).count();
-        let open = sums.len() - closed;
+        let all_blind = blind > 0 && blind == sums.len();
+        let open = if all_blind { blind } else { sums.len() - closed - blind };
         if open == 0 {
             return Ok(());
         }
-        let (patch, sum) = farthest(&sums);
-        Err(FormFactorError::Open { patch, sum, open, patches: sums.len(), tolerance })
+        // Blind patches count as closed here.
+        let seeing: Vec<f64> = sums.iter().map(|&sum| if sum == 0.0 && !all_blind { 1.0 } else { sum }).collect();
+        let (patch, sum) = farthest(&seeing);
+        Err(FormFactorError::Open { patch, sum, open, blind, patches: sums.len(), tolerance })
+    }
+
+    /// The patches that see nothing at all, such as those under a block.
+    #[must_use]
+    pub fn blind(&self) -> Vec<usize> {
+        self.row_sums().into_iter().enumerate().filter(|&(_, sum)| sum == 0.0).map(|(patch, _)| patch).collect()
     }
 
     /// Makes A_i F_ij and A_j F_ji equal: both become their mean.

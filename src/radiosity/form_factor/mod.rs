@@ -56,7 +56,7 @@ pub enum FormFactorError {
     /// Light gets out.
     #[error(
         "expected a closed room, found patch {patch} (counted from 0) with form factors that sum to {sum}, and {open} of {patches} \
-         patches more than {tolerance} from 1; close the room, or allow light to leave it"
+         patches more than {tolerance} from 1 ({blind} more see nothing); close the room, or allow light to leave it"
     )]
     Open {
         /// The patch farthest from 1.
@@ -65,6 +65,8 @@ pub enum FormFactorError {
         sum: f64,
         /// Patches outside the tolerance.
         open: usize,
+        /// Patches that see nothing at all.
+        blind: usize,
         /// All patches.
         patches: usize,
         /// The tolerance.
