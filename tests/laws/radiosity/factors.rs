@@ -238,9 +238,9 @@ fn a_screen_hides_what_is_behind_it() {
 #[test]
 fn a_closed_room_with_blocks_closes_but_for_what_is_under_them() {
     let scene = rooms::cornell(CornellBox { blocks: true, open: false });
-    let patches = Patches::new(&scene, Subdivision::AtMost(300)).expect("patches");
+    let patches = Patches::new(&scene, Subdivision::AtMost(700)).expect("patches");
     let open = FormFactors::unoccluded(&patches).expect("factors");
-    let parameters = VisibilityParameters::default();
+    let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
     let mut factors =
         FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |_, _| ()).expect("factors");
     // A pair's share is the mean of side^2 samples of 0 or 1: it deviates by at most 1 / (2 side), a row by that times the root of the
