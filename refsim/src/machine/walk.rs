@@ -46,7 +46,12 @@ pub(super) fn draw(
     };
     let stage = VertexStage::new(call, &profile.rules, kind, needed);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
-    let mut work = tiles(plan.raster.scissor, matches!(executor, Tiles::Batch(_)));
+    let shape = match executor {
+        Tiles::Scalar(_) => TileShapes::Square,
+        Tiles::Batch(tiles) if tiles.fragments_apart() => TileShapes::Any,
+        Tiles::Batch(_) => TileShapes::Flat,
+    };
+    let mut work = tiles(plan.raster.scissor, shape);
     let round = (ROUND / plan.triangles.len().max(1)).max(1);
     let mut first = 0;
     while first < plan.instance_count {
@@ -87,16 +92,29 @@ pub(super) fn draw(
     Ok(Drawn { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
 }
 
-/// The tiles of a region, row by row. They start at multiples of their size: [`TILE`] each way, or where `flat` ones are possible and
-/// the region is one row of quads, as many pixels in two rows.
-fn tiles(region: Region, flat: bool) -> Vec<Work> {
+/// The shapes of tile that an executor can take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum TileShapes {
+    /// [`TILE`] each way.
+    Square,
+    /// For a region of one row of quads also as many pixels in two rows.
+    Flat,
+    /// For a region of one row also as many in one.
+    Any,
+}
+
+/// The tiles of a region, row by row. They start at multiples of their size.
+fn tiles(region: Region, shapes: TileShapes) -> Vec<Work> {
     let mut out = Vec::new();
     if region.width == 0 || region.height == 0 {
         return out;
     }
     let (last_x, last_y) = (region.x + region.width - 1, region.y + region.height - 1);
-    let one_row = region.y / 2 == last_y / 2;
-    let [width, height] = if flat && one_row { [TILE * TILE / 2, 2] } else { [TILE; 2] };
+    let [width, height] = match shapes {
+        TileShapes::Any if region.y == last_y => [TILE * TILE, 1],
+        TileShapes::Any | TileShapes::Flat if region.y / 2 == last_y / 2 => [TILE * TILE / 2, 2],
+        _ => [TILE; 2],
+    };
     for y in region.y / height..=last_y / height {
         for x in region.x / width..=last_x / width {
             let whole = Region { x: x * width, y: y * height, width, height };

@@ -201,6 +201,7 @@ impl Table {
 fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i32; LANES]) {
     let n = f64::from(size);
     match mode {
+        AddressMode::Clamp if scale == 1.0 => clamped(coordinate, size, out),
         AddressMode::Wrap => each(coordinate, scale, out, |p| p - (p / n).floor() * n),
         AddressMode::Mirror => each(coordinate, scale, out, |p| {
             let folded = p - (p / (2.0 * n)).floor() * (2.0 * n);
@@ -211,6 +212,20 @@ fn axis(coordinate: &Row, scale: f64, size: u32, mode: AddressMode, out: &mut [i
             if above < n - 1.0 { above } else { n - 1.0 }
         }),
         AddressMode::Border => each(coordinate, scale, out, |p| if (p >= 0.0) & (p < n) { p } else { -1.0 }),
+    }
+}
+
+/// Texel numbers of a rectangle's axis, clamped: coordinates are positions, and singles hold what becomes of them exactly.
+#[inline(always)]
+fn clamped(coordinate: &Row, size: u32, out: &mut [i32; LANES]) {
+    // Less than 2^24, so exact.
+    let last = (size - 1) as f32;
+    for i in 0..LANES {
+        let c = f32::from_bits(coordinate[i]);
+        let finite = if c.abs() < f32::INFINITY { c } else { 0.0 };
+        let above = if finite > 0.0 { finite } else { 0.0 };
+        // Between 0 and the last, where cutting off is rounding down.
+        out[i] = (if above < last { above } else { last }) as i32;
     }
 }
 

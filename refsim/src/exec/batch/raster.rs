@@ -9,42 +9,75 @@ use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;
 
-/// Where the lanes of a tile are. In either shape the lanes of a quad differ in bits 0 (across) and 4 (down).
+/// The shape of a tile of 256 pixels. In the first two the lanes of a quad differ in bits 0 (across) and 4 (down); in the last quads have
+/// no second row, so only programs that do not look at neighbours can be run in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// 16 x 16.
+    #[default]
+    Square,
+    /// 128 x 2: 16 x 2 after 16 x 2.
+    Flat,
+    /// 256 x 1.
+    Line,
+}
+
+/// [`Shape`] where code is made for each.
+const SQUARE: u8 = 0;
+const FLAT: u8 = 1;
+const LINE: u8 = 2;
+
+/// Where the lanes of a tile are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Frame {
     /// Column and row of lane 0.
     pub(crate) origin: (u32, u32),
-    /// 128 x 2 pixels, 16 x 2 after 16 x 2; else 16 x 16.
-    pub(crate) flat: bool,
+    /// How they lie.
+    pub(crate) shape: Shape,
 }
 
 impl Frame {
-    /// The tile around a region that fits one: a flat one if it does not fit a square one. Where it fits both, the lanes are the same.
+    /// The tile around a region that fits one: a flat one if it does not fit a square one, a line if it does not fit a flat one. Where it
+    /// fits square and flat ones, the lanes are the same.
     pub(crate) fn around(region: Region) -> Self {
-        let flat = (region.x & 15) + region.width > 16;
-        Self { origin: (region.x & !15, if flat { region.y & !1 } else { region.y & !15 }), flat }
+        let (shape, height) = match () {
+            () if (region.x & 15) + region.width <= 16 => (Shape::Square, 16),
+            () if (region.x & 127) + region.width <= 128 => (Shape::Flat, 2),
+            () => (Shape::Line, 1),
+        };
+        let left = if shape == Shape::Line { region.x & !255 } else { region.x & !15 };
+        Self { origin: (left, region.y / height * height), shape }
     }
 
     /// Column and row of a lane, in the target.
     pub(crate) fn pixel(self, lane: usize) -> (u32, u32) {
-        let (x, y) = if self.flat { place::<true>(lane) } else { place::<false>(lane) };
+        let (x, y) = match self.shape {
+            Shape::Square => place::<SQUARE>(lane),
+            Shape::Flat => place::<FLAT>(lane),
+            Shape::Line => place::<LINE>(lane),
+        };
         (self.origin.0 + x, self.origin.1 + y)
     }
 
     /// The lane of a pixel of the tile.
     pub(crate) fn lane(self, x: u32, y: u32) -> usize {
         let (x, y) = ((x - self.origin.0) as usize, (y - self.origin.1) as usize);
-        (if self.flat { x & 15 | y << 4 | x >> 4 << 5 } else { y << 4 | x }) & (LANES - 1)
+        let lane = match self.shape {
+            Shape::Square => y << 4 | x,
+            Shape::Flat => x & 15 | y << 4 | x >> 4 << 5,
+            Shape::Line => x,
+        };
+        lane & (LANES - 1)
     }
 }
 
 /// Column and row of a lane within its tile.
 #[inline(always)]
-const fn place<const FLAT: bool>(lane: usize) -> (u32, u32) {
-    if FLAT {
-        ((lane & 15 | lane >> 5 << 4) as u32, (lane >> 4 & 1) as u32)
-    } else {
-        ((lane & 15) as u32, (lane >> 4) as u32)
+const fn place<const SHAPE: u8>(lane: usize) -> (u32, u32) {
+    match SHAPE {
+        FLAT => ((lane & 15 | lane >> 5 << 4) as u32, (lane >> 4 & 1) as u32),
+        LINE => (lane as u32, 0),
+        _ => ((lane & 15) as u32, (lane >> 4) as u32),
     }
 }
 
@@ -65,18 +98,19 @@ pub(crate) fn cover(setup: &TriangleSetup, frame: Frame, region: Region, simd: S
     let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);
     simd.run(
         #[inline(always)]
-        || match frame.flat {
-            true => cover_lanes::<true>(&edges, columns, rows, out),
-            false => cover_lanes::<false>(&edges, columns, rows, out),
+        || match frame.shape {
+            Shape::Square => cover_lanes::<SQUARE>(&edges, columns, rows, out),
+            Shape::Flat => cover_lanes::<FLAT>(&edges, columns, rows, out),
+            Shape::Line => cover_lanes::<LINE>(&edges, columns, rows, out),
         },
     );
     out.iter().map(|&m| u64::from(m & 1)).sum()
 }
 
 #[inline(always)]
-fn cover_lanes<const FLAT: bool>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
+fn cover_lanes<const SHAPE: u8>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows: (u32, u32), out: &mut Row) {
     for (i, lane) in out.iter_mut().enumerate() {
-        let (x, y) = place::<FLAT>(i);
+        let (x, y) = place::<SHAPE>(i);
         let at = |e: &[i64; 3]| e[0] * i64::from(x) + e[1] * i64::from(y) + e[2];
         let within = (x >= columns.0) & (x < columns.1) & (y >= rows.0) & (y < rows.1);
         // All three at least zero: no sign bit in any.
@@ -130,9 +164,10 @@ impl TileWeights {
         let area = f32::from_bits(setup.area_bits);
         self.simd.run(
             #[inline(always)]
-            || match frame.flat {
-                true => linear::<true>(&local, area, &mut self.linear),
-                false => linear::<false>(&local, area, &mut self.linear),
+            || match frame.shape {
+                Shape::Square => linear::<SQUARE>(&local, area, &mut self.linear),
+                Shape::Flat => linear::<FLAT>(&local, area, &mut self.linear),
+                Shape::Line => linear::<LINE>(&local, area, &mut self.linear),
             },
         );
         match w {
@@ -212,10 +247,10 @@ pub(crate) fn lay_over(to: &mut Row, from: &Row, mask: &Row) {
 }
 
 #[inline(always)]
-fn linear<const FLAT: bool>(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
+fn linear<const SHAPE: u8>(edges: &[[i64; 3]; 2], area: f32, out: &mut [[f32; LANES]; 2]) {
     for (e, row) in edges.iter().zip(out) {
         for (i, weight) in row.iter_mut().enumerate() {
-            let (x, y) = place::<FLAT>(i);
+            let (x, y) = place::<SHAPE>(i);
             *weight = (e[0] * i64::from(x) + e[1] * i64::from(y) + e[2]) as f32 / area;
         }
     }

@@ -8,7 +8,7 @@
 use super::arith::Formats;
 use super::graph::Arith;
 use super::lane::LANES;
-use super::raster::{Frame, TileWeights, cover, lay_over, quads};
+use super::raster::{Frame, Shape, TileWeights, cover, lay_over, quads};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 use super::surfaces::Surfaces;
@@ -124,7 +124,10 @@ impl Shader {
                 break;
             }
         }
-        quads(&self.covered, &mut self.run);
+        match self.frame.shape {
+            Shape::Line => self.run = self.covered,
+            Shape::Square | Shape::Flat => quads(&self.covered, &mut self.run),
+        }
         if manner.depth {
             self.interpolate_depth(surfaces);
         }

@@ -128,6 +128,14 @@ impl<'a> BatchTiles<'a> {
         self.inputs
     }
 
+    /// Whether the program never looks at neighbouring fragments, so that a tile may have a single row.
+    pub fn fragments_apart(&self) -> bool {
+        match &self.program.code {
+            PixelCode::Straight(program, _) => program.lanes_apart,
+            PixelCode::Flow(_) => false,
+        }
+    }
+
     fn around(&self) -> Surroundings<'_> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }

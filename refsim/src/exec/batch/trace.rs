@@ -15,7 +15,7 @@ use super::graph::{Arith, Node};
 use super::lane::LANES;
 use super::output::Results;
 use super::program::{Ends, decode, has_flow, pixel_formats};
-use super::raster::{Frame, TileWeights, cover, quads};
+use super::raster::{Frame, Shape, TileWeights, cover, quads};
 use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
@@ -332,7 +332,7 @@ impl PixelTracer for BatchTracer<'_> {
         let (x, y) = (tile.region.x, tile.region.y);
         let mut rows = Rows {
             triangle,
-            frame: Frame { origin: (x & !15, y & !15), flat: false },
+            frame: Frame { origin: (x & !15, y & !15), shape: Shape::Square },
             weights: TileWeights::new(self.formats.simd()),
             covered: [0; LANES],
             run: [0; LANES],
