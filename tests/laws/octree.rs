@@ -1,6 +1,6 @@
 //! The octree loses no hit.
 
-use crossbar::geom::exact::Sides;
+use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
@@ -68,7 +68,12 @@ proptest! {
             let (found, counts) = fine.nearest(&ray);
             let (expected, all) = whole.nearest(&ray);
             prop_assert!(all.tests <= mesh.len() as u64);
-            prop_assert_eq!(found, expected);
+            if found != expected {
+                // Rounding can make a hit of a triangle that the ray misses, and then no cell on the ray's way need hold it.
+                let false_hit = expected.expect("what is found in cells is found among all").triangle;
+                let corners = mesh.corners(false_hit).expect("a triangle");
+                prop_assert!(exact::intersect(&ray, &corners, sides).is_none(), "lost {:?}, found {:?}", expected, found);
+            }
             prop_assert_eq!((found, counts), fine.nearest_in(&ray, None), "the plain way");
             let before = found.map_or(1.0, |hit| hit.t);
             for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
