@@ -60,8 +60,8 @@ fn image(format: TexelFormat, side: u32, random: &mut Numbers) -> Image {
 fn triangles(count: usize, random: &mut Numbers) -> Vec<Vertex> {
     let vertex = |random: &mut Numbers| {
         let mut spread = |by: f32| by * (2.0 * random.next() - 1.0);
-        let mut vertex = Vertex::default();
-        vertex.position = [spread(1.5), spread(2.5), 0.5 + spread(0.4), 1.0 + spread(0.3)].map(f32::to_bits);
+        let position = [spread(1.5), spread(2.5), 0.5 + spread(0.4), 1.0 + spread(0.3)].map(f32::to_bits);
+        let mut vertex = Vertex { position, ..Vertex::default() };
         for set in &mut vertex.texcoords[..2] {
             *set = [spread(1.5), spread(1.5), spread(1.0), 1.0].map(f32::to_bits);
         }

@@ -118,11 +118,13 @@ pub(super) fn wishes(args: &Args) -> Wishes {
 pub(super) fn ways(args: &Args) -> Result<Vec<Way>, Problem> {
     let usual = [SolverArg::Card, SolverArg::Host(Solver::GaussSeidel), SolverArg::Host(Solver::Direct)];
     let solvers = if args.solver.is_empty() { &usual[..] } else { &args.solver };
-    if !solvers.contains(&SolverArg::Card) && !(args.packing.is_empty() && args.storage.is_empty()) {
+    let on_card = solvers.contains(&SolverArg::Card);
+    let of_the_card = !args.packing.is_empty() || !args.storage.is_empty();
+    if of_the_card && !on_card {
         let help = "add `--solver card`, or leave them out";
         return Err(Problem::usage("`--packing` and `--storage` are for the card", help));
     }
-    if !solvers.contains(&SolverArg::Card) && !args.frames.is_empty() {
+    if !on_card && !args.frames.is_empty() {
         let help = "add `--solver card`, or leave it out";
         return Err(Problem::usage("`--frames` shows the iterations of the card", help));
     }

@@ -38,7 +38,7 @@ impl<'a> Stored<'a> {
             ComponentSource::Channel(i) => {
                 let channel = record.channels[usize::from(i)];
                 match decode_channel(channel, 0, rules.signed_texel_minimum) {
-                    ChannelValue::Float { format: Format::FP32, .. } if channel.shift % 8 == 0 => {
+                    ChannelValue::Float { format: Format::FP32, .. } if channel.shift.is_multiple_of(8) => {
                         Component::Single(usize::from(channel.shift / 8))
                     }
                     _ => Component::Other(channel),
