@@ -6,6 +6,7 @@ use miette::IntoDiagnostic as _;
 
 use super::size::Size;
 use super::{Problem, view};
+use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::scene::{Camera, Scene, built};
 
@@ -32,21 +33,45 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     })
 }
 
+/// An eye of the user's own.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct EyeArgs {
+    /// Where the rays start [default: far enough to see all of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    pub(super) eye: Option<[f32; 3]>,
+
+    /// The middle of the picture [default: the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    pub(super) target: Option<[f32; 3]>,
+
+    /// The direction that points up in the picture
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
+    pub(super) up: [f32; 3],
+
+    /// Tangent of half the vertical field of view, where no view of the scene says it
+    #[arg(long, value_name = "TAN", default_value_t = 0.375)]
+    pub(super) tan_half_height: f32,
+}
+
+impl EyeArgs {
+    /// A camera there; without an eye, one that sees all of the mesh.
+    pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
+        view::framing(mesh, size, self.tan_half_height, (self.eye, self.target, self.up))
+    }
+}
+
 /// From where a picture is taken, as the command line says it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand<'a> {
     pub(super) size: Size,
     pub(super) view: Option<&'a str>,
-    pub(super) eye: Option<[f32; 3]>,
-    pub(super) target: Option<[f32; 3]>,
-    pub(super) up: [f32; 3],
-    pub(super) tan_half_height: f32,
+    pub(super) eye: EyeArgs,
 }
 
 impl Stand<'_> {
     /// The view asked for, else the eye asked for, else the scene's first view, else so that all is seen.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
-        let aimed = self.eye.is_some() || self.target.is_some();
+        let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {
             Some(_) if aimed => {
                 let help = "leave out `--view`, or `--eye` and `--target`";
@@ -58,7 +83,7 @@ impl Stand<'_> {
         };
         match view {
             Some(view) => view.camera(self.size.width, self.size.height).into_diagnostic(),
-            None => view::framing(scene.mesh(), self.size, self.tan_half_height, (self.eye, self.target, self.up)),
+            None => self.eye.framing(scene.mesh(), self.size),
         }
     }
 }

@@ -228,10 +228,14 @@ pub(super) fn spelled(args: &Args) -> String {
     if let Some(view) = &args.view {
         add(format_args!("--view {view}"));
     }
-    for (option, point) in [("eye", args.eye), ("target", args.target)] {
+    let up = (args.eye.up != [0.0, 0.0, 1.0]).then_some(args.eye.up);
+    for (option, point) in [("eye", args.eye.eye), ("target", args.eye.target), ("up", up)] {
         if let Some([x, y, z]) = point {
             add(format_args!("--{option} {x},{y},{z}"));
         }
+    }
+    if args.eye.eye.is_some() || args.eye.target.is_some() {
+        add(format_args!("--tan-half-height {}", args.eye.tan_half_height));
     }
     if let Some(x) = args.exposure {
         add(format_args!("--exposure {x}"));

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use refsim::device::Profile;
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::scene_name::{self, Stand};
+use super::scene_name::{self, EyeArgs, Stand};
 use super::size::Size;
 use super::{Out, Problem, Progress, Verdict, view};
 use crate::io::atomic::FileSet;
@@ -123,21 +123,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME")]
     view: Option<String>,
 
-    /// Where the rays start [default: far enough to see all of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
-    eye: Option<[f32; 3]>,
-
-    /// The middle of the picture [default: the middle of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
-    target: Option<[f32; 3]>,
-
-    /// The direction that points up in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
-    up: [f32; 3],
-
-    /// Tangent of half the vertical field of view, where no view of the scene says it
-    #[arg(long, value_name = "TAN", default_value_t = 0.375)]
-    tan_half_height: f32,
+    #[command(flatten)]
+    eye: EyeArgs,
 
     /// What radiance is multiplied by in pictures; 1 is white [default: so that what does not shine is grey in the mean]
     #[arg(long, value_name = "X", value_parser = ask::positive)]
@@ -171,14 +158,7 @@ enum Law {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let ways = ask::ways(args)?;
     let scene = scene_name::scene(&args.scene)?;
-    let stand = Stand {
-        size: args.size,
-        view: args.view.as_deref(),
-        eye: args.eye,
-        target: args.target,
-        up: args.up,
-        tan_half_height: args.tan_half_height,
-    };
+    let stand = Stand { size: args.size, view: args.view.as_deref(), eye: args.eye };
     let parameters = Parameters {
         camera: stand.camera(&scene)?,
         subdivision: ask::subdivision(args),

@@ -9,6 +9,7 @@ use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 
 use super::executor::{Decider, GpuArgs};
+use super::scene_name::EyeArgs;
 use super::size::Size;
 use super::{Out, Problem, Verdict, view};
 use crate::geom::Mesh;
@@ -47,21 +48,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", default_value = "512x512")]
     size: Size,
 
-    /// Where the rays start [default: far enough to see all of the mesh]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
-    eye: Option<[f32; 3]>,
-
-    /// The middle of the picture [default: the middle of the mesh]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
-    target: Option<[f32; 3]>,
-
-    /// The direction that points up in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
-    up: [f32; 3],
-
-    /// Tangent of half the vertical field of view, where no view of the scene says it
-    #[arg(long, value_name = "TAN", default_value_t = 0.375)]
-    tan_half_height: f32,
+    #[command(flatten)]
+    eye: EyeArgs,
 
     /// Which faces can be hit
     #[arg(long, value_enum, default_value = "both")]
@@ -128,5 +116,5 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.
 fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
-    view::framing(mesh, args.size, args.tan_half_height, (args.eye, args.target, args.up))
+    args.eye.framing(mesh, args.size)
 }

@@ -26,13 +26,5 @@ pub(super) fn lit(args: &Args) -> miette::Result<Option<Asked>> {
 
 /// From where: see [`Stand::camera`].
 pub(super) fn camera(args: &Args, scene: &Scene) -> miette::Result<Camera> {
-    let stand = Stand {
-        size: args.size,
-        view: args.light.view.as_deref(),
-        eye: args.eye,
-        target: args.target,
-        up: args.up,
-        tan_half_height: args.tan_half_height,
-    };
-    stand.camera(scene)
+    Stand { size: args.size, view: args.light.view.as_deref(), eye: args.eye }.camera(scene)
 }
