@@ -33,6 +33,15 @@ pub enum Packing {
 }
 
 impl Packing {
+    /// Elements of a matrix's row that a texel holds.
+    #[must_use]
+    pub const fn elements(self) -> u32 {
+        match self {
+            Self::Rgb => 1,
+            Self::Luminance => 4,
+        }
+    }
+
     /// Texels across and down of a matrix of so many patches.
     #[must_use]
     pub const fn matrix_texels(self, patches: usize) -> [usize; 2] {

@@ -92,7 +92,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<Timed, Rate
     Ok(Timed {
         passes: model::passes(
             timing.patches as u32,
-            elements(timing.packing),
+            timing.packing.elements(),
             Fit::of(profile, timing.packing)?.block as u32,
         ) as usize,
         draws: draws.len(),
@@ -107,13 +107,6 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<Timed, Rate
         per_s,
         mflops: model::mflops(timing.patches as u32, per_s),
     })
-}
-
-fn elements(packing: Packing) -> u32 {
-    match packing {
-        Packing::Rgb => 1,
-        Packing::Luminance => 4,
-    }
 }
 
 /// What is asked of the card in the second of two iterations, as in any but the first.

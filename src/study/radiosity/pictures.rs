@@ -1,6 +1,6 @@
 //! How the room looks, drawn by the card: from the solver's own texture where one texture holds all three channels, else uploaded.
 
-use refsim::machine::{Executor, Machine, MachineError};
+use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
 
 use super::way::{CardFacts, Solved};
@@ -61,26 +61,21 @@ pub(super) struct Studio<'a> {
 
 impl<'a> Studio<'a> {
     pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
-        let mut machine = machine(&parameters.executor, parameters)?;
+        let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
         Ok(Self { patches, parameters, exposure, machine, display })
-    }
-
-    fn bytes(&self, picture: &Picture) -> Vec<u8> {
-        // The program has multiplied already.
-        tone::bytes(&picture.pixels, 1.0)
     }
 
     fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         let picture = self.display.flat(&mut self.machine, texture, self.exposure)?;
-        Ok(self.bytes(&picture))
+        Ok(bytes(&picture))
     }
 
     fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         let picture = self.display.smooth(&mut self.machine, texture, self.exposure)?;
-        Ok(self.bytes(&picture))
+        Ok(bytes(&picture))
     }
 
     /// Pictures of a solution and of what came after it, and what its card says.
@@ -99,7 +94,7 @@ impl<'a> Studio<'a> {
                 let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, OPTIONS)?;
                 let flat = display.flat(card.machine_mut(), all, self.exposure)?;
                 let smooth = display.smooth(card.machine_mut(), all, self.exposure)?;
-                (self.bytes(&flat), self.bytes(&smooth))
+                (bytes(&flat), bytes(&smooth))
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
@@ -120,6 +115,7 @@ impl<'a> Studio<'a> {
     }
 }
 
-fn machine(executor: &Executor, parameters: &Parameters) -> Result<Machine, MachineError> {
-    executor.clone().machine(parameters.profile.clone())
+/// Through the curve of a display; the program has multiplied by the exposure already.
+fn bytes(picture: &Picture) -> Vec<u8> {
+    tone::bytes(&picture.pixels, 1.0)
 }

@@ -5,8 +5,7 @@ use refsim::timing::Bottleneck;
 use super::way::{CardFacts, CardWay};
 use super::{Parameters, StudyError};
 use crate::radiosity::display::{Display, DisplayOptions};
-use crate::radiosity::on_card::{CardSolver, PassProgram, Storage};
-use crate::radiosity::packing::Packing;
+use crate::radiosity::on_card::{CardSolver, PassProgram};
 use crate::radiosity::rate::{Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
 
@@ -52,14 +51,13 @@ pub(super) fn facts(
     }
     let log = card.take_log();
     card.record(false);
-    let elements = if how.packing == Packing::Rgb { 1 } else { 4 };
-    let texel = if how.storage == Storage::Fp32 { 16 } else { 8 };
+    let texel = how.storage.format().bytes() as u32;
     let programs = card.programs();
     Ok(CardFacts {
         passes: card.passes() * systems,
         block: programs.iter().map(|p| p.texels).max().unwrap_or(0),
         instructions: programs.iter().map(PassProgram::instructions).max().unwrap_or(0),
-        matrix_bytes: model::matrix_bytes(card.len() as u32, elements, texel) * systems as f64,
+        matrix_bytes: model::matrix_bytes(card.len() as u32, how.packing.elements(), texel) * systems as f64,
         time: time(how, systems, card.len(), parameters),
         log,
     })
