@@ -2,10 +2,10 @@
 
 use std::{io, path::Path, sync::Arc};
 
-use miette::{Diagnostic, NamedSource};
+use miette::{Diagnostic, NamedSource, SourceSpan};
 use refsim::{
     asm::{self, SyntaxError},
-    check::{self, Checked, Violation},
+    check::{self, Checked, Violation, Warning},
     device::Profile,
     isa::{Program, SlotCost, Span, Version},
 };
@@ -95,7 +95,23 @@ pub enum ShaderError {
         /// Every violation, in the order of the text; at least one.
         #[related]
         violations: Vec<Violation>,
+        /// Every warning, in the order of the text.
+        warnings: Vec<Warning>,
     },
+}
+
+/// A warning of the checker with the text that it is about.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+#[diagnostic(code("check"), severity(Warning), help("{code}: {help}"))]
+pub struct ShaderWarning {
+    code: &'static str,
+    message: String,
+    help: &'static str,
+    #[source_code]
+    source_code: Arc<NamedSource<String>>,
+    #[label("here")]
+    span: SourceSpan,
 }
 
 fn count(number: usize, noun: &str) -> String {
@@ -184,6 +200,21 @@ impl ShaderText {
             device: report.device,
             source_code: self.source_code(),
             violations: report.violations,
+            warnings: report.warnings,
+        })
+    }
+
+    /// The warnings of the text's program, ready to be shown.
+    pub fn warnings<'a>(&'a self, program: &'a Checked<Program>) -> impl Iterator<Item = ShaderWarning> + 'a {
+        program.warnings().iter().map(|warning| {
+            let (start, end) = (warning.span.start as usize, warning.span.end as usize);
+            ShaderWarning {
+                code: warning.code,
+                message: warning.message.clone(),
+                help: warning.help,
+                source_code: self.source_code(),
+                span: (start, end.saturating_sub(start)).into(),
+            }
         })
     }
 

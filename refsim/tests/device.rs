@@ -1,7 +1,8 @@
 //! The profiles: they load, say what they should, and refuse what they do not have.
 
 use refsim::device::{
-    ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, SignedTexelMinimum, TexkillComponents,
+    ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange, SignedTexelMinimum,
+    TexkillComponents,
 };
 use refsim::isa::Version;
 use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
@@ -50,7 +51,7 @@ fn r200_is_what_the_paper_says() {
     assert_eq!(r200.rules.format, Format::S3_12.with_rounding(Rounding::Down));
     assert_eq!(r200.rules.partial, None);
     assert_eq!(r200.rules.vertex_format, Format::FP32);
-    assert_eq!(r200.rules.constant_storage, ConstantStorage::Snorm8);
+    assert_eq!(r200.rules.constant_storage, ConstantStorage::Register);
     assert_eq!(r200.rules.color_iterator, ColorIterator::Unorm(8));
     assert_eq!((r200.rules.mad, r200.rules.dot), (MadMode::TwoRoundings, DotOrder::Sequential));
     assert_eq!(r200.rules.signed_texel_minimum, SignedTexelMinimum::BelowMinusOne);
@@ -104,6 +105,20 @@ fn switches_reach_the_formats() {
     assert_eq!(r200.rules.format, Format::FP24);
 }
 
+/// GL_NV_register_combiners: results end at -1 and 1, sums within an instruction do not. Another format brings its
+/// own range.
+#[test]
+fn nv2x_clamps_results_and_not_sums() {
+    for name in ["nv20", "nv25"] {
+        let mut card = Profile::named(name).unwrap();
+        assert_eq!((card.rules.format, card.rules.result_range), ("s3.8".parse().unwrap(), ResultRange::One));
+        card.set_format(Format::FP16);
+        assert_eq!(card.rules.result_range, ResultRange::Format);
+        let range = card.figures().into_iter().find(|r| r.key == "rules.result-range").unwrap();
+        assert_eq!(range.value, "format");
+    }
+}
+
 #[test]
 fn ideal_devices_take_any_format() {
     let ideal = Profile::named("ideal-s1.6:rtz:wrap").unwrap();
@@ -119,7 +134,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 ideal-<format>");
     insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
     let mut nv20 = Profile::named("nv20").unwrap();
-    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits format lod-fraction-bits lrp mad rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
+    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits lod-fraction-bits lrp mad rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
     insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }

@@ -5,7 +5,7 @@ mod running;
 
 use refsim::device::{Profile, TexkillComponents};
 use refsim::exec::scalar::DepthValue;
-use refsim::exec::{BumpStage, Constants, PixelBindings, SamplerBinding};
+use refsim::exec::{BumpStage, Constants, PixelBindings, Projection, SamplerBinding};
 use refsim::num::{Flags, Format};
 use refsim::raster::FragmentInput;
 use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
@@ -218,6 +218,51 @@ fn projection_divides_in_single_precision_with_one_for_a_zero_divisor() {
     };
     assert_eq!(at([1.0, 3.0, 9.0, 4.0]), [0x400, 0xc00]);
     assert_eq!(at([1.0, 3.0, 9.0, 0.0]), [0x1000, 0x1000]);
+}
+
+/// `max(min(result, 1), -1)` after the shift, of texture instructions too; `_sat` comes before it. The clamp shows as
+/// an overflow.
+#[test]
+fn results_of_nv2x_are_clamped_to_one() {
+    let nv25 = Profile::named("nv25").unwrap();
+    let c = [[0.75, -0.75, 0.5, -0.25], [1.0, 1.0, -1.0, 1.0], [1.0; 4]];
+    let ran = run("ps_1_3\nmov r0, c0\nadd_d2 r1, r0, c0\nadd r0, r0, c0", &nv25, &c);
+    let s = |v| into("s3.8".parse().unwrap(), v);
+    assert_eq!(ran.value(1), s([0.75, -0.75, 0.5, -0.25]), "scaled before it is clamped");
+    assert_eq!(ran.value(2), s([1.0, -1.0, 1.0, -0.5]), "both ends belong to the range");
+    let flags = |index| ran.steps.iter().find(|s| s.instruction == index).map(|s| s.flags);
+    assert_eq!([1, 2].map(flags), [Some(Flags::empty()), Some(Flags::OVERFLOW | Flags::INEXACT)]);
+    let ran = run("ps_1_3\nmov r1, c1\ndp3 r0, r1, c2\ndp3_x4 r0, r1, c2", &nv25, &c);
+    assert_eq!((ran.value(1), ran.value(2)), (s([1.0; 4]), s([1.0; 4])), "1 + 1 - 1, clamped once");
+    let t = [0.3, 0.0, 0.0, 1.0];
+    let row = [[4.0, 4.0, 4.0, 0.0], [-4.0, -4.0, -4.0, 0.0]];
+    let text = "ps_1_2\ntex t0\ntexdp3 t1, t0\ntexdp3 t2, t0\nmov r0, t1";
+    let ran = with_texture(text, &nv25, &[t, row[0], row[1]], BumpStage::default());
+    assert_eq!((ran.value(1), ran.value(2)), (s([1.0; 4]), s([-1.0; 4])));
+    // A vertex program knows nothing of it.
+    assert_eq!(nv25.rules.vertex_format, Format::FP32);
+}
+
+/// `D3DTTFF_PROJECTED`: `tex` reads at (x / w, y / w) or (x / z, y / z), `texbem` adds to those.
+#[test]
+fn projected_textures_before_1_4() {
+    let fp32 = ideal("e8m23");
+    let image = texture([[0.0, 0.1, 0.2, 0.3], [0.25, 0.5, 0.75, 1.0], [0.5, 0.25, 0.0, 0.75], [0.75, 0.0, 0.0, 0.5]]);
+    let constants = constants(&[]);
+    let mut bindings = PixelBindings::new(&constants);
+    bindings.samplers[..2].fill(Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP }));
+    bindings.bump[1].matrix = bits([1.0, 0.0, 0.0, 0.0]);
+    let first = |projection, text, index: usize| {
+        let mut projected = bindings;
+        projected.projections = [projection; 8];
+        let ran = run_quad(text, &fp32, &projected, &[input(&[[1.2, 0.0, 2.0, 4.0], [0.0, 0.0, 1.0, 2.0]]); 4]);
+        f32::from_bits(ran.value(index)[0])
+    };
+    let tex = "ps_1_1\ntex t0\nmov r0, t0";
+    let texels = [Projection::None, Projection::Z, Projection::W].map(|p| first(p, tex, 0));
+    assert_eq!(texels, [0.75, 0.5, 0.25], "1.2 is clamped to the last texel, 0.6 in the third, 0.3 in the second");
+    let texbem = "ps_1_1\ntex t0\ntexbem t1, t0\nmov r0, t1";
+    assert_eq!(first(Projection::W, texbem, 1), 0.25, "0 / 2 + 0.25");
 }
 
 fn texture(texels: [[f32; 4]; 4]) -> Image {

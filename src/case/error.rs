@@ -6,7 +6,10 @@ use miette::{Diagnostic, NamedSource, SourceSpan};
 
 use refsim::{device::DeviceError, machine::MachineError};
 
-use crate::{report::ReportError, shader::ShaderError};
+use crate::{
+    report::ReportError,
+    shader::{ShaderError, ShaderWarning},
+};
 
 /// The text of a case with its name, cheap to hand to every error.
 pub(super) type Source = Arc<NamedSource<Arc<str>>>;
@@ -78,6 +81,30 @@ pub enum CaseError {
     Shader(#[from] ShaderError),
 }
 
+/// What runs otherwise than a case says, or may.
+#[derive(Clone, Debug, thiserror::Error, Diagnostic)]
+pub enum CaseWarning {
+    /// Something in the case.
+    #[error("{message}")]
+    #[diagnostic(code(crossbar::case), severity(Warning), help("{help}"))]
+    Case {
+        /// What is so.
+        message: String,
+        /// What to do.
+        help: String,
+        /// The text.
+        #[source_code]
+        source_code: Source,
+        /// Where in the text.
+        #[label("here")]
+        span: SourceSpan,
+    },
+    /// Something in a program.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Shader(ShaderWarning),
+}
+
 impl From<MachineError> for CaseError {
     fn from(error: MachineError) -> Self {
         Self::Draw(Box::new(error))
@@ -113,6 +140,11 @@ impl Place {
             source_code: self.source.clone(),
             span: Some(self.clamp(span)),
         }
+    }
+
+    /// Something at `span` is not what it may look like.
+    pub(super) fn warning(&self, span: Range<usize>, message: String, help: String) -> CaseWarning {
+        CaseWarning::Case { message, help, source_code: self.source.clone(), span: self.clamp(span) }
     }
 
     /// The file that the text at `span` names cannot be read.

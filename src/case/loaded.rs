@@ -184,6 +184,9 @@ fn draw_call<'a>(
         masks: [WriteMask(setup.write_mask); MOST_TARGETS],
         targets: targets.to_vec(),
         depth_buffer: depth,
+        bump: setup.bump,
+        projections: setup.projections,
+        flat: setup.geometry.flat,
         ..DrawCall::new(vertices, setup.geometry.primitive, &setup.pixel, &setup.pixel_constants, first)
     };
     samplers.iter().fold(call, |call, &(slot, texture, state)| call.with_texture(slot, texture, state))

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::value::{Number, OneOrMany};
+use super::value::{Exactly, Number, OneOrMany};
 
 /// A case as written, with places for error messages; nothing in it is checked beyond words and types.
 #[derive(Clone, Debug, Deserialize)]
@@ -35,6 +35,9 @@ pub struct Case {
     /// Textures, each bound to a sampler.
     #[serde(default)]
     pub texture: Vec<Spanned<Texture>>,
+    /// Bump state of texture stages.
+    #[serde(default)]
+    pub bump: Vec<Spanned<Bump>>,
     /// What is drawn.
     pub geometry: Spanned<Geometry>,
     /// What is drawn on.
@@ -87,11 +90,14 @@ pub struct Texture {
     /// The texels of level 0, each red, green, blue, alpha, as many as are not (0, 0, 0, 1): rows from the top, then
     /// faces or slices.
     pub texels: Option<Spanned<Vec<Vec<Number>>>>,
+    /// Whether `texels` and `mipmaps` are the stored codes, whole numbers: as many to a texel as the format stores.
+    #[serde(default)]
+    pub raw: bool,
     /// The texels of levels 1 and up.
     #[serde(default)]
     pub mipmaps: Vec<Spanned<Vec<Vec<Number>>>>,
     /// Both `min` and `mag`.
-    pub filter: Option<Filter>,
+    pub filter: Option<Spanned<Filter>>,
     /// How a texture is read that appears smaller.
     pub min: Option<Filter>,
     /// How a texture is read that appears larger.
@@ -106,8 +112,32 @@ pub struct Texture {
     /// Added to the level of detail.
     pub lod_bias: Option<Number>,
     /// The most detailed level that is read.
-    #[serde(default)]
-    pub max_mip_level: u32,
+    pub max_mip_level: Option<Spanned<u32>>,
+    /// The coordinate that `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the others by.
+    pub projected: Option<Spanned<Projected>>,
+}
+
+/// The coordinate by which the others are divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the variants are the words")]
+pub enum Projected {
+    Z,
+    W,
+}
+
+/// Bump state of a texture stage.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bump {
+    /// The stage: the number of the destination of `texbem`, `texbeml` or `bem`.
+    pub stage: Spanned<u32>,
+    /// M00, M01, M10, M11.
+    pub matrix: Exactly<Number, 4>,
+    /// What `texbeml` multiplies the luminance by; 0 if not said.
+    pub luminance_scale: Option<Number>,
+    /// What `texbeml` adds to that; 0 if not said.
+    pub luminance_offset: Option<Number>,
 }
 
 /// The shape of a texture.
@@ -152,8 +182,7 @@ pub enum MipFilter {
 #[serde(deny_unknown_fields)]
 pub struct Geometry {
     /// How vertices make triangles.
-    #[serde(default)]
-    pub primitive: Primitive,
+    pub primitive: Option<Spanned<Primitive>>,
     /// The vertices: attribute name to up to four numbers.
     #[serde(default)]
     pub vertices: Vec<Spanned<BTreeMap<String, Spanned<Vec<Number>>>>>,
@@ -166,6 +195,9 @@ pub struct Geometry {
     /// Which side is left out.
     #[serde(default)]
     pub cull: Cull,
+    /// Whether the colours `v#` are interpolated or those of one vertex.
+    #[serde(default)]
+    pub shading: Shading,
     /// Where in a pixel its centre lies, and how depth is clipped.
     #[serde(default)]
     pub convention: Convention,
@@ -182,6 +214,16 @@ pub enum Primitive {
     TriangleFan,
     Quads,
     QuadStrip,
+}
+
+/// Whether colours are interpolated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "the variants are the words")]
+pub enum Shading {
+    #[default]
+    Smooth,
+    Flat,
 }
 
 /// Which side is left out.
@@ -210,7 +252,7 @@ pub enum Convention {
 #[serde(deny_unknown_fields)]
 pub struct Target {
     /// Width and height in pixels.
-    pub size: Spanned<[u32; 2]>,
+    pub size: Spanned<Exactly<u32, 2>>,
     /// The texel format, or up to four for several targets.
     pub format: Spanned<OneOrMany>,
     /// What every target holds before the draw; (0, 0, 0, 0) if not said.
@@ -226,11 +268,11 @@ pub struct Depth {
     /// The format; `d24` if not said.
     pub format: Option<Spanned<String>>,
     /// What it holds before the draw; 1 if not said.
-    pub clear: Option<Number>,
+    pub clear: Option<Spanned<Number>>,
     /// The test a fragment must pass; none if not said.
     pub test: Option<Compare>,
     /// Whether fragments that pass write their depth.
-    pub write: Option<bool>,
+    pub write: Option<Spanned<bool>>,
 }
 
 /// A comparison of a new value with an old one.
@@ -255,7 +297,7 @@ pub struct Alpha {
     /// The test that a fragment's alpha must pass.
     pub test: Compare,
     /// What it is compared with.
-    pub reference: Number,
+    pub reference: Spanned<Number>,
 }
 
 /// Blending. Without the `alpha_` fields alpha is blended as colour is.
@@ -313,10 +355,9 @@ pub enum BlendOperation {
 #[serde(deny_unknown_fields)]
 pub struct Probe {
     /// Column and row, from the top left, from 0.
-    pub pixel: Spanned<[u32; 2]>,
+    pub pixel: Spanned<Exactly<u32, 2>>,
     /// Which target, from 0.
-    #[serde(default)]
-    pub target: u32,
+    pub target: Option<Spanned<u32>>,
     /// Red, green, blue, alpha as numbers; channels left out at the end may be anything.
     pub expected: Option<Spanned<Vec<Number>>>,
     /// The stored channels as whole numbers, to the bit.

@@ -8,21 +8,21 @@ use std::{
 use refsim::{
     check::Checked,
     device::Profile,
-    exec::Constants,
+    exec::{BUMP_STAGES, BumpStage, Constants, Projection},
     isa::{Program, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
-    raster::{Primitive, Vertex},
+    raster::{Primitive, Provoking, Vertex},
     texture::{Image, SamplerState, TexelFormat},
 };
 use toml::Spanned;
 
 use super::{
-    CaseError, Overrides,
+    CaseError, CaseWarning, Overrides,
     error::Place,
     schema::{self, Case},
-    state, texels,
-    value::Number,
+    stages, state, texels,
+    value::{Exactly, Number},
     vertices,
 };
 use crate::{
@@ -54,6 +54,10 @@ pub struct Setup {
     pub vertex_constants: Constants,
     /// Textures by sampler.
     pub textures: BTreeMap<usize, (Image, SamplerState)>,
+    /// Bump state of the texture stages.
+    pub bump: [BumpStage; BUMP_STAGES],
+    /// Projected textures of the texture stages.
+    pub projections: [Projection; BUMP_STAGES],
     /// What is drawn.
     pub geometry: Geometry,
     /// Width and height of all targets, in pixels.
@@ -72,6 +76,8 @@ pub struct Setup {
     pub blend: Option<BlendState>,
     /// What must come out.
     pub probes: Vec<Probe>,
+    /// What runs otherwise than the case says, or may.
+    pub warnings: Vec<CaseWarning>,
 }
 
 /// What is drawn, and how.
@@ -83,6 +89,8 @@ pub struct Geometry {
     pub vertices: Vertices,
     /// Which side is left out.
     pub cull: schema::Cull,
+    /// Flat shading: whose colours a primitive has, as the convention says.
+    pub flat: Option<Provoking>,
     /// Whose rules hold for pixel centres and clip space.
     pub convention: schema::Convention,
 }
@@ -186,8 +194,16 @@ impl Binder<'_> {
             .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
             .transpose()?;
         let vertex = vertex.map(|(program, _)| program);
+        let stages = stages::bump(self, &case.bump)?;
+        let mut warnings: Vec<CaseWarning> = pixel_text.warnings(&pixel).map(CaseWarning::Shader).collect();
+        warnings.extend(stages::unset(self, &case.pixel, &pixel, &stages));
+        let mut projections = [Projection::None; BUMP_STAGES];
         let mut textures = BTreeMap::new();
         for texture in &case.texture {
+            if let Some(projected) = &texture.get_ref().projected {
+                let slot = *texture.get_ref().slot.get_ref();
+                stages::project(self, projected, slot, &pixel, &mut projections)?;
+            }
             let (slot, image, sampler) = texels::bind(self, texture)?;
             self.accepted(card.create_texture(image.clone()), texture.get_ref().format.span())?;
             if textures.insert(slot, (image, sampler)).is_some() {
@@ -206,13 +222,18 @@ impl Binder<'_> {
         Ok(Setup {
             title: case.title,
             pixel_constants: self.constants(&case.constants, &pixel)?,
-            vertex_constants: match &vertex {
-                Some(program) => self.constants(&case.vertex_constants, program)?,
-                None => self.constants(&case.vertex_constants, &pixel)?,
+            vertex_constants: match (&vertex, case.vertex_constants.first_key_value()) {
+                (Some(program), _) => self.constants(&case.vertex_constants, program)?,
+                (None, None) => Constants::default(),
+                (None, Some((name, value))) => {
+                    let message = format!("`{name}` in [vertex_constants], but the case has no [vertex]");
+                    let help = "the pixel program's constants go into [constants]";
+                    return Err(self.place.wrong(value.span(), message, help));
+                }
             },
             clear: self.optional_vector(case.target.clear.as_ref(), [0; 4])?,
             write_mask: state::write_mask(self, case.target.write.as_ref())?,
-            alpha: case.alpha.as_ref().map(state::alpha),
+            alpha: case.alpha.as_ref().map(|alpha| state::alpha(self, alpha)).transpose()?,
             blend: case.blend.as_ref().map(state::blend),
             profile,
             left_out,
@@ -220,11 +241,14 @@ impl Binder<'_> {
             pixel_text,
             vertex,
             textures,
+            bump: stages.map(Option::unwrap_or_default),
+            projections,
             geometry,
             size,
             targets,
             depth,
             probes,
+            warnings,
         })
     }
 
@@ -282,8 +306,8 @@ impl Binder<'_> {
         self.folder.join(file)
     }
 
-    fn size(&self, size: &Spanned<[u32; 2]>) -> Result<[u32; 2], CaseError> {
-        let [width, height] = *size.get_ref();
+    fn size(&self, size: &Spanned<Exactly<u32, 2>>) -> Result<[u32; 2], CaseError> {
+        let [width, height] = size.get_ref().0;
         if (1..=4096).contains(&width) && (1..=4096).contains(&height) {
             return Ok([width, height]);
         }

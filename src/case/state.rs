@@ -58,13 +58,30 @@ pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(Depth
             binder.place.wrong(format.span(), error.to_string(), "`d24` for example")
         })
     })?;
-    let state = DepthState { test: depth.test.map(compare), write: depth.write.unwrap_or(depth.test.is_some()) };
-    Ok((format, depth.clear.map_or(ONE, Number::single), state))
+    if let (None, Some(write)) = (depth.test, depth.write.as_ref().filter(|write| *write.get_ref())) {
+        let help = "add `test = \"always\"`: without a test the buffer is neither read nor written";
+        return Err(binder.place.wrong(write.span(), "`write = true` without a `test`", help));
+    }
+    let write = depth.write.as_ref().map_or(depth.test.is_some(), |write| *write.get_ref());
+    let state = DepthState { test: depth.test.map(compare), write };
+    let clear = depth.clear.as_ref().map_or(Ok(ONE), |clear| fraction(binder, clear, "a depth"))?;
+    Ok((format, clear, state))
+}
+
+/// The single of a number from 0 to 1.
+fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result<u32, CaseError> {
+    let value = number.get_ref().double();
+    if (0.0..=1.0).contains(&value) {
+        return Ok(number.get_ref().single());
+    }
+    let message = format!("expected {what} from 0 to 1, found {value}");
+    Err(binder.place.wrong(number.span(), message, "the card takes nothing else"))
 }
 
 /// The alpha test.
-pub(super) fn alpha(alpha: &schema::Alpha) -> AlphaTest {
-    AlphaTest { function: compare(alpha.test), reference: alpha.reference.single() }
+pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
+    let reference = fraction(binder, &alpha.reference, "a reference")?;
+    Ok(AlphaTest { function: compare(alpha.test), reference })
 }
 
 /// Blending; alpha as colour where nothing else is said.
@@ -92,15 +109,24 @@ pub(super) fn probes(
 ) -> Result<Vec<Probe>, CaseError> {
     let one = |probe: &Spanned<schema::Probe>| {
         let written = probe.get_ref();
-        let pixel = *written.pixel.get_ref();
+        let pixel = written.pixel.get_ref().0;
         if pixel[0] >= size[0] || pixel[1] >= size[1] {
             let message = format!("pixel ({}, {}) is not in a target of {}x{}", pixel[0], pixel[1], size[0], size[1]);
             return Err(binder.place.wrong(written.pixel.span(), message, "columns and rows count from 0"));
         }
-        let target = written.target as usize;
+        let target = written.target.as_ref().map_or(0, |target| *target.get_ref() as usize);
         if target >= targets {
+            let span = written.target.as_ref().map_or(probe.span(), Spanned::span);
             let message = format!("there is no target {target}: the case has {targets}");
-            return Err(binder.place.wrong(probe.span(), message, "targets count from 0"));
+            return Err(binder.place.wrong(span, message, "targets count from 0"));
+        }
+        if let (Some(_), Some(target)) = (written.depth, &written.target) {
+            let help = "leave `target` out: there is one depth buffer";
+            return Err(binder.place.wrong(target.span(), "`target` beside `depth`", help));
+        }
+        if let (Some(_), Some(tolerance)) = (&written.raw, &written.tolerance) {
+            let help = "`raw` compares to the bit: leave `tolerance` out, or expect numbers";
+            return Err(binder.place.wrong(tolerance.span(), "`tolerance` beside `raw`", help));
         }
         let expected = expected(binder, probe, has_depth)?;
         let tolerance = written.tolerance.as_ref().map_or(0.0, |tolerance| tolerance.get_ref().double());

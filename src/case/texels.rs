@@ -7,7 +7,8 @@ use refsim::{
     event::SAMPLERS,
     num::{self, Format},
     texture::{
-        AddressMode, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureError, TextureKind,
+        AddressMode, ChannelClass, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureError,
+        TextureKind,
     },
 };
 use toml::Spanned;
@@ -17,7 +18,7 @@ use super::{
     schema::{self, Kind},
     setup::Binder,
     state::texel_format,
-    value::{Number, vector},
+    value::{Number, vector, whole},
 };
 
 use crate::io::read_limited;
@@ -99,11 +100,35 @@ fn from_texels(
     let wrong = |error: TextureError| binder.place.wrong(size.span(), error.to_string(), "change `size` or `mipmaps`");
     let levels = u32::try_from(written.mipmaps.len()).unwrap_or(u32::MAX).saturating_add(1);
     let mut image = Image::new(format, kind(written.kind), extents, levels).map_err(wrong)?;
-    fill(binder, &mut image, 0, texels)?;
+    fill(binder, &mut image, 0, written.raw, texels)?;
     for (level, texels) in (1..).zip(&written.mipmaps) {
-        fill(binder, &mut image, level, texels)?;
+        fill(binder, &mut image, level, written.raw, texels)?;
     }
     Ok(image)
+}
+
+/// The stored texel of a list of codes, one for each channel in the order red, green, blue, alpha (luminance first);
+/// in signed channels those below zero stand for their two's complement. The error is what was expected.
+fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
+    let channels = format.record().stored();
+    if codes.len() != channels.len() {
+        return Err(format!("{} codes, one for each channel that `{format}` stores", channels.len()));
+    }
+    let mut raw = 0;
+    for (channel, code) in channels.iter().zip(codes) {
+        let bits = u32::from(channel.bits);
+        let lowest = if matches!(channel.class, ChannelClass::Snorm | ChannelClass::SplitSnorm) {
+            -(1_i64 << (bits - 1))
+        } else {
+            0
+        };
+        let highest = (1_i64 << bits) - 1;
+        match whole(code).filter(|code| (lowest..=highest).contains(code)) {
+            Some(code) => raw |= u128::from(code as u64 & highest as u64) << channel.shift,
+            None => return Err(format!("whole numbers from {lowest} to {highest} as codes of {bits} bits")),
+        }
+    }
+    Ok(raw)
 }
 
 /// Writes the texels of one level.
@@ -111,6 +136,7 @@ fn fill(
     binder: &Binder<'_>,
     image: &mut Image,
     level: u32,
+    raw: bool,
     texels: &Spanned<Vec<Vec<Number>>>,
 ) -> Result<(), CaseError> {
     let Some(&extent) = image.levels().get(level as usize) else { return Ok(()) };
@@ -124,6 +150,14 @@ fn fill(
     for slice in 0..extent.slices {
         for y in 0..extent.height {
             for (x, texel) in (0..extent.width).zip(&mut values) {
+                if raw {
+                    let code = stored(image.format(), texel).map_err(|expected| {
+                        let message = format!("expected {expected} in texel ({x}, {y}), found {}", list(texel));
+                        binder.place.wrong(texels.span(), message, "or leave `raw` out and write numbers")
+                    })?;
+                    image.set_raw(level, slice, y, x, code);
+                    continue;
+                }
                 let Some(bits) = vector(texel) else {
                     let message = format!("expected 1 to 4 numbers in texel ({x}, {y}), found {}", texel.len());
                     return Err(binder.place.wrong(texels.span(), message, "red, green, blue, alpha"));
@@ -136,6 +170,11 @@ fn fill(
     Ok(())
 }
 
+fn list(numbers: &[Number]) -> String {
+    let texts: Vec<String> = numbers.iter().map(|number| number.double().to_string()).collect();
+    format!("[{}]", texts.join(", "))
+}
+
 fn from_file(
     binder: &Binder<'_>,
     written: &schema::Texture,
@@ -143,6 +182,10 @@ fn from_file(
     file: &Spanned<std::path::PathBuf>,
 ) -> Result<Image, CaseError> {
     let path = binder.path(file.get_ref());
+    if written.raw {
+        let help = "list `texels`, or leave `raw` out";
+        return Err(binder.place.wrong(file.span(), "`raw` codes of a picture", help));
+    }
     let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
     if matches!(written.kind, Kind::Cube | Kind::Volume) || !written.mipmaps.is_empty() {
         let help = "list `texels` for cubes, volumes and mip maps";
@@ -178,10 +221,24 @@ fn from_file(
 }
 
 fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerState, CaseError> {
-    let filter = |filter: Option<schema::Filter>| match filter.or(written.filter) {
-        Some(schema::Filter::Linear) => Filter::Linear,
-        _ => Filter::Nearest,
+    let unused = |span: Option<std::ops::Range<usize>>, message: &str, help: &str| match span {
+        Some(span) => Err(binder.place.wrong(span, message, help)),
+        None => Ok(()),
     };
+    if written.min.is_some() && written.mag.is_some() {
+        unused(written.filter.as_ref().map(Spanned::span), "`filter` beside `min` and `mag`", "it has nothing to say")?;
+    }
+    let border = written.border.as_ref().map(Spanned::span);
+    let bordered = written.address.as_ref().is_some_and(|address| address.get_ref().0.iter().any(|a| a == "border"));
+    unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read comes that far")?;
+    let levels = written.mipmaps.len() as u32;
+    let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() > levels).map(Spanned::span);
+    unused(beyond, "the texture has no such level", "`mipmaps` lists the levels from 1 on")?;
+    let filter =
+        |filter: Option<schema::Filter>| match filter.or(written.filter.as_ref().map(|filter| *filter.get_ref())) {
+            Some(schema::Filter::Linear) => Filter::Linear,
+            _ => Filter::Nearest,
+        };
     let [address_u, address_v, address_w] = address(binder, written)?;
     Ok(SamplerState {
         min: filter(written.min),
@@ -196,7 +253,10 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
         address_w,
         border: binder.optional_vector(written.border.as_ref(), [0; 4])?,
         lod_bias: written.lod_bias.map_or(0, Number::single),
-        max_mip_level: u8::try_from(written.max_mip_level).unwrap_or(u8::MAX),
+        max_mip_level: written
+            .max_mip_level
+            .as_ref()
+            .map_or(0, |level| u8::try_from(*level.get_ref()).unwrap_or(u8::MAX)),
     })
 }
 
@@ -214,12 +274,17 @@ fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMod
         }
     };
     let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<_>, _>>()?;
+    let axes = match written.kind {
+        Kind::D1 => 1,
+        Kind::D2 | Kind::Rectangle | Kind::Cube => 2,
+        Kind::Volume => 3,
+    };
     match modes[..] {
         [all] => Ok([all; 3]),
-        [u, v] => Ok([u, v, AddressMode::Clamp]),
-        [u, v, w] => Ok([u, v, w]),
+        [u, v] if axes == 2 => Ok([u, v, AddressMode::Clamp]),
+        [u, v, w] if axes == 3 => Ok([u, v, w]),
         _ => {
-            let message = format!("expected 1 to 3 address modes, found {}", modes.len());
+            let message = format!("expected 1 address mode or {axes}, one an axis, found {}", modes.len());
             Err(binder.place.wrong(address.span(), message, "one for all axes, or one an axis"))
         }
     }

@@ -76,6 +76,19 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
+/// A list of exactly so many. (serde's arrays take longer lists and drop what is too much.)
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exactly<T, const N: usize>(pub [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let list = Vec::<T>::deserialize(deserializer)?;
+        let found = list.len();
+        let wrong = |_| de::Error::custom(format!("expected {N} numbers, found {found}"));
+        list.try_into().map(Self).map_err(wrong)
+    }
+}
+
 /// One text, or a list of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOrMany(pub Vec<String>);
@@ -133,6 +146,15 @@ impl<'de> Visitor<'de> for ConstantVisitor {
 impl<'de> Deserialize<'de> for Constant {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(ConstantVisitor)
+    }
+}
+
+/// A whole number, if it is one.
+pub(super) fn whole(number: &Number) -> Option<i64> {
+    match *number {
+        Number::Value(value) if value % 1.0 == 0.0 && value.abs() < 4_503_599_627_370_496.0 => Some(value as i64),
+        Number::Value(_) => None,
+        Number::Bits(bits) => Some(bits.into()),
     }
 }
 

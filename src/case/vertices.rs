@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use refsim::{
     isa::{Program, Usage},
-    raster::{Primitive, Vertex},
+    raster::{Primitive, Provoking, Vertex},
 };
 use toml::Spanned;
 
 use super::{
     CaseError,
-    schema::{self, Convention},
+    schema::{self, Convention, Shading},
     setup::{Binder, Geometry, Vertices, register},
     value::{Number, vector},
 };
@@ -55,8 +55,20 @@ pub(super) fn bind(
         }
         None => Vertices::Transformed(written.vertices.iter().map(|v| reader.plain(v)).collect::<Result<_, _>>()?),
     };
-    let primitive = if written.full_screen { Primitive::QuadList } else { primitive(written.primitive) };
-    Ok(Geometry { primitive, vertices, cull: written.cull, convention: written.convention })
+    if let (true, Some(primitive)) = (written.full_screen, &written.primitive) {
+        let help = "leave `primitive` out: the screen is one quad";
+        return Err(binder.place.wrong(primitive.span(), "`primitive` beside `full_screen`", help));
+    }
+    let primitive = match (&written.primitive, written.full_screen) {
+        (_, true) => Primitive::QuadList,
+        (Some(words), false) => primitive(*words.get_ref()),
+        (None, false) => Primitive::TriangleList,
+    };
+    let flat = (written.shading == Shading::Flat).then_some(match written.convention {
+        Convention::Direct3d => Provoking::First,
+        Convention::Opengl => Provoking::Last,
+    });
+    Ok(Geometry { primitive, vertices, cull: written.cull, flat, convention: written.convention })
 }
 
 fn primitive(primitive: schema::Primitive) -> Primitive {

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use refsim::{check::Violation, device::Profile};
+use refsim::{
+    check::{Violation, Warning},
+    device::Profile,
+};
 use serde_json::{Value, json};
 
 use super::{Out, Verdict, error};
@@ -15,7 +18,7 @@ Examples:
   crossbar check intersect.psa --device r200 --switch ray-textures=wide --json
       the same with an open question of the card answered otherwise, for machines
 
-Exit codes: 0 the program is legal, 1 it breaks a rule or limit, 2 it is no program (or there is no such file or device).";
+Exit codes: 0 the program is legal (warnings say what runs otherwise than it is written), 1 it breaks a rule or limit, 2 it is no program (or there is no such file or device).";
 
 /// Assemble a shader and report every rule and device limit that it breaks
 #[derive(Debug, clap::Args)]
@@ -43,7 +46,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let (version, size) = (program.version, slots(&program));
     out.outlive_reader();
     match text.check(program, &profile) {
-        Ok(_) if out.json() => {
+        Ok(program) if out.json() => {
             out.document(&json!({
                 "shader": text.name(),
                 "device": profile.name,
@@ -52,25 +55,30 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
                 "texture_slots": size.texture,
                 "arithmetic_slots": size.arithmetic,
                 "violations": [],
+                "warnings": program.warnings().iter().map(warning_json).collect::<Vec<_>>(),
             }))?;
             Ok(Verdict::Done)
         }
-        Ok(_) => {
+        Ok(program) => {
             let (texture, arithmetic) = (size.texture, size.arithmetic);
             out.line(format_args!(
                 "`{}` is a legal {version} program for `{}`: {texture} texture and {arithmetic} arithmetic slots",
                 text.name(),
                 profile.name
             ))?;
+            for warning in text.warnings(&program) {
+                out.line(error::render_finding(warning))?;
+            }
             Ok(Verdict::Done)
         }
-        Err(ShaderError::Illegal { violations, .. }) if out.json() => {
+        Err(ShaderError::Illegal { violations, warnings, .. }) if out.json() => {
             out.document(&json!({
                 "shader": text.name(),
                 "device": profile.name,
                 "version": version.token(),
                 "legal": false,
                 "violations": violations.iter().map(violation_json).collect::<Vec<_>>(),
+                "warnings": warnings.iter().map(warning_json).collect::<Vec<_>>(),
             }))?;
             Ok(Verdict::Failed)
         }
@@ -80,6 +88,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         }
         Err(other) => Err(other.into()),
     }
+}
+
+fn warning_json(warning: &Warning) -> Value {
+    json!({
+        "code": warning.code,
+        "start": warning.span.start,
+        "end": warning.span.end,
+        "message": warning.message,
+        "help": warning.help,
+    })
 }
 
 fn violation_json(violation: &Violation) -> Value {

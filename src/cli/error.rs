@@ -82,6 +82,21 @@ pub(super) fn print(report: &Report, json: bool) {
     writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
 }
 
+/// Writes warnings to standard error, each once.
+pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warnings: &[W], json: bool) {
+    for warning in warnings {
+        let report = Report::new(warning.clone());
+        let mut text = String::new();
+        if json {
+            // Writing to a string cannot fail.
+            JSONReportHandler::new().render_report(&mut text, report.as_ref()).ok();
+        } else {
+            text = format!("Warning: {report:?}");
+        }
+        writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
+    }
+}
+
 /// Whether the error is only that nobody reads the output any more.
 pub(super) fn reader_left(report: &Report) -> bool {
     report.downcast_ref::<OutputError>().is_some_and(|error| error.0.kind() == io::ErrorKind::BrokenPipe)

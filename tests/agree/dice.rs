@@ -5,12 +5,12 @@ use crate::random::Random;
 use crate::scene::Scene;
 use crate::shapes::{self, Shape};
 use refsim::device::Profile;
-use refsim::exec::{BumpStage, Constants};
+use refsim::exec::{BumpStage, Constants, Projection};
 use refsim::isa::{Stage, Version};
 use refsim::output::{
     AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
 };
-use refsim::raster::{ClipSpace, Cull, PixelCenter, Viewport};
+use refsim::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, Region, SamplerState, TexelFormat, TextureKind};
 
 /// What a suite fixes; the dice decide the rest.
@@ -270,6 +270,10 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
                 Region { x, y, width: 1 + r.below(40) as u32, height: 1 + r.below(40) as u32 }
             }),
             draws: if r.one_in(8) { 2 } else { 1 },
+            projections: std::array::from_fn(|_| {
+                r.choose(&[Projection::None, Projection::None, Projection::None, Projection::Z, Projection::W])
+            }),
+            flat: r.one_in(5).then(|| r.choose(&[Provoking::First, Provoking::Last])),
             second_pass: readable && !vertex_stage && r.one_in(10),
             profile,
         };

@@ -10,7 +10,7 @@ use crossbar::case::schema::{Convention, Cull as CaseCull};
 use crossbar::case::{Setup, Vertices};
 use refsim::asm;
 use refsim::device::Profile;
-use refsim::exec::{BumpStage, CheckedProgram};
+use refsim::exec::CheckedProgram;
 use refsim::isa::{Stage, Usage};
 use refsim::machine::StepRate;
 use refsim::output::WriteMask;
@@ -181,7 +181,9 @@ fn from_setup(setup: &Setup) -> Case {
         pixel_constants: setup.pixel_constants.clone(),
         vertex_constants: setup.vertex_constants.clone(),
         textures: setup.textures.iter().map(|(slot, (image, state))| (*slot, image.clone(), *state)).collect(),
-        bump: [BumpStage::default(); 8],
+        bump: setup.bump,
+        projections: setup.projections,
+        flat: setup.geometry.flat,
         vertex_count: attributes.len(),
         streams: if attributes.is_empty() { Vec::new() } else { (0..16).map(stream).collect() },
         vertices,

@@ -4,13 +4,13 @@ use crate::executors::Executor;
 use refsim::check;
 use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event};
-use refsim::exec::{BumpStage, CheckedProgram, Constants};
+use refsim::exec::{BumpStage, CheckedProgram, Constants, Projection};
 use refsim::machine::{
     AttributeStream, DepthId, DrawCall, FragmentTrace, Machine, MachineError, StepRate, TextureId, VertexSource,
     VertexStreams,
 };
 use refsim::output::{AlphaTest, BlendState, DepthFormat, DepthState, WriteMask};
-use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
+use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Provoking, Vertex, Viewport};
 use refsim::texture::{Image, Region, SamplerState, TexelFormat};
 
 /// Everything about a draw that isn't its programs.
@@ -22,6 +22,8 @@ pub(crate) struct Scene {
     pub(crate) vertex_constants: Constants,
     pub(crate) textures: Vec<(usize, Image, SamplerState)>,
     pub(crate) bump: [BumpStage; 8],
+    pub(crate) projections: [Projection; 8],
+    pub(crate) flat: Option<Provoking>,
     /// What is drawn without a vertex program.
     pub(crate) vertices: Vec<Vertex>,
     /// What is drawn with one: register, step, values.
@@ -199,6 +201,8 @@ impl Scene {
         DrawCall {
             indices: self.indices.as_deref(),
             bump: self.bump,
+            projections: self.projections,
+            flat: self.flat,
             viewport: self.viewport,
             scissor: self.scissor,
             center: self.center,

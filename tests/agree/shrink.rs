@@ -2,7 +2,7 @@
 
 use crate::rules;
 use crate::scene::{Case, Scene};
-use refsim::exec::BumpStage;
+use refsim::exec::{BumpStage, Projection};
 use refsim::output::{DepthState, WriteMask};
 use refsim::texture::SamplerState;
 use std::fmt::Write as _;
@@ -128,7 +128,7 @@ fn without(scene: &mut Scene, first: usize, count: usize) {
 }
 
 /// Simplifications of a scene; the first goes with dropping the vertex program.
-const PARTS: [fn(&mut Scene); 24] = [
+const PARTS: [fn(&mut Scene); 26] = [
     |s| s.instances = 1,
     |s| s.second_pass = false,
     |s| s.draws = 1,
@@ -141,6 +141,8 @@ const PARTS: [fn(&mut Scene); 24] = [
     |s| s.viewport = None,
     |s| s.indices = None,
     |s| s.bump = [BumpStage::default(); 8],
+    |s| s.projections = [Projection::None; 8],
+    |s| s.flat = None,
     |s| s.instances = (s.instances / 2).max(1),
     |s| without(s, 0, 4),
     |s| without(s, 4, 8),

@@ -7,7 +7,8 @@ use serde_json::Value;
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
-pub(crate) const CASES: &[&str] = &["modulate", "opengl_arb", "opengl_nv", "transform", "two_triangles"];
+pub(crate) const CASES: &[&str] =
+    &["bump", "flat", "modulate", "opengl_arb", "opengl_nv", "projected", "transform", "two_triangles"];
 
 pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -197,10 +198,59 @@ fn bad_cases() {
         ("empty_target", "size = [2, 2]", "size = [0, 2]"),
         ("probe_outside", "pixel = [0, 0]", "pixel = [2, 0]"),
         ("probe_of_nothing", "expected = [1]", ""),
+        ("size_of_three", "size = [2, 2]", "size = [2, 2, 2]"),
+        ("pixel_of_three", "pixel = [0, 0]", "pixel = [0, 0, 0]"),
+        ("vertex_constants_of_nothing", "[[texture]]", "[vertex_constants]\nc0 = [1, 1, 1, 1]\n[[texture]]"),
+        ("depth_below_zero", "[[probe]]", "[depth]\nclear = -5\n[[probe]]"),
+        ("depth_infinite", "[[probe]]", "[depth]\nclear = inf\n[[probe]]"),
+        ("depth_no_number", "[[probe]]", "[depth]\nclear = nan\n[[probe]]"),
+        ("depth_written_untested", "[[probe]]", "[depth]\nwrite = true\n[[probe]]"),
+        ("alpha_beyond_one", "[[probe]]", "[alpha]\ntest = \"less\"\nreference = 2\n[[probe]]"),
+        ("bump_of_five", "[geometry]", "[[bump]]\nstage = 0\nmatrix = [1, 0, 0, 1, 0]\n[geometry]"),
+        ("bump_beyond_the_stages", "[geometry]", "[[bump]]\nstage = 8\nmatrix = [1, 0, 0, 1]\n[geometry]"),
+        (
+            "bump_twice",
+            "[geometry]",
+            "[[bump]]\nstage = 1\nmatrix = [1, 0, 0, 1]\n[[bump]]\nstage = 1\nmatrix = [1, 0, 0, 1]\n[geometry]",
+        ),
+        ("projected_in_ps_1_4", "format = \"rgba8\"", "format = \"rgba8\"\nprojected = \"w\""),
+        ("raw_of_too_few", "texels = [[1]]", "raw = true\ntexels = [[1]]"),
+        ("raw_too_large", "texels = [[1]]", "raw = true\ntexels = [[1, 2, 3, 256]]"),
+        ("raw_below_zero", "texels = [[1]]", "raw = true\ntexels = [[1, 2, 3, -1]]"),
+        ("raw_picture", "size = [1, 1]\ntexels = [[1]]", "raw = true\nfile = \"text.png\""),
+        ("primitive_of_the_screen", "full_screen = true", "full_screen = true\nprimitive = \"triangles\""),
+        ("border_unread", "texels = [[1]]", "texels = [[1]]\nborder = [1, 1, 1, 1]"),
+        (
+            "filter_beside_both",
+            "texels = [[1]]",
+            "texels = [[1]]\nfilter = \"linear\"\nmin = \"linear\"\nmag = \"nearest\"",
+        ),
+        ("address_of_three_axes", "texels = [[1]]", "texels = [[1]]\naddress = [\"wrap\", \"wrap\", \"wrap\"]"),
+        ("mip_level_beyond", "texels = [[1]]", "texels = [[1]]\nmax_mip_level = 1"),
+        ("tolerance_of_raw", "expected = [1]", "raw = [255]\ntolerance = 1"),
+        ("target_of_depth", "expected = [1]", "depth = 1\ntarget = 0\n[depth]"),
     ] {
         assert!(SMALL.contains(from), "{name} changes something");
         insta::assert_snapshot!(format!("bad_{name}"), refused(&SMALL.replace(from, to)));
     }
+}
+
+/// A program that reads what the case never set runs on Direct3D's default, zeros, and says so; so does one whose
+/// constants are clamped. The warnings come once, and change no exit code.
+#[test]
+fn warnings() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let unprobed = SMALL.split("[[probe]]").next().expect("the case without its probe");
+    let unset = unprobed.replace("ps_1_4\\nmov r0, c0", "ps_1_1\\ntex t0\\ntexbem t1, t0\\nmov r0, t1");
+    let clamped = SMALL.replace("ps_1_4\\n", "ps_1_4\\ndef c0, 2, 0, 0, 1\\n");
+    let said = [unset, clamped].map(|text| {
+        fs::write(folder.path().join("case.toml"), text).expect("a file");
+        let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        assert_eq!(ran.stderr.matches("Warning").count(), 1, "{}", ran.stderr);
+        ran.stderr
+    });
+    insta::assert_snapshot!(said.join("----\n"));
 }
 
 #[test]
@@ -239,7 +289,7 @@ fn the_documentation_describes_every_field() {
     let fields = schema.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(": "));
     for (field, _) in fields.filter(|(field, _)| !field.contains(' ')) {
         // The parts of a case have headings of their own.
-        if ["pixel", "vertex", "texture", "geometry", "target", "alpha", "blend", "probe"].contains(&field) {
+        if ["pixel", "vertex", "texture", "bump", "geometry", "target", "alpha", "blend", "probe"].contains(&field) {
             assert!(page.contains(&format!("[{field}]")), "docs/cases.md says nothing of [{field}]");
             continue;
         }

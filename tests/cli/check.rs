@@ -43,6 +43,23 @@ fn violations_for_machines() {
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
 }
 
+/// The runtime takes a constant beyond -1 to 1 and clamps it: a warning, and exit code 0.
+#[test]
+fn warnings() {
+    let clamped = b"ps_1_4\ndef c2, -0.5, 1.25, 2, 1\nmov r0, c2\n";
+    let ran = check(clamped, &["--device", "r200"]);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    insta::assert_snapshot!(ran.stdout);
+    let ran = check(clamped, &["--device", "r200", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
+    assert_eq!(report["warnings"][0]["code"], "W01");
+    assert_eq!((&report["warnings"][0]["start"], &report["warnings"][0]["end"]), (&7.into(), &31.into()));
+    let illegal = check(b"ps_1_4\ndef c2, 2, 0, 0, 1\nmov r0, c9\n", &["--device", "r200", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&illegal.stdout).expect("one JSON document");
+    assert_eq!((illegal.code, &report["warnings"][0]["code"]), (Some(1), &"W01".into()));
+}
+
 #[test]
 fn what_is_no_program() {
     let ran = check(b"ps_1_4\nmov r0 c0 garbage\nfrobnicate r1\n", &["--device", "r200"]);

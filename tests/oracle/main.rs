@@ -2,4 +2,5 @@
 
 mod foreign;
 mod leaky_teapot;
+mod probes;
 mod timing;

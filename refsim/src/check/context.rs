@@ -1,7 +1,7 @@
 //! What all passes share: the program, the device, and the violations so far.
 
 use super::allowed::{Allowed, Limit};
-use super::{RuleId, Violation};
+use super::{RuleId, Violation, Warning};
 use crate::device::Profile;
 use crate::isa::{
     DestinationRule, Instruction, Opcode, OpcodeClass, Program, RegisterFile, Span, Stage, Usage, Version,
@@ -30,6 +30,7 @@ pub(super) struct Context<'a> {
     pub(super) profile: &'a Profile,
     pub(super) version: Version,
     pub(super) violations: Vec<Violation>,
+    pub(super) warnings: Vec<Warning>,
     /// Whether the version has instruction `i` and it has its operands: what later passes may rely on.
     pub(super) sound: Vec<bool>,
     /// For each instruction the one that ends or continues its block, its loop, or its subroutine.
@@ -46,6 +47,7 @@ impl<'a> Context<'a> {
             profile,
             version,
             violations: Vec::new(),
+            warnings: Vec::new(),
             sound,
             jump: vec![None; program.instructions.len()],
             phase_marker: program.phase_marker().filter(|_| version == Version::Ps1_4),

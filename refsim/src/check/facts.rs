@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use super::context::{Context, is_texture};
-use super::slots;
+use super::{Warning, slots};
 use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
 
 /// Slots used.
@@ -66,11 +66,17 @@ pub struct Checked<T> {
     inner: T,
     facts: Facts,
     device: String,
+    warnings: Vec<Warning>,
 }
 
 impl<T> Checked<T> {
-    pub(super) fn new(inner: T, facts: Facts, device: String) -> Self {
-        Self { inner, facts, device }
+    pub(super) fn new(inner: T, facts: Facts, device: String, warnings: Vec<Warning>) -> Self {
+        Self { inner, facts, device, warnings }
+    }
+
+    /// What is legal in the program but not what its text says, in the order of the text.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 
     /// What was worked out about the program.

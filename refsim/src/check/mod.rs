@@ -30,7 +30,7 @@ mod vertex;
 
 pub use facts::{Checked, Facts, SlotCount};
 pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
-pub use report::{CheckReport, Violation};
+pub use report::{CheckReport, Violation, Warning};
 pub use rule::RuleId;
 
 use crate::device::Profile;
@@ -38,6 +38,8 @@ use crate::isa::{Program, Stage, Version};
 use context::Context;
 
 /// Judges a program for a device.
+///
+/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s.
 ///
 /// # Errors
 /// All violations, in the order of the text.
@@ -52,18 +54,19 @@ use context::Context;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
-    let mut violations = Vec::new();
+    let (mut violations, mut warnings) = (Vec::new(), Vec::new());
     let facts = {
         let mut context = Context::new(&program, profile);
         run(&mut context);
         violations.append(&mut context.violations);
+        warnings.append(&mut context.warnings);
         violations.is_empty().then(|| facts::derive(&context))
     };
     match facts {
-        Some(facts) => Ok(Checked::new(program, facts, profile.name.clone())),
+        Some(facts) => Ok(Checked::new(program, facts, profile.name.clone(), warnings)),
         None => {
             violations.sort_by_key(|v| (v.span.start, v.rule));
-            Err(CheckReport { version: program.version, device: profile.name.clone(), violations })
+            Err(CheckReport { version: program.version, device: profile.name.clone(), violations, warnings })
         }
     }
 }

@@ -78,6 +78,19 @@ impl Diagnostic for Violation {
     }
 }
 
+/// Something legal that does not do what its text says. The program runs as the card would run it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// `W01`, for example; docs/devices.md lists them.
+    pub code: &'static str,
+    /// The place in the program text.
+    pub span: Span,
+    /// The sentence: what was found, and what becomes of it.
+    pub message: String,
+    /// What to do about it.
+    pub help: &'static str,
+}
+
 /// Everything that is wrong with a program for a device: never empty.
 ///
 /// The report knows places, not the text; attach the text with [`miette::Report::with_source_code`] to see them.
@@ -89,6 +102,8 @@ pub struct CheckReport {
     pub device: String,
     /// The violations in the order of the text.
     pub violations: Vec<Violation>,
+    /// The warnings in the order of the text.
+    pub warnings: Vec<Warning>,
 }
 
 impl fmt::Display for CheckReport {

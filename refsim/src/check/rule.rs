@@ -28,7 +28,7 @@ macro_rules! rules {
 
 rules! {
     V01 "the device runs the program's version";
-    V02 "constants are defined before the first instruction, once each, in -1 to 1 for ps_1_x";
+    V02 "constants are defined before the first instruction, once each";
     V03 "the version has the instruction";
     V04 "the program fits into the instruction slots";
     V05 "texture instructions come before arithmetic ones in every phase (ps_1_x)";

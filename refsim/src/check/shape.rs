@@ -1,7 +1,7 @@
 //! V01, V02, V03, V06, V12 and the operand counts of V47: what can be seen without looking into instructions.
 
 use super::context::Context;
-use super::{RuleId, Violation};
+use super::{RuleId, Violation, Warning};
 use crate::isa::{ConstantValue, DestinationRule, Opcode, OpcodeClass, RegisterFile, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -61,10 +61,12 @@ fn constants(context: &mut Context<'_>) {
         if let (ConstantValue::Float(values), true) = (def.value, context.version.is_ps_1_x()) {
             // The bits of a magnitude above 1, infinity or NaN.
             if values.iter().any(|v| v & 0x7fff_ffff > 0x3f80_0000) {
-                context.add(
-                    Violation::new(RuleId::V02, def.span, format!("`{register}` is defined beyond -1 to 1"))
-                        .help("constants of ps_1_x lie in -1 to 1: scale the value and undo it with _x2, _x4 or _x8"),
-                );
+                context.warnings.push(Warning {
+                    code: "W01",
+                    span: def.span,
+                    message: format!("`{register}` is defined beyond -1 to 1 and clamped"),
+                    help: "constants of ps_1_x lie in -1 to 1: scale the value and undo it with _x2, _x4 or _x8",
+                });
             }
         }
     }

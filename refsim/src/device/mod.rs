@@ -20,7 +20,7 @@ pub use figure::{Confidence, FigureRow};
 pub use limits::{Bus, Limits, Rates};
 pub use profile::Profile;
 pub use rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
+    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 pub use switch::Switch;

@@ -8,8 +8,8 @@ use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
 use super::limits::{Bus, Limits, Rates};
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
+    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, rounding_name};
 use crate::isa::Version;
@@ -112,6 +112,8 @@ impl Profile {
                 row.value.clone_from(&switch.current);
             } else if name == "format" {
                 row.value = self.rules.format.to_string();
+            } else if name == "result-range" {
+                self.rules.result_range.name().clone_into(&mut row.value);
             }
         }
         rows
@@ -160,9 +162,10 @@ impl Profile {
     }
 
     /// Replaces the format of pixel registers and pixel arithmetic, all its rules included: what studies sweep over.
-    /// `_pp` is ignored from then on.
+    /// `_pp` is ignored from then on, and results have the format's own range.
     pub fn set_format(&mut self, format: Format) {
         self.rules.format = format;
+        self.rules.result_range = ResultRange::Format;
         self.rules.partial = None;
         self.refresh_format_switches();
     }
@@ -290,6 +293,7 @@ fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
 fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
     let mut rules = Rules {
         format: Format::FP32,
+        result_range: ResultRange::Format,
         partial: None,
         vertex_format: Format::FP32,
         iterator_format: Format::FP32,

@@ -106,6 +106,17 @@ named_choice! {
     }
 }
 
+named_choice! {
+    /// What every result of a pixel program is clamped to when it is written into a register, after shift and
+    /// saturation.
+    ResultRange {
+        /// Nothing but the range of the register format.
+        Format = "format",
+        /// [-1, 1]: sums and products within an instruction go beyond it, registers do not.
+        One = "one",
+    }
+}
+
 /// In what precision the colours `v#` reach the pixel program. They are clamped to [0, 1] first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ColorIterator {
@@ -141,6 +152,8 @@ impl ColorIterator {
 pub struct Rules {
     /// Pixel registers and pixel arithmetic.
     pub format: Format,
+    /// The clamp of results on their way into a pixel register.
+    pub result_range: ResultRange,
     /// Arithmetic of instructions with `_pp`: the sources are converted into it, the operation is done in it, and the
     /// result is converted to `format`. `None`: the hint is ignored.
     pub partial: Option<Format>,

@@ -2,8 +2,8 @@
 
 use super::figure::Confidence;
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
+    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
 };
 use crate::num::{Denormals, DotOrder, Format, Overflow, Rounding};
 
@@ -27,8 +27,9 @@ pub struct Switch {
 }
 
 /// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters it.
-pub(super) const RULES: [&str; 19] = [
+pub(super) const RULES: [&str; 20] = [
     "format",
+    "result-range",
     "partial",
     "vertex-format",
     "iterator-format",
@@ -120,6 +121,7 @@ fn bits(value: &str) -> Option<u8> {
 pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
     match name {
         "format" => rules.format = value.parse().ok()?,
+        "result-range" => rules.result_range = ResultRange::from_name(value)?,
         "partial" if value == "none" => rules.partial = None,
         "partial" => rules.partial = Some(value.parse().ok()?),
         "vertex-format" => rules.vertex_format = value.parse().ok()?,

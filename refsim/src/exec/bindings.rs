@@ -43,6 +43,20 @@ pub struct BumpStage {
     pub luminance_offset: u32,
 }
 
+/// Projected textures of a texture stage (`D3DTTFF_PROJECTED`): what `tex`, `texbem` and `texbeml` divide the
+/// coordinates of their stage by before anything else, in single precision. ps_1_4 has `_dz` and `_dw` instead,
+/// ps_2_0 `texldp`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// Nothing.
+    #[default]
+    None,
+    /// The third (`D3DTTFF_COUNT3`): the first two are divided.
+    Z,
+    /// The fourth (`D3DTTFF_COUNT4`): the first three are divided.
+    W,
+}
+
 /// Everything that a pixel program reads besides its fragment.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelBindings<'a> {
@@ -52,11 +66,18 @@ pub struct PixelBindings<'a> {
     pub samplers: [Option<SamplerBinding<'a>>; SAMPLERS],
     /// Bump state of the stages.
     pub bump: [BumpStage; BUMP_STAGES],
+    /// Projected textures of the stages.
+    pub projections: [Projection; BUMP_STAGES],
 }
 
 impl<'a> PixelBindings<'a> {
     /// Constants alone: no textures, no bump state.
     pub fn new(constants: &'a Constants) -> Self {
-        Self { constants, samplers: [None; SAMPLERS], bump: [BumpStage::default(); BUMP_STAGES] }
+        Self {
+            constants,
+            samplers: [None; SAMPLERS],
+            bump: [BumpStage::default(); BUMP_STAGES],
+            projections: [Projection::None; BUMP_STAGES],
+        }
     }
 }

@@ -19,7 +19,7 @@ mod trace;
 mod usage;
 pub mod wgsl;
 
-pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, SamplerBinding};
+pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, Projection, SamplerBinding};
 pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
 pub use flow::FlowMap;
 pub use fragment::FragmentFormats;

@@ -2,9 +2,9 @@
 
 use super::{DepthId, TextureId};
 use crate::event::SAMPLERS;
-use crate::exec::{BUMP_STAGES, BumpStage, CheckedProgram, Constants};
+use crate::exec::{BUMP_STAGES, BumpStage, CheckedProgram, Constants, Projection};
 use crate::output::{AlphaTest, BlendState, DepthState, MOST_TARGETS, OutputState, WriteMask};
-use crate::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
+use crate::raster::{ClipSpace, Cull, PixelCenter, Primitive, Provoking, Vertex, Viewport};
 use crate::texture::{Region, SamplerState};
 
 /// Attributes that a stream does not feed: (0, 0, 0, 1) in single precision.
@@ -86,6 +86,10 @@ pub struct DrawCall<'a> {
     pub samplers: [Option<BoundTexture>; SAMPLERS],
     /// Bump state of the stages (ps_1_x).
     pub bump: [BumpStage; BUMP_STAGES],
+    /// Projected textures of the stages (ps_1_1 to 1_3).
+    pub projections: [Projection; BUMP_STAGES],
+    /// Flat shading: whose colours a primitive has; `None`: the colours `v#` are interpolated.
+    pub flat: Option<Provoking>,
     /// The viewport; `None`: the whole target, depths 0 to 1.
     pub viewport: Option<Viewport>,
     /// Pixels outside are not drawn; `None`: the whole target.
@@ -127,6 +131,8 @@ impl<'a> DrawCall<'a> {
             pixel_constants,
             samplers: [None; SAMPLERS],
             bump: [BumpStage::default(); BUMP_STAGES],
+            projections: [Projection::default(); BUMP_STAGES],
+            flat: None,
             viewport: None,
             scissor: None,
             center: PixelCenter::default(),

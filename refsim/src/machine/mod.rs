@@ -166,6 +166,7 @@ fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) 
             constants: call.pixel_constants,
             samplers: call.samplers.map(|slot| slot.and_then(bind)),
             bump: call.bump,
+            projections: call.projections,
         },
         output: call.output_state(),
     }

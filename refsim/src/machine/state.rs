@@ -23,8 +23,8 @@ impl State {
             }
         }
         marks.extend([mark(&call.targets), mark(&call.depth_buffer), mark(&call.depth), mark(&call.alpha_test)]);
-        marks.extend([mark(&call.blend), mark(&call.masks), mark(&call.bump)]);
-        marks.push(mark(&(call.viewport, call.scissor, call.center, call.clip_space, call.cull)));
+        marks.extend([mark(&call.blend), mark(&call.masks), mark(&(call.bump, call.projections))]);
+        marks.push(mark(&(call.viewport, call.scissor, call.center, call.clip_space, call.cull, call.flat)));
         Self(marks)
     }
 

@@ -194,9 +194,8 @@ fn set_up(vertices: &[Vertex], triangles: &[usize], first: usize, plan: &Plan, r
     let mut parts = Vec::new();
     for &i in triangles {
         let (instance, triangle) = (i / each, i % each);
-        let corners = plan.triangles[triangle].map(|v| vertices.get(instance * plan.vertex_count + v));
-        let [Some(a), Some(b), Some(c)] = corners else { continue };
-        setup([a, b, c], &plan.raster, rules, &mut parts);
+        let Some(corners) = plan.corners(vertices, instance * plan.vertex_count, triangle) else { continue };
+        setup(corners.each_ref(), &plan.raster, rules, &mut parts);
         placed.extend(parts.drain(..).enumerate().map(|(part, setup)| (first + instance, triangle, part, setup)));
     }
     placed

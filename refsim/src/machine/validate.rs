@@ -6,7 +6,7 @@ use crate::device::Profile;
 use crate::event::SAMPLERS;
 use crate::isa::{Program, Stage};
 use crate::output::{MOST_TARGETS, TargetTile};
-use crate::raster::{RasterState, Viewport, assemble};
+use crate::raster::{RasterState, Vertex, Viewport, assemble, provoking};
 use crate::texture::{Filter, MipFilter, Region};
 
 /// Vertices an instance, and instances, that a draw can have.
@@ -22,6 +22,22 @@ pub(super) struct Plan {
     pub(super) instance_count: usize,
     /// Triangles of one instance, as vertex numbers within it.
     pub(super) triangles: Vec<[usize; 3]>,
+    /// Flat shading: for each triangle the vertex whose colours it has.
+    pub(super) provoking: Option<Vec<usize>>,
+}
+
+impl Plan {
+    /// The corners of triangle `i` of an instance whose vertices start at `base`, as set-up takes them: in flat
+    /// shading all with the colours of the provoking vertex.
+    pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
+        let [a, b, c] = self.triangles[i].map(|v| vertices.get(base + v).copied());
+        let mut corners = [a?, b?, c?];
+        if let Some(provoking) = &self.provoking {
+            let colors = vertices.get(base + provoking[i])?.colors;
+            corners.iter_mut().for_each(|corner| corner.colors = colors);
+        }
+        Some(corners)
+    }
 }
 
 /// Checks a call.
@@ -48,7 +64,12 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
             return Err(MachineError::TooMany { what, found, limit: MOST_VERTICES });
         }
     }
-    Ok(Plan { raster, vertex_count, instance_count, triangles: triangles(call, vertex_count)? })
+    let triangles = triangles(call, vertex_count)?;
+    let provoking = call.flat.map(|convention| {
+        let through = |corner: usize| call.indices.map_or(corner, |indices| indices[corner] as usize);
+        (0..triangles.len()).map(|i| through(provoking(call.primitive, i, convention))).collect()
+    });
+    Ok(Plan { raster, vertex_count, instance_count, triangles, provoking })
 }
 
 fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {

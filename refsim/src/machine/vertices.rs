@@ -170,11 +170,10 @@ pub(super) fn set_up(
             let mut counts = PrimitiveCounts::default();
             for i in chunk * SETUP_CHUNK..((chunk + 1) * SETUP_CHUNK).min(total) {
                 let base = i / each * plan.vertex_count;
-                let corners = plan.triangles[i % each];
-                let [Some(a), Some(b), Some(c)] = corners.map(|v| vertices.get(base + v)) else {
+                let Some(corners) = plan.corners(vertices, base, i % each) else {
                     continue;
                 };
-                let report = setup([a, b, c], &plan.raster, &rules, &mut out);
+                let report = setup(corners.each_ref(), &plan.raster, &rules, &mut out);
                 counts.assembled += 1;
                 counts.culled += u64::from(report.emitted == 0);
                 counts.clipped += u64::from(report.emitted > 1);

@@ -69,12 +69,21 @@ pub(super) fn draw(
                 }
             }
             Tiles::Batch(tiles) => {
-                let rows = stage.rows(first, count, plan, needed);
                 events.vertices += (count * plan.vertex_count) as u64;
-                events.vertex_instructions += rows.executed;
-                let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
-                let rules = raster_rules(profile);
-                let (surfaces, primitives) = Surfaces::build(&instances, &plan.raster, &rules, needed, tiles.simd());
+                let (surfaces, primitives, executed) = if plan.provoking.is_some() {
+                    // A flat triangle has corners of its own: no vertex can be shared.
+                    let batch = stage.run(first, count, plan);
+                    let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+                    (Surfaces::from_setups(&setups, needed), primitives, batch.slots)
+                } else {
+                    let rows = stage.rows(first, count, plan, needed);
+                    let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
+                    let rules = raster_rules(profile);
+                    let (surfaces, primitives) =
+                        Surfaces::build(&instances, &plan.raster, &rules, needed, tiles.simd());
+                    (surfaces, primitives, rows.executed)
+                };
+                events.vertex_instructions += executed;
                 events.primitives += primitives;
                 let round = tiles.round(&surfaces);
                 // Where there are fewer tiles than workers, some share one.

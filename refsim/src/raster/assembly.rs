@@ -23,6 +23,30 @@ pub enum Primitive {
     LineStrip,
 }
 
+/// The vertex whose colours a flat-shaded primitive has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Provoking {
+    /// The first one (Direct3D's `D3DSHADE_FLAT`). A fan's triangle starts behind the vertex that all have in common.
+    First,
+    /// The last one (OpenGL's `GL_FLAT`); of a quad its fourth.
+    Last,
+}
+
+/// The vertex, as an index, that provokes the `i`th triangle of [`assemble`].
+pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize {
+    let (first, last) = match primitive {
+        Primitive::TriangleStrip => (i, i + 2),
+        Primitive::TriangleFan => (i + 1, i + 2),
+        Primitive::QuadList => (i / 2 * 4, i / 2 * 4 + 3),
+        Primitive::QuadStrip => (i / 2 * 2, i / 2 * 2 + 3),
+        _ => (3 * i, 3 * i + 2),
+    };
+    match convention {
+        Provoking::First => first,
+        Provoking::Last => last,
+    }
+}
+
 /// The triangles, as vertex indices, that `count` vertices make; vertices left over are ignored.
 ///
 /// A quad of vertices 0 1 2 3 is the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are turned so that
@@ -66,6 +90,18 @@ fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Direct3D 9 reference, triangle strips, fans and shading modes; OpenGL 2.1, table 2.12; `EXT_provoking_vertex`
+    /// for the first vertices of quads.
+    #[test]
+    fn provoking_vertices_are_those_of_the_documentation() {
+        let of = |primitive| [Provoking::First, Provoking::Last].map(|c| [0, 1, 2].map(|i| provoking(primitive, i, c)));
+        assert_eq!(of(Primitive::TriangleList), [[0, 3, 6], [2, 5, 8]]);
+        assert_eq!(of(Primitive::TriangleStrip), [[0, 1, 2], [2, 3, 4]]);
+        assert_eq!(of(Primitive::TriangleFan), [[1, 2, 3], [2, 3, 4]]);
+        assert_eq!(of(Primitive::QuadList), [[0, 0, 4], [3, 3, 7]]);
+        assert_eq!(of(Primitive::QuadStrip), [[0, 0, 2], [3, 3, 5]]);
+    }
 
     fn all(primitive: Primitive, count: usize) -> Vec<[usize; 3]> {
         assemble(primitive, count).unwrap().collect()

@@ -14,7 +14,7 @@ mod plane;
 mod setup;
 mod vertex;
 
-pub use assembly::{Primitive, assemble};
+pub use assembly::{Primitive, Provoking, assemble, provoking};
 pub(crate) use clip::LEAST_W;
 pub use cover::{PixelQuad, QuadIterator};
 pub use error::RasterError;

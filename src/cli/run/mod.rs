@@ -8,7 +8,7 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::{Out, Problem, Verdict, pixel};
+use super::{Out, Problem, Verdict, error, pixel};
 use crate::{
     case::{self, Found, Outcome, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
@@ -54,6 +54,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let executor = args.executor.open(&args.gpu)?;
     let setup = Setup::read(&args.case)?;
+    error::print_warnings(&setup.warnings, out.json());
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
     let traced = traced.as_ref().map(|trace| trace::Traced {

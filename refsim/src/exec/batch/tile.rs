@@ -24,7 +24,8 @@ use super::targets::Targets;
 use crate::device::Rules;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::{
-    BUMP_STAGES, BumpStage, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read, sample_rules,
+    BUMP_STAGES, BumpStage, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read,
+    sample_rules,
 };
 use crate::isa::Program;
 use crate::output::{DepthFormat, TargetTile};
@@ -348,6 +349,7 @@ struct Key {
     /// Of bound textures: whether reads need a level of detail, and the kind.
     samplers: [Option<(bool, TextureKind)>; SAMPLERS],
     bump: [BumpStage; BUMP_STAGES],
+    projections: [Projection; BUMP_STAGES],
 }
 
 static DECODED: Cache<Key, Decoded> = Cache::new();
@@ -359,6 +361,7 @@ fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants:
     let matches = |key: &Key| {
         key.samplers == samplers
             && key.bump == bindings.bump
+            && key.projections == bindings.projections
             && key.program == *program
             && key.constants == *constants
             && key.rules == *rules
@@ -370,7 +373,8 @@ fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants:
         } else {
             PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
         };
-        let key = Key { program, rules: rules.clone(), constants, samplers, bump: bindings.bump };
+        let (bump, projections) = (bindings.bump, bindings.projections);
+        let key = Key { program, rules: rules.clone(), constants, samplers, bump, projections };
         (key, Decoded { code, shaders: Pool::default(), uniforms: Pool::default() })
     })
 }

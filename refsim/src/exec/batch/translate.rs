@@ -7,7 +7,7 @@ use super::fragment::CodeNodes;
 use super::graph::{Arith, Kind, Node};
 use super::ops::Code;
 use super::slots::{Slot, TRUE};
-use crate::device::{ColorIterator, Rules};
+use crate::device::{ColorIterator, ResultRange, Rules};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
@@ -210,10 +210,24 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Single, Code::AndNot, mask, all)
     }
 
+    /// A result on its way into a pixel register, clamped to [-1, 1] where the rules ask for it.
+    fn in_range(&mut self, x: Node) -> Node {
+        if !self.is_pixel() || self.make.rules.result_range == ResultRange::Format {
+            return x;
+        }
+        let one = self.make.one(Arith::Main);
+        let minus = self.make.neg(Arith::Main, one);
+        let below = self.make.binary(Arith::Main, Code::Min, x, one);
+        self.make.binary(Arith::Main, Code::Max, below, minus)
+    }
+
     /// Writes of the components in the destination's mask.
-    pub(crate) fn writes(&mut self, instruction: &Instruction, value: Vector, effects: &mut Vec<Effect>) {
+    pub(crate) fn writes(&mut self, instruction: &Instruction, mut value: Vector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
+        if !matches!(file, RegisterFile::Predicate | RegisterFile::Address) {
+            value = value.map(|x| self.in_range(x));
+        }
         if file == RegisterFile::DepthOut {
             // A scalar: the lowest component of the mask carries it.
             if let Some(c) = destination.mask.components().next() {

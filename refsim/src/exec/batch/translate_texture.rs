@@ -5,6 +5,7 @@ use super::graph::{Arith, Detail, Kind, Node};
 use super::ops::Code;
 use super::translate::{Effect, Translator};
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
+use crate::exec::Projection;
 use crate::isa::{Destination, Instruction, Modifier, Opcode, Register, RegisterFile, Source, Version};
 use crate::texture::TextureKind;
 use crate::texture::unbound;
@@ -90,7 +91,7 @@ impl Translator<'_> {
     fn coordinates_of(&mut self, instruction: &Instruction, destination: &Destination) -> Vector {
         let stage = destination.register.index;
         let (zero, one) = (self.make.zero(), self.make.one(S));
-        let Some(source) = instruction.sources.first() else { return self.set(stage) };
+        let Some(source) = instruction.sources.first() else { return self.projected(stage) };
         match instruction.opcode {
             Opcode::TexLd if self.program.version == Version::Ps1_4 => self.selected(source),
             Opcode::TexLdP => {
@@ -132,8 +133,18 @@ impl Translator<'_> {
         }
     }
 
+    /// The coordinates of a stage after its projection.
+    fn projected(&mut self, stage: u16) -> Vector {
+        let [x, y, z, w] = self.set(stage);
+        match self.bindings.and_then(|b| b.projections.get(usize::from(stage)).copied()).unwrap_or_default() {
+            Projection::None => [x, y, z, w],
+            Projection::Z => [self.make.div(S, x, z), self.make.div(S, y, z), z, w],
+            Projection::W => [self.make.div(S, x, w), self.make.div(S, y, w), self.make.div(S, z, w), w],
+        }
+    }
+
     fn bumped(&mut self, source: &Source, stage: u16) -> Vector {
-        let own = self.set(stage);
+        let own = self.projected(stage);
         let offset = self.in_single(source);
         let m = self.bump(stage).matrix.map(|bits| self.make.pattern(S, bits));
         let mut moved = |base: Node, r: Node, g: Node| {

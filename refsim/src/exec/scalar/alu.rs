@@ -1,13 +1,15 @@
 //! Arithmetic of one format under the rules of one device: a thin layer over [`crate::num::ops`] that chooses the
 //! rounding sequence the profile asks for and collects the exception flags.
 
-use crate::device::{LrpMode, MadMode, Rules};
+use crate::device::{LrpMode, MadMode, ResultRange, Rules};
 use crate::num::{self, Flags, Format, ops};
 
 /// Operations in `format`, under `rules`, with the flags raised since they were last taken.
 pub(crate) struct Alu<'r> {
     rules: &'r Rules,
     legacy_zero: bool,
+    /// Whether results are clamped to [-1, 1] on their way into a register.
+    to_one: bool,
     /// Format of operands and results.
     pub(crate) format: Format,
     /// Flags raised since [`Self::take_flags`].
@@ -17,12 +19,14 @@ pub(crate) struct Alu<'r> {
 impl<'r> Alu<'r> {
     /// Pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
-        Self { rules, legacy_zero: rules.zero_times_anything, format, flags: Flags::empty() }
+        let to_one = rules.result_range == ResultRange::One;
+        Self { rules, legacy_zero: rules.zero_times_anything, to_one, format, flags: Flags::empty() }
     }
 
-    /// Vertex and address arithmetic in `format`: as pixel arithmetic, without the legacy rule for zero.
+    /// Vertex and address arithmetic in `format`: as pixel arithmetic, without the legacy rule for zero and the range
+    /// of pixel results.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
-        Self { legacy_zero: false, ..Self::new(rules, format) }
+        Self { legacy_zero: false, to_one: false, ..Self::new(rules, format) }
     }
 
     /// The flags raised so far; none are left.
@@ -214,6 +218,21 @@ impl<'r> Alu<'r> {
     pub(crate) fn saturate(&mut self, a: u32) -> u32 {
         let outcome = ops::saturate01(self.format, a);
         self.keep(outcome)
+    }
+
+    /// A result on its way into a register: `max(min(a, 1), -1)` where the rules ask for it. A clamp that changes the
+    /// number counts as an overflow.
+    pub(crate) fn in_range(&mut self, a: u32) -> u32 {
+        if !self.to_one {
+            return a;
+        }
+        let (one, minus) = (self.one(), ops::neg(self.format, self.one()).bits);
+        let below = ops::min(self.format, a, one).bits;
+        let clamped = ops::max(self.format, below, minus).bits;
+        if clamped != a {
+            self.flags |= Flags::OVERFLOW | Flags::INEXACT;
+        }
+        clamped
     }
 
     /// `condition >= 0 ? a : b`

@@ -268,9 +268,9 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
-    /// Writes a finished result where the instruction says, as far as its mask and predicate allow, and tells the
-    /// observer.
-    pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, value: Vector) {
+    /// Writes a finished result where the instruction says, as far as its mask and predicate allow and clamped to the
+    /// range of results, and tells the observer.
+    pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Vector) {
         let Some(destination) = &instruction.destination else {
             return;
         };
@@ -295,7 +295,12 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                     registers.address[i] = super::address_value(self.prepared.format, instruction.opcode, value[i]);
                 }
             }
-            _ => registers.write(&destination.register, mask, value),
+            _ => {
+                for i in mask.components() {
+                    value[i] = self.full.in_range(value[i]);
+                }
+                registers.write(&destination.register, mask, value);
+            }
         }
         self.tell(at, lane, Some((mask, value)));
     }

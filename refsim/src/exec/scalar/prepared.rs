@@ -2,7 +2,8 @@
 
 use crate::device::Rules;
 use crate::exec::{
-    BumpStage, Constants, FlowMap, PixelBindings, ResolvedConstants, SamplerBinding, inputs_read, sample_rules,
+    BumpStage, Constants, FlowMap, PixelBindings, Projection, ResolvedConstants, SamplerBinding, inputs_read,
+    sample_rules,
 };
 use crate::isa::{Program, Stage};
 use crate::num::{Format, ops};
@@ -56,6 +57,11 @@ impl<'a> Prepared<'a> {
 
     pub(crate) fn sampler(&self, stage: usize) -> Option<&SamplerBinding<'a>> {
         self.bindings.as_ref()?.samplers.get(stage)?.as_ref()
+    }
+
+    /// What the coordinates of a stage are divided by.
+    pub(crate) fn projection(&self, stage: u16) -> Projection {
+        self.bindings.as_ref().and_then(|b| b.projections.get(usize::from(stage))).copied().unwrap_or_default()
     }
 
     /// Bump state of a stage; all zero where there is none.

@@ -5,7 +5,7 @@
 use super::interpreter::{Interpreter, LANES};
 use super::operation::Vector;
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
-use crate::exec::{Observer, TextureRead};
+use crate::exec::{Observer, Projection, TextureRead};
 use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
 use crate::num::{Format, Overflow, ops};
 use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
@@ -79,7 +79,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     fn coordinates_of(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Vector {
         let own = self.coordinate_set(lane, destination.register.index);
         let Some(source) = instruction.sources.first() else {
-            return own; // tex
+            return self.projected(own, destination.register.index); // tex
         };
         match instruction.opcode {
             Opcode::TexLd if self.prepared.program.version == Version::Ps1_4 => self.selected(lane, source),
@@ -100,7 +100,10 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                 let v = self.in_single(lane, source);
                 [v[0], v[1], v[2], ONE]
             }
-            Opcode::TexBem | Opcode::TexBemL => self.bumped(lane, own, source, destination.register.index),
+            Opcode::TexBem | Opcode::TexBemL => {
+                let own = self.projected(own, destination.register.index);
+                self.bumped(lane, own, source, destination.register.index)
+            }
             Opcode::TexDp3Tex => [self.row(lane, own, source), 0, 0, ONE],
             Opcode::TexM3x2Tex => [self.padded[lane][0], self.row(lane, own, source), 0, ONE],
             Opcode::TexM3x3Tex => {
@@ -129,6 +132,16 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     /// Interpolated coordinate set `number`; zeros where there is none.
     pub(super) fn coordinate_set(&self, lane: usize, number: u16) -> Vector {
         self.coordinates[lane].get(usize::from(number)).copied().unwrap_or_default()
+    }
+
+    /// Coordinates divided as the projection of a stage says; by zero as single precision divides.
+    fn projected(&mut self, [x, y, z, w]: Vector, stage: u16) -> Vector {
+        let unit = &mut self.address;
+        match self.prepared.projection(stage) {
+            Projection::None => [x, y, z, w],
+            Projection::Z => [unit.div(x, z), unit.div(y, z), z, w],
+            Projection::W => [unit.div(x, w), unit.div(y, w), unit.div(z, w), w],
+        }
     }
 
     /// A register after its source modifier, converted to single precision.

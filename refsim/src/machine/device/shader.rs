@@ -19,7 +19,8 @@ pub(super) fn shader(
     followed: bool,
 ) -> Result<(Shader, Vec<u32>), MachineError> {
     let rules = sample_rules(&profile.rules);
-    let mut bindings = PixelBindings { bump: call.bump, ..PixelBindings::new(call.pixel_constants) };
+    let (bump, projections) = (call.bump, call.projections);
+    let mut bindings = PixelBindings { bump, projections, ..PixelBindings::new(call.pixel_constants) };
     let mut samplers = Vec::with_capacity(SAMPLERS * texture::SAMPLER_WORDS);
     for (slot, bound) in bindings.samplers.iter_mut().zip(&call.samplers) {
         let mut first = 0;
