@@ -48,6 +48,8 @@ pub struct Setup {
     pub pixel_text: ShaderText,
     /// The vertex program.
     pub vertex: Option<Checked<Program>>,
+    /// The vertex program's text.
+    pub vertex_text: Option<ShaderText>,
     /// Constants of the pixel program.
     pub pixel_constants: Constants,
     /// Constants of the vertex program.
@@ -185,7 +187,7 @@ impl Binder<'_> {
             .as_ref()
             .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
             .transpose()?;
-        let vertex = vertex.map(|(program, _)| program);
+        let (vertex, vertex_text) = vertex.unzip();
         let mut textures = BTreeMap::new();
         for texture in &case.texture {
             let (slot, image, sampler) = texels::bind(self, texture)?;
@@ -219,6 +221,7 @@ impl Binder<'_> {
             pixel,
             pixel_text,
             vertex,
+            vertex_text,
             textures,
             geometry,
             size,
