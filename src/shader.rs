@@ -5,9 +5,9 @@ use std::{io, path::Path, sync::Arc};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use refsim::{
     asm::{self, SyntaxError},
-    check::{self, Checked, Violation, Warning},
+    check::{self, Checked, SlotCount, Violation, Warning},
     device::Profile,
-    isa::{Program, SlotCost, Span, Version},
+    isa::{Program, Span, Version},
 };
 use serde::Serialize;
 
@@ -224,10 +224,13 @@ impl ShaderText {
 }
 
 /// The instruction slots of a program; an instruction that is issued together with another takes none of its own.
-pub fn slots(program: &Program) -> SlotCost {
+pub fn slots(program: &Program) -> SlotCount {
     let alone = program.instructions.iter().filter(|instruction| !instruction.coissue);
-    alone.fold(SlotCost::default(), |sum, instruction| {
+    alone.fold(SlotCount::default(), |sum, instruction| {
         let cost = instruction.opcode.info().slot_cost(program.version);
-        SlotCost { texture: sum.texture + cost.texture, arithmetic: sum.arithmetic + cost.arithmetic }
+        SlotCount {
+            texture: sum.texture + u32::from(cost.texture),
+            arithmetic: sum.arithmetic + u32::from(cost.arithmetic),
+        }
     })
 }

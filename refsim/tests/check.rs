@@ -1,5 +1,8 @@
 //! The checker against the programs of fixtures/shaders/check: for every rule one that keeps it and one that breaks it.
 
+#[path = "common/running.rs"]
+mod running;
+
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
 use refsim::{
@@ -40,6 +43,22 @@ fn render(text: &str, report: &CheckReport) -> String {
         }
     }
     out
+}
+
+/// What the checker lets through on a device without limits, the executors have registers for.
+#[test]
+fn ideal_devices_end_where_the_register_files_do() {
+    let profile = Profile::named("ideal-fp32").unwrap();
+    let rules = |text: &str| match check::check(asm::assemble(text).unwrap(), &profile) {
+        Ok(_) => Vec::new(),
+        Err(report) => report.violations.iter().map(|v| v.rule).collect(),
+    };
+    let text = |r: u32, c: u32| format!("ps_2_a\ndef c{c}, 0.5, 0.25, 0.125, 1\nmov r{r}, c{c}\nmov oC0, r{r}");
+    assert_eq!(rules(&text(31, 255)), []);
+    assert!(rules(&text(32, 0)).iter().all(|rule| *rule == RuleId::V07) && !rules(&text(32, 0)).is_empty());
+    assert!(rules(&text(0, 256)).iter().all(|rule| *rule == RuleId::V07) && !rules(&text(0, 256)).is_empty());
+    let last = running::run(&text(31, 255), &profile, &[]);
+    assert_eq!(last.results[0].colors[0].map(f32::from_bits), [0.5, 0.25, 0.125, 1.0]);
 }
 
 #[test]

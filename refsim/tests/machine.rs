@@ -75,6 +75,29 @@ fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
     }
 }
 
+/// More values that must be kept than sixteen bits can number.
+#[test]
+fn programs_of_any_length_agree() {
+    let steps = "mul r0,r0,t0\nmad r1,r0,v0,r1\n".repeat(17_000);
+    let text = format!("ps_2_a\ndcl t0\ndcl v0\nmov r0,v0\nmov r1,v0\n{steps}mov oC0,r1");
+    let profile = ideal("fp32");
+    let program = checked(&text, &profile);
+    let mut bytes = Vec::new();
+    for kind in [ExecutorKind::Scalar, ExecutorKind::Batch] {
+        let mut machine = Machine::new(profile.clone(), kind);
+        let target = machine.create_target(TexelFormat::Rgba32f, 2, 2).unwrap();
+        let mut vertices = screen(2);
+        for (i, vertex) in vertices.iter_mut().enumerate() {
+            vertex.texcoords[0] = bits([1.0 + i as f32 / 65536.0, 0.999, 1.0, 0.5]);
+        }
+        let host = Constants::default();
+        let source = VertexSource::Transformed(&vertices);
+        machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap();
+        bytes.push(machine.read_back(target).unwrap().bytes().to_vec());
+    }
+    assert_eq!(bytes[0], bytes[1]);
+}
+
 /// Random small quads with random colours and depths.
 fn random_quads(count: usize) -> Vec<Vertex> {
     let mut seed = 7u64;

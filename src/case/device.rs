@@ -20,6 +20,8 @@ pub struct Overrides {
     pub format: Option<Format>,
     /// Switches on top of those of the case, set last.
     pub switches: Vec<(String, String)>,
+    /// Instructions that a program may execute per pixel or vertex, in place of what case and device say.
+    pub step_budget: Option<u32>,
 }
 
 impl Overrides {
@@ -30,6 +32,9 @@ impl Overrides {
         }
         for (name, value) in &self.switches {
             profile.set_switch(name, value).map_err(CaseError::from)?;
+        }
+        if let Some(steps) = self.step_budget {
+            profile.limits.set_step_budget(steps);
         }
         Ok(())
     }
@@ -55,6 +60,13 @@ impl Binder<'_> {
         }
         if let (Some(_), Some(format), None) = (&case.device, &case.format, &self.overrides.device) {
             profile.set_format(self.format(format)?);
+        }
+        if let Some(steps) = &case.step_budget {
+            if *steps.get_ref() == 0 {
+                let help = "a program needs one step for every instruction that it executes";
+                return Err(self.place.wrong(steps.span(), "expected a step budget of 1 or more, found 0", help));
+            }
+            profile.limits.set_step_budget(*steps.get_ref());
         }
         self.overrides.apply(&mut profile)?;
         Ok((profile, model, left_out))

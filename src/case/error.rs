@@ -67,6 +67,21 @@ pub enum CaseError {
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
     Draw(Box<MachineError>),
+    /// A program did not end within its step budget.
+    #[error("the case cannot be drawn: {source}")]
+    #[diagnostic(code(crossbar::case::steps), help("{help}"))]
+    StepBudget {
+        /// Which pixel or vertex, and how many steps it had.
+        source: Box<MachineError>,
+        /// What to do.
+        help: String,
+        /// The program's text.
+        #[source_code]
+        source_code: Arc<NamedSource<String>>,
+        /// The instruction that was one too many.
+        #[label("one step too many")]
+        span: SourceSpan,
+    },
     /// A switch that was asked for besides those of the case.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -4,8 +4,8 @@ use refsim::{
     event::{DrawEvents, Event, TexelObserver},
     exec::ResolvedConstants,
     machine::{
-        AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, StepRate, TextureId,
-        VertexSource, VertexStreams,
+        AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, ProgramPlace, StepRate,
+        TextureId, VertexSource, VertexStreams,
     },
     output::{DepthSurface, MOST_TARGETS, WriteMask},
     raster::{ClipSpace, Cull, PixelCenter, Vertex},
@@ -84,7 +84,7 @@ impl<'s> Loaded<'s> {
     pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
         // The machine changes, the rest is read.
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        Ok(self.machine.draw(&call)?)
+        self.machine.draw(&call).map_err(|error| placed(self.setup, error))
     }
 
     /// Follows some pixels through the draw, which is not made: see [`Machine::trace_pixels`].
@@ -93,7 +93,7 @@ impl<'s> Loaded<'s> {
     /// As [`Loaded::draw`], and if a pixel lies outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        Ok(self.machine.trace_pixels(&call, pixels)?)
+        self.machine.trace_pixels(&call, pixels).map_err(|error| placed(self.setup, error))
     }
 
     /// The corners of a triangle after the vertex stage: see [`Machine::corners`].
@@ -102,7 +102,7 @@ impl<'s> Loaded<'s> {
     /// As [`Loaded::draw`].
     pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
-        Ok(self.machine.corners(&call, instance, triangle)?)
+        self.machine.corners(&call, instance, triangle).map_err(|error| placed(self.setup, error))
     }
 
     /// What the colour targets hold.
@@ -131,6 +131,23 @@ impl<'s> Loaded<'s> {
 /// The pixel program's constants as instructions read them.
 pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
     ResolvedConstants::pixel(&setup.pixel, &setup.profile.rules, &setup.pixel_constants)
+}
+
+/// An error of the machine: one about a program with the place in its text.
+fn placed(setup: &Setup, error: MachineError) -> CaseError {
+    let MachineError::StepBudget { place, span, budget, .. } = error else { return error.into() };
+    let (text, key) = match place {
+        ProgramPlace::Pixel { .. } => (Some(&setup.pixel_text), "pixel"),
+        ProgramPlace::Vertex { .. } => (setup.vertex_text.as_ref(), "vertex"),
+    };
+    let Some(text) = text else { return error.into() };
+    let help = format!(
+        "let it end sooner, or allow more steps: `--step-budget`, or `step_budget` in the case; {budget} is \
+         `limits.{key}_step_budget` of `{}`",
+        setup.profile.name
+    );
+    let span = (span.start as usize, span.end.saturating_sub(span.start) as usize).into();
+    CaseError::StepBudget { source: Box::new(error), help, source_code: text.named_source(), span }
 }
 
 /// The values of each attribute register, vertex by vertex.

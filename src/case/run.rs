@@ -1,9 +1,9 @@
 //! Draws a case once and looks at what came out.
 
 use refsim::{
+    check::SlotCount,
     device::Rates,
     event::DrawEvents,
-    isa::SlotCost,
     machine::Executor,
     num::Format,
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
@@ -90,7 +90,7 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, Case
     })
 }
 
-fn slots(cost: SlotCost, fragments: u64, rates: &Rates) -> ShaderSlots {
+fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
     let cycles = pipe_cycles(texture, arithmetic, fragments, rates);
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }

@@ -22,6 +22,8 @@ pub struct Case {
     /// The device's open questions, by name.
     #[serde(default)]
     pub switches: BTreeMap<String, Spanned<String>>,
+    /// Instructions that a program may execute per pixel or vertex, in place of the device's figures.
+    pub step_budget: Option<Spanned<u32>>,
     /// The pixel program.
     pub pixel: Spanned<Shader>,
     /// The vertex program, if there is one.

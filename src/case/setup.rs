@@ -48,6 +48,8 @@ pub struct Setup {
     pub pixel_text: ShaderText,
     /// The vertex program.
     pub vertex: Option<Checked<Program>>,
+    /// The vertex program's text.
+    pub vertex_text: Option<ShaderText>,
     /// Constants of the pixel program.
     pub pixel_constants: Constants,
     /// Constants of the vertex program.
@@ -193,7 +195,7 @@ impl Binder<'_> {
             .as_ref()
             .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
             .transpose()?;
-        let vertex = vertex.map(|(program, _)| program);
+        let (vertex, vertex_text) = vertex.unzip();
         let stages = stages::bump(self, &case.bump)?;
         let mut warnings: Vec<CaseWarning> = pixel_text.warnings(&pixel).map(CaseWarning::Shader).collect();
         warnings.extend(stages::unset(self, &case.pixel, &pixel, &stages));
@@ -240,6 +242,7 @@ impl Binder<'_> {
             pixel,
             pixel_text,
             vertex,
+            vertex_text,
             textures,
             bump: stages.map(Option::unwrap_or_default),
             projections,

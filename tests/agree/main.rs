@@ -21,6 +21,7 @@ mod rules;
 mod scene;
 mod shapes;
 mod shrink;
+mod steps;
 mod suite;
 mod traces;
 

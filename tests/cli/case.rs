@@ -307,3 +307,38 @@ fn the_example_of_the_documentation_runs() {
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{}", ran.stdout);
     assert_eq!(crossbar(&["run", "--help"], "").code, Some(0));
 }
+
+/// Four loops of 255 passes, one in the other: the run ends with the place, on every executor, in traces and comparisons.
+#[test]
+fn a_program_that_runs_too_long_is_an_error() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let rep = "rep i0\\n".repeat(4);
+    let endrep = "endrep\\n".repeat(4);
+    let text = format!(
+        "device = \"nv30\"\n[pixel]\nsource = \"ps_2_a\\nmov r0, c0\\n{rep}add r0, r0, c0\\n{endrep}mov oC0, r0\"\n\
+         [constants]\ni0 = [255, 0, 0, 0]\n[geometry]\nprimitive = \"quads\"\nfull_screen = true\n[target]\nsize = [40, 40]\n\
+         format = \"bgra8\"\n"
+    );
+    fs::write(folder.path().join("case.toml"), &text).expect("a file");
+    let fails = |arguments: &[&str]| {
+        let ran = crossbar_in(folder.path(), arguments, "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(!folder.path().join("out/case/target0.png").exists(), "{arguments:?} leaves nothing");
+        ran.stderr
+    };
+    let said = fails(&["run", "case.toml"]);
+    insta::assert_snapshot!(said);
+    assert_eq!(said, fails(&["run", "case.toml", "--executor", "batch"]));
+    let traced = fails(&["run", "case.toml", "--trace", "7,3", "--step-budget", "1000"]);
+    assert!(traced.contains("pixel (7, 3)") && traced.contains("1000"), "{traced}");
+    assert!(fails(&["compare", "case.toml"]).contains("pixel (0, 0)"));
+    assert!(fails(&["compare", "case.toml", "--step-budget", "5"]).contains("the 5 steps"));
+    fs::write(folder.path().join("case.toml"), format!("step_budget = 0\n{text}")).expect("a file");
+    assert!(fails(&["run", "case.toml"]).contains("step budget of 1 or more"));
+    let fits = text.replace("[255, 0, 0, 0]", "[2, 0, 0, 0]");
+    for (budget, code) in [(63, 0), (62, 2)] {
+        fs::write(folder.path().join("case.toml"), format!("step_budget = {budget}\n{fits}")).expect("a file");
+        let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
+        assert_eq!(ran.code, Some(code), "{budget}: {}", ran.stderr);
+    }
+}

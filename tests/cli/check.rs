@@ -96,3 +96,14 @@ fn opengl_programs() {
     assert_eq!(ran.each_ref().map(|r| r.code), [Some(0), Some(1), Some(1), Some(2)]);
     insta::assert_snapshot!(ran.map(|r| r.stdout + &r.stderr).join("----\n"));
 }
+
+#[test]
+fn more_slots_than_sixteen_bits_count() {
+    // Three slots each.
+    let text = format!("ps_2_a\nmov r0, c0\n{}mov oC0, r0\n", "nrm r1, r0\n".repeat(30_000));
+    let ran = check(text.as_bytes(), &["--device", "ideal-fp32", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    assert_eq!((ran.code, &report["arithmetic_slots"]), (Some(0), &serde_json::Value::from(90_002)));
+    let ran = check(text.as_bytes(), &["--device", "ideal-fp32"]);
+    assert!(ran.stdout.contains("90002 arithmetic slots"), "{}", ran.stdout);
+}

@@ -140,8 +140,8 @@ impl Limit {
     /// What even an ideal device has an end of, because the executors' register files do.
     fn of_emulator(self, stage: Stage) -> Option<u32> {
         match (self, stage) {
-            (Self::Temporaries, _) => Some(256),
-            (Self::Constants, _) => Some(1024),
+            (Self::Temporaries, _) => Some(32),
+            (Self::Constants, _) => Some(256),
             (Self::TextureCoordinates, _) => Some(8),
             (Self::Samplers, _) => Some(16),
             (Self::ColorInputs, _) => Some(2),

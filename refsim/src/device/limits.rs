@@ -4,7 +4,11 @@ use std::collections::BTreeMap;
 
 use super::DeviceError;
 use super::figure::Section;
-use crate::isa::Version;
+use crate::isa::{Stage, Version};
+
+/// The step budget of devices that state none: what GL_NV_vertex_program2 has, and the least that Direct3D 9 asks of
+/// `ps_3_0` and `vs_3_0` (`MaxPShaderInstructionsExecuted`, `MaxVShaderInstructionsExecuted`).
+pub const DEFAULT_STEP_BUDGET: u32 = 1 << 16;
 
 /// A structure of optional whole-number figures that is read from the section of the same field names.
 macro_rules! figures {
@@ -84,6 +88,10 @@ figures! {
         vertex_temporaries,
         /// Constants `c#` of a vertex program.
         vertex_constants,
+        /// Instructions that a pixel program may execute per fragment: its step budget.
+        pixel_step_budget,
+        /// Instructions that a vertex program may execute per vertex.
+        vertex_step_budget,
         /// Colour targets of a draw.
         render_targets,
         /// Largest width and height of a texture, in texels.
@@ -110,6 +118,23 @@ figures! {
         float_mipmaps: bool,
         /// Whether float targets can be blended into.
         float_blending: bool,
+    }
+}
+
+impl Limits {
+    /// The step budget of a stage; [`DEFAULT_STEP_BUDGET`] where the device states none.
+    pub fn step_budget(&self, stage: Stage) -> u32 {
+        let own = match stage {
+            Stage::Pixel => self.pixel_step_budget,
+            Stage::Vertex => self.vertex_step_budget,
+        };
+        own.unwrap_or(DEFAULT_STEP_BUDGET)
+    }
+
+    /// Sets the step budgets of both stages.
+    pub fn set_step_budget(&mut self, steps: u32) {
+        self.pixel_step_budget = Some(steps);
+        self.vertex_step_budget = Some(steps);
     }
 }
 

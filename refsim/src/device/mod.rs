@@ -17,7 +17,7 @@ mod switch;
 
 pub use error::DeviceError;
 pub use figure::{Confidence, FigureRow};
-pub use limits::{Bus, Limits, Rates};
+pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
 pub use rules::{
     ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,

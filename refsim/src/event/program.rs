@@ -1,14 +1,14 @@
 //! What a program is made of, as the issue units of a card see it.
 
+use std::collections::BTreeMap;
+
 use crate::isa::{
-    ConstantValue, Destination, Instruction, Mask, Opcode, OpcodeClass, Precision, Program, Register, RegisterFile,
-    Stage, Version,
+    ConstantValue, Destination, Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, Program, Register,
+    RegisterFile, Source, Stage, Version,
 };
 
 /// Passes through a loop, at most: as executors have it.
 const MOST_PASSES: u64 = 255;
-/// Instructions that walking through calls and loops looks at, at most.
-const MOST_STEPS: usize = 1 << 16;
 
 /// One arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -107,12 +107,13 @@ impl ProgramWork {
 
     /// Arithmetic slots that a fragment or vertex executes, pairs of the program's own as one.
     pub fn arithmetic_slots(&self) -> u64 {
-        self.phases.iter().flat_map(|p| &p.arithmetic).map(|s| s.times * u64::from(s.slots)).sum()
+        let slots = self.phases.iter().flat_map(|p| &p.arithmetic);
+        slots.map(|s| s.times.saturating_mul(s.slots.into())).fold(0, u64::saturating_add)
     }
 
     /// Texture instructions that a fragment executes.
     pub fn texture_slots(&self) -> u64 {
-        self.phases.iter().flat_map(|p| &p.textures).map(|s| s.times).sum()
+        self.phases.iter().flat_map(|p| &p.textures).map(|s| s.times).fold(0, u64::saturating_add)
     }
 }
 
@@ -185,133 +186,83 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
     TextureSlot { opcode, sampler, dependent: dependent && reads, times }
 }
 
-/// How often each instruction is executed.
+/// How often each instruction is executed: one pass over the text, however deep loops and calls are nested.
 fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
-    let mut walk = Walk { program, constants, times: vec![0; program.instructions.len()], steps: 0 };
-    let end = program.instructions.iter().position(|i| i.opcode == Opcode::Label);
-    walk.run(0, end.unwrap_or(program.instructions.len()), 1, 0);
-    walk.times
+    let code = &program.instructions;
+    let label = |i: &Instruction| i.sources.first().map(|s| s.register.index);
+    let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
+    let labels: BTreeMap<_, _> = labels.map(|(at, i)| (label(i), at)).collect();
+    let mut times = vec![0u64; code.len()];
+    // How often each subroutine is called, by its label. Calls lead forward: all are known when the walk comes there.
+    let mut called = vec![0u64; code.len()];
+    let (mut now, mut open) = (1u64, Vec::<Block>::new());
+    for (at, instruction) in code.iter().enumerate() {
+        match instruction.opcode {
+            Opcode::Label => (now, open) = (called[at], Vec::new()),
+            Opcode::Else => {
+                if let Some(block) = open.last() {
+                    now = if block.taken == Some(true) { 0 } else { block.outside };
+                }
+            }
+            Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => {
+                now = open.pop().map_or(now, |block| block.outside);
+            }
+            _ => {}
+        }
+        times[at] = now;
+        match instruction.opcode {
+            Opcode::If | Opcode::IfC => {
+                let truth = || truth(program, constants, instruction.sources.first());
+                let taken = if instruction.opcode == Opcode::If { truth() } else { None };
+                open.push(Block { outside: now, taken });
+                now = if taken == Some(false) { 0 } else { now };
+            }
+            Opcode::Rep | Opcode::Loop => {
+                open.push(Block { outside: now, taken: None });
+                now = now.saturating_mul(passes(program, constants, instruction));
+            }
+            Opcode::Call | Opcode::CallNz => {
+                let never = instruction.opcode == Opcode::CallNz
+                    && truth(program, constants, instruction.sources.get(1)) == Some(false);
+                if let Some(&target) = labels.get(&label(instruction)).filter(|&&target| target > at && !never) {
+                    called[target] = called[target].saturating_add(now);
+                }
+            }
+            Opcode::Ret if open.is_empty() => now = 0,
+            _ => {}
+        }
+    }
+    times
 }
 
-/// On its way through the structure of a program.
-struct Walk<'a> {
-    program: &'a Program,
-    constants: FlowConstants<'a>,
-    times: Vec<u64>,
-    steps: usize,
+/// An open block: how often what is around it is executed; of `if`, the branch taken if a constant decides.
+struct Block {
+    outside: u64,
+    taken: Option<bool>,
 }
 
-impl Walk<'_> {
-    /// Counts the instructions `from..to`, each executed `times` more.
-    fn run(&mut self, from: usize, to: usize, times: u64, calls: u32) {
-        let mut at = from;
-        while at < to && self.steps < MOST_STEPS {
-            self.steps += 1;
-            self.times[at] = self.times[at].saturating_add(times);
-            let instruction = &self.program.instructions[at];
-            at = match instruction.opcode {
-                Opcode::If | Opcode::IfC => self.branch(at, to, times, calls),
-                Opcode::Rep | Opcode::Loop => {
-                    let end = self.end_of(at, to);
-                    let passes = self.passes(instruction);
-                    self.run(at + 1, end, times.saturating_mul(passes), calls);
-                    end
-                }
-                Opcode::Call | Opcode::CallNz if calls < 4 => {
-                    if instruction.opcode == Opcode::Call || self.truth(instruction.sources.get(1)) != Some(false) {
-                        self.call(instruction, times, calls);
-                    }
-                    at + 1
-                }
-                Opcode::Ret => to,
-                _ => at + 1,
-            };
-        }
-    }
+/// Passes through a loop.
+fn passes(program: &Program, constants: FlowConstants<'_>, instruction: &Instruction) -> u64 {
+    let files = instruction.sources.iter().map(|s| s.register);
+    let Some(register) = files.into_iter().find(|r| r.file == RegisterFile::ConstantInt) else { return 1 };
+    let defined = program.constants.iter().rev().find_map(|c| match c.value {
+        ConstantValue::Int(value) if c.register.index == register.index => Some(value[0]),
+        _ => None,
+    });
+    let set = constants.int.get(usize::from(register.index)).map(|v| v[0]);
+    u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MOST_PASSES)
+}
 
-    /// An `if` at `at`; where the walk goes on.
-    fn branch(&mut self, at: usize, to: usize, times: u64, calls: u32) -> usize {
-        let end = self.end_of(at, to);
-        let code = &self.program.instructions;
-        let taken = match code[at].opcode {
-            Opcode::If => self.truth(code[at].sources.first()),
-            _ => None,
-        };
-        let otherwise = self.else_of(at, end);
-        if taken != Some(false) {
-            self.run(at + 1, otherwise.unwrap_or(end), times, calls);
-        }
-        if let Some(otherwise) = otherwise.filter(|_| taken != Some(true)) {
-            self.run(otherwise + 1, end, times, calls);
-        }
-        end
-    }
-
-    fn call(&mut self, instruction: &Instruction, times: u64, calls: u32) {
-        let code = &self.program.instructions;
-        let label = instruction.sources.first().map(|s| s.register.index);
-        let found =
-            code.iter().position(|i| i.opcode == Opcode::Label && i.sources.first().map(|s| s.register.index) == label);
-        if let Some(start) = found {
-            let end = code[start + 1..].iter().position(|i| i.opcode == Opcode::Label).map(|n| start + 1 + n);
-            self.run(start + 1, end.unwrap_or(code.len()), times, calls + 1);
-        }
-    }
-
-    /// The instruction that closes the block opened at `at`.
-    fn end_of(&self, at: usize, to: usize) -> usize {
-        let mut depth = 0_u32;
-        for (i, instruction) in self.program.instructions.iter().enumerate().take(to).skip(at) {
-            match instruction.opcode {
-                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => depth += 1,
-                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => {
-                    depth = depth.saturating_sub(1);
-                    if depth == 0 {
-                        return i;
-                    }
-                }
-                _ => {}
-            }
-        }
-        to
-    }
-
-    /// The `else` of the `if` at `at` that ends at `end`.
-    fn else_of(&self, at: usize, end: usize) -> Option<usize> {
-        let mut depth = 0_u32;
-        for (i, instruction) in self.program.instructions.iter().enumerate().take(end).skip(at) {
-            match instruction.opcode {
-                Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => depth += 1,
-                Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => depth = depth.saturating_sub(1),
-                Opcode::Else if depth == 1 => return Some(i),
-                _ => {}
-            }
-        }
-        None
-    }
-
-    fn passes(&self, instruction: &Instruction) -> u64 {
-        let files = instruction.sources.iter().map(|s| s.register);
-        let Some(register) = files.into_iter().find(|r| r.file == RegisterFile::ConstantInt) else { return 1 };
-        let defined = self.program.constants.iter().rev().find_map(|c| match c.value {
-            ConstantValue::Int(value) if c.register.index == register.index => Some(value[0]),
-            _ => None,
-        });
-        let set = self.constants.int.get(usize::from(register.index)).map(|v| v[0]);
-        u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MOST_PASSES)
-    }
-
-    /// The value of a boolean operand; `None` if it is computed.
-    fn truth(&self, source: Option<&crate::isa::Source>) -> Option<bool> {
-        let source = source.filter(|s| s.register.file == RegisterFile::ConstantBool)?;
-        let index = source.register.index;
-        let defined = self.program.constants.iter().rev().find_map(|c| match c.value {
-            ConstantValue::Bool(value) if c.register.index == index => Some(value),
-            _ => None,
-        });
-        let value = defined.or_else(|| self.constants.boolean.get(usize::from(index)).copied()).unwrap_or(false);
-        Some(value != (source.modifier == crate::isa::Modifier::Not))
-    }
+/// The value of a boolean operand; `None` if it is computed.
+fn truth(program: &Program, constants: FlowConstants<'_>, source: Option<&Source>) -> Option<bool> {
+    let source = source.filter(|s| s.register.file == RegisterFile::ConstantBool)?;
+    let index = source.register.index;
+    let defined = program.constants.iter().rev().find_map(|c| match c.value {
+        ConstantValue::Bool(value) if c.register.index == index => Some(value),
+        _ => None,
+    });
+    let value = defined.or_else(|| constants.boolean.get(usize::from(index)).copied()).unwrap_or(false);
+    Some(value != (source.modifier == Modifier::Not))
 }
 
 /// Temporaries that a program can name: 64 of `r#`, and 64 of half precision after them.

@@ -1,5 +1,7 @@
 //! The jump structure of a program, resolved once and shared by the executors.
 
+use std::collections::BTreeMap;
+
 use crate::isa::{Opcode, Program};
 
 /// Where each instruction of a program leads.
@@ -20,6 +22,9 @@ impl FlowMap {
         let end = code.len();
         let mut targets = vec![end; end];
         let mut open: Vec<usize> = Vec::new();
+        // The first label of a number counts.
+        let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
+        let labels: BTreeMap<_, _> = labels.map(|(at, i)| (i.sources.first().map(|s| s.register.index), at)).collect();
         for (at, instruction) in code.iter().enumerate() {
             match instruction.opcode {
                 Opcode::If | Opcode::IfC | Opcode::Rep | Opcode::Loop => open.push(at),
@@ -42,10 +47,7 @@ impl FlowMap {
                 }
                 Opcode::Call | Opcode::CallNz => {
                     let label = instruction.sources.first().map(|s| s.register.index);
-                    targets[at] = code
-                        .iter()
-                        .position(|i| i.opcode == Opcode::Label && i.sources.first().map(|s| s.register.index) == label)
-                        .unwrap_or(end);
+                    targets[at] = labels.get(&label).copied().unwrap_or(end);
                 }
                 _ => {}
             }

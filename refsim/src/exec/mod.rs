@@ -7,6 +7,7 @@
 
 pub mod batch;
 mod bindings;
+pub(crate) mod budget;
 mod constants;
 mod flow;
 mod fragment;
@@ -20,6 +21,7 @@ mod usage;
 pub mod wgsl;
 
 pub use bindings::{BUMP_STAGES, BumpStage, PixelBindings, Projection, SamplerBinding};
+pub use budget::Overrun;
 pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
 pub use flow::FlowMap;
 pub use fragment::FragmentFormats;

@@ -4,7 +4,7 @@
 //! adds up what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any
 //! order with the same result.
 
-use super::{CheckedProgram, PixelBindings};
+use super::{CheckedProgram, Overrun, PixelBindings};
 use crate::device::Rules;
 use crate::event::FragmentCounts;
 use crate::output::{OutputRules, OutputState, TargetTile};
@@ -24,6 +24,8 @@ pub struct TileDraw<'a> {
     pub bindings: PixelBindings<'a>,
     /// Tests, blending, masks.
     pub output: OutputState,
+    /// Steps that a fragment may make.
+    pub step_budget: u32,
 }
 
 impl TileDraw<'_> {
@@ -39,7 +41,15 @@ pub trait TileExecutor: Send + Sync {
     /// that does not touch the tile may be among them. Per pixel the order of the triangles is kept.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
-    fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts;
+    ///
+    /// # Errors
+    /// The first fragment, as [`Overrun`]s order, that does not end within the step budget. The tile is of no use then.
+    fn run_tile(
+        &self,
+        triangles: &[TriangleSetup],
+        order: &[u32],
+        tile: &mut TargetTile,
+    ) -> Result<FragmentCounts, Overrun>;
 }
 
 /// What a device says about targets, out of its rules.

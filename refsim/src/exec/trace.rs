@@ -4,8 +4,8 @@
 //! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets. An executor joins by implementing
 //! the trait; `crate::machine` chooses.
 
-use super::Step;
 use super::scalar::FragmentResult;
+use super::{Overrun, Step};
 use crate::isa::{Program, Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::output::{FragmentFate, TargetTile};
@@ -30,7 +30,10 @@ pub struct Shading {
 /// Shades single fragments and tells everything about them.
 pub trait PixelTracer: Send + Sync {
     /// Draws the fragment of a triangle into the one pixel of `tile`, which the triangle covers.
-    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading;
+    ///
+    /// # Errors
+    /// If the fragment does not end within the step budget; it is of triangle 0 then.
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun>;
 }
 
 /// A step as a [`Shading`] holds it.

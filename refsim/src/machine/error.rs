@@ -1,9 +1,38 @@
 //! What can be wrong with a request to the machine.
 
-use crate::isa::{Stage, Version};
+use crate::exec::Overrun;
+use crate::isa::{Opcode, Program, Span, Stage, Version};
 use crate::output::{DepthFormat, OutputError};
 use crate::raster::RasterError;
 use crate::texture::{TexelFormat, TextureError};
+
+/// What a program ran for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramPlace {
+    /// A pixel of the targets.
+    Pixel {
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+    },
+    /// A vertex of an instance, both from 0.
+    Vertex {
+        /// The instance.
+        instance: usize,
+        /// The vertex.
+        vertex: usize,
+    },
+}
+
+impl std::fmt::Display for ProgramPlace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Pixel { x, y } => write!(f, "pixel ({x}, {y})"),
+            Self::Vertex { instance, vertex } => write!(f, "vertex {vertex} of instance {instance}"),
+        }
+    }
+}
 
 /// Why the machine refused a request. Nothing has been changed then.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -110,6 +139,25 @@ pub enum MachineError {
         expected: Stage,
         /// Its version.
         found: Version,
+    },
+    /// A pixel or vertex did not end within the step budget.
+    #[error(
+        "{place}: the {version} program made the {budget} steps of its budget and did not end; the next was instruction {}, `{}`",
+        instruction + 1, opcode.info().mnemonic
+    )]
+    StepBudget {
+        /// The pixel or vertex.
+        place: ProgramPlace,
+        /// The program's version.
+        version: Version,
+        /// The instruction that was one too many, from 0.
+        instruction: usize,
+        /// Its operation.
+        opcode: Opcode,
+        /// Where it stands in the program text.
+        span: Span,
+        /// The budget.
+        budget: u32,
     },
     /// A linear filter on a float texture.
     #[error(
@@ -218,4 +266,18 @@ pub enum MachineError {
         /// What the system said.
         reason: String,
     },
+}
+
+impl MachineError {
+    /// A fragment that did not end within the step budget.
+    pub(super) fn overrun(overrun: Overrun, program: &Program, budget: u32) -> Self {
+        let Overrun { x, y, instruction, .. } = overrun;
+        Self::out_of_steps(ProgramPlace::Pixel { x, y }, instruction, program, budget)
+    }
+
+    pub(super) fn out_of_steps(place: ProgramPlace, instruction: usize, program: &Program, budget: u32) -> Self {
+        let at = program.instructions.get(instruction);
+        let (opcode, span) = at.map_or((Opcode::Nop, program.version_span), |i| (i.opcode, i.span));
+        Self::StepBudget { place, version: program.version, instruction, opcode, span, budget }
+    }
 }

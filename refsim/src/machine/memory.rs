@@ -102,6 +102,15 @@ impl Memory {
         Ok(())
     }
 
+    /// What a GPU drew into targets since [`Self::bring_home`] is of no use.
+    #[cfg(feature = "wgpu")]
+    pub(super) fn forget_drawn(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
+        for &id in targets {
+            self.texture_mut(id)?;
+        }
+        depth.map_or(Ok(()), |id| self.depth_mut(id).map(|_| ()))
+    }
+
     /// Copies a finished tile back.
     pub(super) fn store(
         &mut self,

@@ -24,7 +24,7 @@ mod vertices;
 mod walk;
 
 pub use draw::{AttributeStream, BoundTexture, DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
-pub use error::MachineError;
+pub use error::{MachineError, ProgramPlace};
 pub use executor::{Executor, ExecutorKind};
 pub use memory::{DepthId, TextureId};
 pub use trace::{FragmentTrace, PixelState};
@@ -36,6 +36,7 @@ use crate::event::DrawEvents;
 use crate::exec::batch::{BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
+use crate::isa::Stage;
 use memory::Memory;
 use record::Recorder;
 use validate::Plan;
@@ -116,8 +117,18 @@ impl Machine {
         if self.executor == ExecutorKind::Wgpu {
             return self.draw_on_gpu(call, plan);
         }
+        self.draw_on_host(self.executor, call, plan)
+    }
+
+    /// Draws a checked call by an executor of the host.
+    fn draw_on_host(
+        &mut self,
+        executor_kind: ExecutorKind,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+    ) -> Result<DrawEvents, MachineError> {
         self.memory.name_textures(&call.samplers);
-        let (memory, profile, kind) = (&self.memory, &self.profile, (self.executor, self.simd));
+        let (memory, profile, kind) = (&self.memory, &self.profile, (executor_kind, self.simd));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
             walk::draw(memory, profile, call, plan, kind, &executor)
@@ -169,5 +180,6 @@ fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) 
             projections: call.projections,
         },
         output: call.output_state(),
+        step_budget: profile.limits.step_budget(Stage::Pixel),
     }
 }

@@ -10,7 +10,7 @@ use super::walk::{ROUND, bytes, load};
 use super::{DrawCall, ExecutorKind, Machine, MachineError, TextureId, tile_draw};
 use crate::event::{DrawEvents, FragmentCounts, SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use crate::exec::scalar::ScalarTiles;
-use crate::exec::{Observer, SamplerBinding, Step, TILE, TextureRead, sample_rules};
+use crate::exec::{Observer, Overrun, SamplerBinding, Step, TILE, TextureRead, program, sample_rules};
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::{Layout, Region, SampleRules, TexelMap, touched};
@@ -100,7 +100,7 @@ impl Machine {
         observer.begin();
         let mut watch = Watch { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
         let tiles = ScalarTiles::new(&draw);
-        let stage = VertexStage::new(call, &profile.rules, (ExecutorKind::Batch, None), ComponentMask::ALL);
+        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, None), ComponentMask::ALL);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let region = plan.raster.scissor;
         let empty = region.width == 0 || region.height == 0;
@@ -109,14 +109,17 @@ impl Machine {
         let mut first = 0;
         while first < plan.instance_count {
             let count = round.min(plan.instance_count - first);
-            let batch = stage.run(first, count, plan);
+            let batch = stage.run(first, count, plan)?;
             events.vertices += batch.vertices.len() as u64;
             events.vertex_instructions += batch.slots;
             let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
             events.primitives += primitives;
             if let Some(target) = &mut target {
                 for setup in &setups {
-                    events.fragments += over_tiles(&tiles, setup, target, &mut watch);
+                    let drawn = over_tiles(&tiles, setup, target, &mut watch);
+                    events.fragments += drawn.map_err(|overrun| {
+                        MachineError::overrun(overrun, program(call.pixel_program), draw.step_budget)
+                    })?;
                 }
             }
             first += count;
@@ -136,15 +139,18 @@ fn over_tiles(
     setup: &TriangleSetup,
     target: &mut TargetTile,
     watch: &mut Watch<'_>,
-) -> FragmentCounts {
-    let mut counts = FragmentCounts::default();
+) -> Result<FragmentCounts, Overrun> {
+    let (mut counts, mut first) = (FragmentCounts::default(), None::<Overrun>);
     let within = setup.bounds.intersect(target.region);
     let step = TILE as usize;
     for y in (within.y - within.y % TILE..within.y + within.height).step_by(step) {
         for x in (within.x - within.x % TILE..within.x + within.width).step_by(step) {
             let tile = Region { x, y, width: TILE, height: TILE }.intersect(within);
-            counts += tiles.run_region(setup, tile, target, watch);
+            match tiles.run_region(setup, tile, target, watch) {
+                Ok(more) => counts += more,
+                Err(overrun) => first = Some(first.map_or(overrun, |known| known.min(overrun))),
+            }
         }
     }
-    counts
+    first.map_or(Ok(counts), Err)
 }

@@ -255,13 +255,14 @@ impl Machine {
 
     /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading them.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
-        let stage = VertexStage::new(call, &self.profile.rules, (ExecutorKind::Batch, None), ComponentMask::NONE);
+        let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, None), ComponentMask::NONE);
         let mut outlines = BTreeMap::new();
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let (mut first, mut quads) = (0, 0);
         while first < plan.instance_count {
             let count = round.min(plan.instance_count - first);
-            let batch = stage.run(first, count, plan);
+            // The draw has been made: no vertex ran out of steps.
+            let Ok(batch) = stage.run(first, count, plan) else { break };
             let (setups, _) = set_up(&batch.vertices, count, plan, &self.profile);
             quads += setups.iter().map(|setup| covered(setup, &mut outlines)).sum::<u64>();
             first += count;

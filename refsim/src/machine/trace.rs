@@ -1,14 +1,15 @@
 //! Following pixels through a draw.
 
 #[cfg(feature = "wgpu")]
-use super::device::Follower;
+use super::device::{Follower, StepBudget};
 use super::validate::Plan;
 use super::vertices::{VertexStage, raster_rules};
 use super::walk::{ROUND, load};
 use super::{DrawCall, ExecutorKind, Machine, MachineError, tile_draw, validate};
 use crate::exec::batch::{BatchTracer, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
-use crate::exec::{PixelTracer, Shading, TileDraw};
+use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
+use crate::isa::Stage;
 use crate::output::{MOST_TARGETS, TargetTile};
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
@@ -75,20 +76,28 @@ impl Machine {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
         #[cfg(feature = "wgpu")]
-        if self.executor == ExecutorKind::Wgpu {
+        if self.executor == ExecutorKind::Wgpu && self.step_budget(call) != StepBudget::Exceeded {
+            let mut overrun = false;
             for some in followed.chunks_mut(ON_GPU) {
-                self.follow_on_gpu(call, &plan, some)?;
+                overrun |= self.follow_on_gpu(call, &plan, some)?;
+            }
+            if overrun {
+                // Which it was the batch executor finds out.
+                followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
+                let tracer = tracer((ExecutorKind::Batch, None), &tile_draw(&self.profile, &self.memory, call));
+                self.follow(call, &plan, tracer.as_ref(), &mut followed)?;
+                return Err(self.disagreement());
             }
             return Ok(followed.into_iter().map(|pixel| pixel.fragments).collect());
         }
         let mut work = || {
             let tracer = tracer((self.executor, self.simd), &tile_draw(&self.profile, &self.memory, call));
-            self.follow(call, &plan, tracer.as_ref(), &mut followed);
+            self.follow(call, &plan, tracer.as_ref(), &mut followed)
         };
         match &self.pool {
             Some(pool) => pool.install(work),
             None => work(),
-        }
+        }?;
         Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
@@ -106,8 +115,8 @@ impl Machine {
         let Some(corners) = plan.triangles.get(triangle).filter(|_| instance < plan.instance_count) else {
             return Ok(None);
         };
-        let stage = VertexStage::new(call, &self.profile.rules, self.vertex_executor(), ComponentMask::ALL);
-        let vertices = stage.run(instance, 1, &plan).vertices;
+        let stage = VertexStage::new(call, &self.profile, self.vertex_executor(), ComponentMask::ALL);
+        let vertices = stage.run(instance, 1, &plan)?.vertices;
         let [a, b, c] = corners.map(|corner| vertices.get(corner).copied());
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
@@ -126,13 +135,21 @@ impl Machine {
     }
 
     /// Takes all triangles of a call to all pixels, in rounds as the draw does.
-    fn follow(&self, call: &DrawCall<'_>, plan: &Plan, tracer: &dyn PixelTracer, followed: &mut [Followed]) {
-        let pass = |setups: &[Placed]| {
-            followed.par_iter_mut().for_each(|pixel| pixel.pass(setups, tracer));
-            Ok(())
-        };
-        // Nothing in there fails.
-        let _ = self.rounds(call, plan, pass);
+    fn follow(
+        &self,
+        call: &DrawCall<'_>,
+        plan: &Plan,
+        tracer: &dyn PixelTracer,
+        followed: &mut [Followed],
+    ) -> Result<(), MachineError> {
+        self.rounds(call, plan, |setups| {
+            let passed: Vec<_> = followed.par_iter_mut().map(|pixel| pixel.pass(setups, tracer)).collect();
+            let budget = self.profile.limits.step_budget(Stage::Pixel);
+            match passed.into_iter().filter_map(Result::err).min() {
+                Some(overrun) => Err(MachineError::overrun(overrun, program(call.pixel_program), budget)),
+                None => Ok(()),
+            }
+        })
     }
 
     /// Vertices and set-ups of a call in rounds as the draw makes them.
@@ -142,13 +159,13 @@ impl Machine {
         plan: &Plan,
         mut pass: impl FnMut(&[Placed]) -> Result<(), MachineError>,
     ) -> Result<(), MachineError> {
-        let stage = VertexStage::new(call, &self.profile.rules, self.vertex_executor(), ComponentMask::ALL);
+        let stage = VertexStage::new(call, &self.profile, self.vertex_executor(), ComponentMask::ALL);
         let rules = raster_rules(&self.profile);
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
         while first < plan.instance_count {
             let count = round.min(plan.instance_count - first);
-            let vertices = stage.run(first, count, plan).vertices;
+            let vertices = stage.run(first, count, plan)?.vertices;
             for triangles in (0..count * plan.triangles.len()).collect::<Vec<_>>().chunks(ROUND) {
                 pass(&set_up(&vertices, triangles, first, plan, &rules))?;
             }
@@ -166,11 +183,16 @@ impl Machine {
         }
     }
 
+    /// Whether a fragment did not end within the step budget.
     #[cfg(feature = "wgpu")]
-    fn follow_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [Followed]) -> Result<(), MachineError> {
+    fn follow_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [Followed]) -> Result<bool, MachineError> {
         let places: Vec<(u32, u32)> = pixels.iter().map(|p| (p.tile.region.x, p.tile.region.y)).collect();
         let states = pixels.iter().map(|p| PixelState::of(&p.tile)).collect();
-        let mut follower = Follower::new(self, call, &places, states)?;
+        let budget = match self.step_budget(call) {
+            StepBudget::Enforced(budget) => Some(budget),
+            _ => None,
+        };
+        let mut follower = Follower::new(self, call, &places, states, budget)?;
         self.rounds(call, plan, |placed| {
             let setups: Vec<&TriangleSetup> = placed.iter().map(|(.., setup)| setup).collect();
             for (pixel, found) in pixels.iter_mut().zip(follower.pass(&setups)?) {
@@ -180,7 +202,8 @@ impl Machine {
                 }));
             }
             Ok(())
-        })
+        })?;
+        Ok(follower.overrun)
     }
 }
 
@@ -208,19 +231,21 @@ struct Followed {
 }
 
 impl Followed {
-    fn pass(&mut self, setups: &[Placed], tracer: &dyn PixelTracer) {
+    fn pass(&mut self, setups: &[Placed], tracer: &dyn PixelTracer) -> Result<(), Overrun> {
         let pixel = self.tile.region;
-        for (instance, triangle, part, setup) in setups {
+        for (number, (instance, triangle, part, setup)) in (0..).zip(setups) {
             let inside = setup.bounds.intersect(pixel);
             if inside.width == 0 || inside.height == 0 || !setup.coverage(pixel.x, pixel.y) {
                 continue;
             }
             let before = PixelState::of(&self.tile);
             let shading = tracer.follow(setup, &mut self.tile);
+            let shading = shading.map_err(|overrun| Overrun { triangle: number, ..overrun })?;
             let after = PixelState::of(&self.tile);
             let (instance, triangle, part) = (*instance, *triangle, *part);
             self.fragments.push(FragmentTrace { instance, triangle, part, before, shading, after });
         }
+        Ok(())
     }
 }
 

@@ -1,11 +1,15 @@
 //! The vertex stage and set-up: from a call's vertices to triangles, in order.
 
 use super::validate::Plan;
-use super::{DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, StepRate, VertexSource, VertexStreams};
-use crate::device::{Profile, Rules};
+use super::{
+    DEFAULT_ATTRIBUTE, DrawCall, ExecutorKind, MachineError, ProgramPlace, StepRate, VertexSource, VertexStreams,
+};
+use crate::device::Profile;
 use crate::event::PrimitiveCounts;
 use crate::exec::batch::{BatchVertices, SimdLevel, VertexRows};
 use crate::exec::scalar::VertexProgram;
+use crate::exec::{CheckedProgram, NoObserver};
+use crate::isa::Stage;
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use rayon::prelude::*;
 
@@ -21,81 +25,117 @@ pub(super) struct Batch {
 /// The vertex stage of a call.
 pub(super) enum VertexStage<'a> {
     Transformed(&'a [Vertex]),
-    Program(Box<VertexProgram<'a>>, &'a VertexStreams<'a>),
-    Batch(Box<BatchVertices>, &'a VertexStreams<'a>),
+    Program(Shader<'a>, Box<VertexProgram<'a>>),
+    Batch(Shader<'a>, Box<BatchVertices>),
+}
+
+/// What a vertex program runs on, and its step budget.
+#[derive(Clone, Copy)]
+pub(super) struct Shader<'a> {
+    program: &'a CheckedProgram,
+    streams: &'a VertexStreams<'a>,
+    budget: u32,
+}
+
+impl Shader<'_> {
+    /// The error of the first vertex, by instance and number, that did not end within the budget.
+    fn overrun(&self, cut: impl Iterator<Item = (usize, usize, usize)>) -> Result<(), MachineError> {
+        let Some((instance, vertex, instruction)) = cut.min() else { return Ok(()) };
+        let place = ProgramPlace::Vertex { instance, vertex };
+        Err(MachineError::out_of_steps(place, instruction, self.program, self.budget))
+    }
 }
 
 impl<'a> VertexStage<'a> {
     pub(super) fn new(
         call: &'a DrawCall<'a>,
-        rules: &'a Rules,
+        profile: &'a Profile,
         (kind, simd): (ExecutorKind, Option<SimdLevel>),
         needed: ComponentMask,
     ) -> Self {
         match &call.vertices {
             VertexSource::Transformed(vertices) => Self::Transformed(vertices),
             VertexSource::Program { program, constants, streams } => {
+                let (rules, budget) = (&profile.rules, profile.limits.step_budget(Stage::Vertex));
+                let shader = Shader { program, streams, budget };
                 if kind == ExecutorKind::Batch
-                    && let Some(batch) = BatchVertices::new(crate::exec::program(program), rules, constants, needed)
+                    && let Some(batch) = BatchVertices::new(program, rules, constants, needed, budget)
                 {
-                    return Self::Batch(Box::new(batch.with_simd_level(simd)), streams);
+                    return Self::Batch(shader, Box::new(batch.with_simd_level(simd)));
                 }
-                Self::Program(Box::new(VertexProgram::new(program, rules, constants)), streams)
+                Self::Program(shader, Box::new(VertexProgram::new(program, rules, constants).within(budget)))
             }
         }
     }
 
     /// Processes instances `first` to `first + count`, instance by instance.
-    pub(super) fn run(&self, first: usize, count: usize, plan: &Plan) -> Batch {
-        match self {
+    ///
+    /// # Errors
+    /// If a vertex does not end within the step budget.
+    pub(super) fn run(&self, first: usize, count: usize, plan: &Plan) -> Result<Batch, MachineError> {
+        Ok(match self {
             Self::Transformed(vertices) => Batch { vertices: vertices.to_vec(), slots: 0 },
-            Self::Program(program, streams) => {
+            Self::Program(shader, program) => {
+                let place = |i: usize| (first + i / plan.vertex_count, i % plan.vertex_count);
                 let results: Vec<_> = (0..count * plan.vertex_count)
                     .into_par_iter()
                     .map(|i| {
-                        let (instance, vertex) = (first + i / plan.vertex_count, i % plan.vertex_count);
-                        program.run(&attributes(streams, instance, vertex))
+                        let (instance, vertex) = place(i);
+                        program.run_counted(&attributes(shader.streams, instance, vertex), &mut NoObserver)
                     })
                     .collect();
+                let cut = results.iter().enumerate().filter_map(|(i, (_, cut))| Some((i, (*cut)?)));
+                shader.overrun(cut.map(|(i, instruction)| (place(i).0, place(i).1, instruction)))?;
                 Batch {
-                    slots: results.iter().map(|r| r.slots).sum(),
-                    vertices: results.into_iter().map(|r| r.vertex).collect(),
+                    slots: results.iter().map(|(r, _)| r.slots).sum(),
+                    vertices: results.into_iter().map(|(r, _)| r.vertex).collect(),
                 }
             }
             Self::Batch(..) => {
-                let rows = self.rows(first, count, plan, ComponentMask::ALL);
+                let rows = self.rows(first, count, plan, ComponentMask::ALL)?;
                 let at = |i: usize| (i % plan.vertex_count) * count + i / plan.vertex_count;
                 let vertices = (0..count * plan.vertex_count).map(|i| rows.vertex(at(i))).collect();
                 Batch { vertices, slots: rows.executed }
             }
-        }
+        })
     }
 
     /// [`Self::run`] with the results in rows: vertex `v` of instance `first + i` stands at `v * count + i`.
-    pub(super) fn rows(&self, first: usize, count: usize, plan: &Plan, needed: ComponentMask) -> VertexRows {
-        match self {
-            Self::Batch(program, streams) => {
+    ///
+    /// # Errors
+    /// If a vertex does not end within the step budget.
+    pub(super) fn rows(
+        &self,
+        first: usize,
+        count: usize,
+        plan: &Plan,
+        needed: ComponentMask,
+    ) -> Result<VertexRows, MachineError> {
+        Ok(match self {
+            Self::Batch(shader, program) => {
                 let fill = |register: usize, component: usize, at: usize, row: &mut [u32]| {
-                    fill_attribute(streams, (register, component), (first, count), at, row);
+                    fill_attribute(shader.streams, (register, component), (first, count), at, row);
                 };
-                program.run(count * plan.vertex_count, &fill)
+                let rows = program.run(count * plan.vertex_count, &fill);
+                shader.overrun(rows.cut.iter().map(|&(i, instruction)| (first + i % count, i / count, instruction)))?;
+                rows
             }
             Self::Transformed(vertices) => VertexRows::from_vertices(vertices, needed),
             Self::Program(..) => {
-                let batch = self.run(first, count, plan);
+                let batch = self.run(first, count, plan)?;
                 let at = |i: usize| (i % count) * plan.vertex_count + i / count;
                 let vertices: Vec<Vertex> = (0..batch.vertices.len()).map(|i| batch.vertices[at(i)]).collect();
                 VertexRows { executed: batch.slots, ..VertexRows::from_vertices(&vertices, needed) }
             }
-        }
+        })
     }
 
     /// Bytes that one vertex reads, and bytes that one instance reads once.
     pub(super) fn bytes(&self) -> (u64, u64) {
         match self {
             Self::Transformed(_) => (size_of::<Vertex>() as u64, 0),
-            Self::Program(_, streams) | Self::Batch(_, streams) => {
-                let of = |step| 16 * streams.streams.iter().filter(|s| s.step == step).count() as u64;
+            Self::Program(shader, _) | Self::Batch(shader, _) => {
+                let of = |step| 16 * shader.streams.streams.iter().filter(|s| s.step == step).count() as u64;
                 (of(StepRate::Vertex), of(StepRate::Instance))
             }
         }

@@ -7,11 +7,13 @@ use super::{DrawCall, ExecutorKind, MachineError, Tiles};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
 use crate::exec::batch::{Instances, SimdLevel, Surfaces};
-use crate::exec::{TILE, TileExecutor};
+use crate::exec::{Overrun, TILE, TileExecutor, program};
+use crate::isa::Stage;
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::Region;
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 /// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
 /// however many there are.
@@ -44,7 +46,7 @@ pub(super) fn draw(
         Tiles::Scalar(_) => ComponentMask::ALL,
         Tiles::Batch(tiles) => tiles.inputs(),
     };
-    let stage = VertexStage::new(call, &profile.rules, kind, needed);
+    let stage = VertexStage::new(call, profile, kind, needed);
     let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
     let shape = match executor {
         Tiles::Scalar(_) => TileShapes::Square,
@@ -58,25 +60,25 @@ pub(super) fn draw(
         let count = round.min(plan.instance_count - first);
         match executor {
             Tiles::Scalar(tiles) => {
-                let batch = stage.run(first, count, plan);
+                let batch = stage.run(first, count, plan)?;
                 events.vertices += batch.vertices.len() as u64;
                 events.vertex_instructions += batch.slots;
                 let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
                 events.primitives += primitives;
                 for part in setups.chunks(ROUND) {
                     let run = |order: &[u32], tile: &mut TargetTile| tiles.run_tile(part, order, tile);
-                    shade(memory, call, &|i| part.get(i), part.len(), &run, &mut work)?;
+                    shade((memory, profile), call, &|i| part.get(i), part.len(), &run, &mut work)?;
                 }
             }
             Tiles::Batch(tiles) => {
                 events.vertices += (count * plan.vertex_count) as u64;
                 let (surfaces, primitives, executed) = if plan.provoking.is_some() {
                     // A flat triangle has corners of its own: no vertex can be shared.
-                    let batch = stage.run(first, count, plan);
+                    let batch = stage.run(first, count, plan)?;
                     let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
                     (Surfaces::from_setups(&setups, needed), primitives, batch.slots)
                 } else {
-                    let rows = stage.rows(first, count, plan, needed);
+                    let rows = stage.rows(first, count, plan, needed)?;
                     let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
                     let rules = raster_rules(profile);
                     let (surfaces, primitives) =
@@ -89,7 +91,7 @@ pub(super) fn draw(
                 // Where there are fewer tiles than workers, some share one.
                 let hands = rayon::current_num_threads().div_ceil(work.len().max(1));
                 let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile, hands);
-                shade(memory, call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
+                shade((memory, profile), call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
             }
         }
         first += count;
@@ -133,22 +135,42 @@ fn tiles(region: Region, shapes: TileShapes) -> Vec<Work> {
     out
 }
 
+/// The first fragment, as [`Overrun`]s order, that did not end within its step budget, of all tiles: which is the same
+/// whichever tile comes first. Tiles that can have none before it are left out.
+#[derive(Default)]
+struct FirstOverrun(Mutex<Option<Overrun>>);
+
+impl FirstOverrun {
+    fn get(&self) -> Option<Overrun> {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn note(&self, overrun: Overrun) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *first = Some(first.map_or(overrun, |known| known.min(overrun)));
+    }
+}
+
 /// Draws some triangles, whose set-ups `geometry` gives, into all tiles.
 fn shade<'s>(
-    memory: &Memory,
+    (memory, profile): (&Memory, &Profile),
     call: &DrawCall<'_>,
     geometry: &(impl Fn(usize) -> Option<&'s TriangleSetup> + Sync),
     count: usize,
-    run: &(impl Fn(&[u32], &mut TargetTile) -> FragmentCounts + Sync),
+    run: &(impl Fn(&[u32], &mut TargetTile) -> Result<FragmentCounts, Overrun> + Sync),
     work: &mut [Work],
 ) -> Result<(), MachineError> {
     let rows = row_bins(geometry, count, work);
-    work.par_iter_mut().try_for_each(|work| {
+    let first = FirstOverrun::default();
+    let drawn = work.par_iter_mut().try_for_each(|work| {
         let Some(row) = rows.get((work.region.y / TILE) as usize) else {
             return Ok(());
         };
         let touches = |i: &u32| geometry(*i as usize).is_some_and(|s| !s.misses(work.region));
-        let order: Vec<u32> = row.iter().copied().filter(touches).collect();
+        let known = first.get();
+        let (y, x) = (work.region.y, work.region.x);
+        let matters = |&triangle: &u32| known.is_none_or(|known| Overrun { triangle, y, x, instruction: 0 } < known);
+        let order: Vec<u32> = row.iter().copied().take_while(matters).filter(touches).collect();
         if order.is_empty() {
             return Ok(());
         }
@@ -156,9 +178,19 @@ fn shade<'s>(
             Some(tile) => tile,
             empty => empty.insert(load(memory, call, work.region)?),
         };
-        work.counts += run(&order, tile);
+        match run(&order, tile) {
+            Ok(counts) => work.counts += counts,
+            Err(overrun) => first.note(overrun),
+        }
         Ok(())
-    })
+    });
+    match first.get() {
+        Some(overrun) => {
+            let budget = profile.limits.step_budget(Stage::Pixel);
+            Err(MachineError::overrun(overrun, program(call.pixel_program), budget))
+        }
+        None => drawn,
+    }
 }
 
 /// For each row of tiles the triangles whose bounding box meets it, in order.
@@ -209,7 +241,7 @@ pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_
         out.depth_read = depth_size * (f.depth_failed + f.passed);
         out.depth_written = if call.depth.write { depth_size * f.passed } else { 0 };
     }
-    let written = crate::exec::colors_written(crate::exec::program(call.pixel_program));
+    let written = crate::exec::colors_written(program(call.pixel_program));
     for (i, (&id, mask)) in call.targets.iter().zip(call.masks).enumerate() {
         let Ok(image) = memory.texture(id) else { continue };
         let stored = image.format().record().stored();

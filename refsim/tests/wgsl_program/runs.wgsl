@@ -15,7 +15,7 @@ fn run(@builtin(local_invocation_index) invocation: u32) {
     q_covered = (vec4<u32>(setups[from_word + 165u]) & bits) != vec4<u32>(0u);
     q_depth = vec4<u32>(0u);
     q_trace = select(0u, draw[40], invocation == 0u);
-    q_budget = 0xffffffffu;
+    q_passes = 0xffffffffu;
     shade();
     if (q_trace != 0u) {
         atomicStore(&counts[0], q_traced);

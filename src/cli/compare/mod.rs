@@ -72,6 +72,11 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "NAME=VALUE", value_parser = super::switch::parse)]
     right_switch: Vec<(String, String)>,
 
+    /// Instructions that a program may execute per pixel or vertex, on both sides [default: what the case says, or the
+    /// device's `limits.pixel_step_budget`, or 65536]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    step_budget: Option<u32>,
+
     /// Compare what every instruction writes at one pixel, whether or not the targets differ there
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse, conflicts_with = "registers")]
     pixel: Option<[u32; 2]>,
@@ -108,7 +113,11 @@ impl Args {
             true if !on_gpu(executor) => executor.open(&GpuArgs::default()),
             _ => executor.open(&self.gpu),
         };
-        Ok([wanted("left", left, open(left_executor)?)?, wanted("right", right, open(right_executor)?)?])
+        let budget = self.step_budget;
+        Ok([
+            wanted("left", left, budget, open(left_executor)?)?,
+            wanted("right", right, budget, open(right_executor)?)?,
+        ])
     }
 
     fn scope(&self, size: [u32; 2]) -> miette::Result<Scope> {
@@ -123,13 +132,19 @@ impl Args {
 /// Device, format and switches as asked for.
 type Settings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
 
-fn wanted(name: &'static str, settings: Settings<'_>, executor: Executor) -> miette::Result<Wanted> {
+fn wanted(
+    name: &'static str,
+    settings: Settings<'_>,
+    step_budget: Option<u32>,
+    executor: Executor,
+) -> miette::Result<Wanted> {
     let (device, format, switches) = settings;
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
             device: device.map(Profile::named).transpose()?,
             format: format.map(|text| text.parse::<Format>().map_err(bad_format)).transpose()?,
             switches: switches.to_vec(),
+            step_budget,
         })
     };
     let overrides = overrides().wrap_err_with(|| format!("the {name} side cannot be set up"))?;

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::{Out, Problem, Verdict, error, pixel};
 use crate::{
-    case::{self, Found, Outcome, PixelTrace, ProbeResult, Setup},
+    case::{self, Found, Outcome, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
     report::{Cell, Table},
 };
@@ -46,6 +46,11 @@ pub(super) struct Args {
     #[command(flatten)]
     gpu: GpuArgs,
 
+    /// Instructions that a program may execute per pixel or vertex before the run ends with an error [default: what the
+    /// case says, or the device's `limits.pixel_step_budget`, or 65536]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    step_budget: Option<u32>,
+
     /// Show what every instruction writes at a pixel: column and row from the top left, from 0
     #[arg(long, value_name = "X,Y", value_parser = pixel::parse)]
     trace: Option<[u32; 2]>,
@@ -53,7 +58,8 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let executor = args.executor.open(&args.gpu)?;
-    let setup = Setup::read(&args.case)?;
+    let overrides = Overrides { step_budget: args.step_budget, ..Overrides::default() };
+    let setup = Setup::read_with(&args.case, &overrides)?;
     error::print_warnings(&setup.warnings, out.json());
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;

@@ -15,6 +15,7 @@ use super::schedule::{Block, schedule};
 use super::slots::{Slot, Slots};
 use super::translate::{Effect, Place, Translator};
 use crate::device::Rules;
+use crate::exec::budget::{enforced, loop_counter};
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
 
@@ -46,6 +47,8 @@ pub(super) struct Instr {
 pub(crate) struct FlowPlan {
     pub(super) code: Vec<Instr>,
     pub(super) flow: FlowMap,
+    /// The step budget, if the program may exceed it.
+    pub(super) budget: Option<u32>,
     constants: Vec<(Slot, u32)>,
     inputs: Vec<(u16, Slot)>,
     pub(super) registers: BTreeMap<Place, Slot>,
@@ -61,16 +64,24 @@ impl FlowPlan {
         formats: &Formats,
         constants: &ResolvedConstants,
         bindings: &PixelBindings<'_>,
+        budget: u32,
     ) -> Self {
-        Self::new(program, constants, Translator::new(program, rules, formats.clone(), constants, Some(bindings)))
+        let translator = Translator::new(program, rules, formats.clone(), constants, Some(bindings));
+        Self::new(program, constants, translator, budget)
     }
 
     /// Decodes a vertex program.
-    pub(crate) fn vertex(program: &Program, rules: &Rules, formats: &Formats, constants: &ResolvedConstants) -> Self {
-        Self::new(program, constants, Translator::new(program, rules, formats.clone(), constants, None))
+    pub(crate) fn vertex(
+        program: &Program,
+        rules: &Rules,
+        formats: &Formats,
+        constants: &ResolvedConstants,
+        budget: u32,
+    ) -> Self {
+        Self::new(program, constants, Translator::new(program, rules, formats.clone(), constants, None), budget)
     }
 
-    fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>) -> Self {
+    fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>, budget: u32) -> Self {
         let Parts { parts, registers, first_free } = Parts::new(program, &mut t);
         let mut next = first_free;
         // Constants and inputs live as long as the program.
@@ -100,7 +111,9 @@ impl FlowPlan {
             }
         });
         let code = code.collect();
-        Self { code, flow: FlowMap::new(program), constants: constant_slots, inputs, registers, slots, results }
+        let flow = FlowMap::new(program);
+        let budget = enforced(program, &flow, constants, budget);
+        Self { code, flow, budget, constants: constant_slots, inputs, registers, slots, results }
     }
 
     pub(crate) fn slots(&self) -> usize {
@@ -142,16 +155,6 @@ fn written(program: &Program) -> Vec<Place> {
         }
     }
     out
-}
-
-/// The integer constant that a loop instruction counts by.
-pub(crate) fn loop_counter(instruction: &Instruction, constants: &ResolvedConstants) -> [i32; 4] {
-    let counter = match instruction.opcode {
-        Opcode::Loop => instruction.sources.get(1),
-        _ => instruction.sources.first(),
-    };
-    let number = counter.map_or(usize::MAX, |s| usize::from(s.register.index));
-    constants.int.get(number).copied().unwrap_or_default()
 }
 
 /// The instructions of a program as graph nodes, each merged into registers that have slots of their own.

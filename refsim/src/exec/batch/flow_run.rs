@@ -5,10 +5,8 @@ use super::lane::LANES;
 use super::slots::{Row, Slots, TRUE};
 use super::steps::{Surroundings, run_steps};
 use crate::event::SAMPLERS;
+use crate::exec::budget::LOOP_LIMIT;
 use crate::isa::{Opcode, OpcodeClass};
-
-/// Passes of a loop at most, as in the scalar executor.
-const LOOP_LIMIT: i32 = 255;
 
 /// What an open block remembers.
 enum Frame {
@@ -40,6 +38,10 @@ pub(crate) struct FlowRun<'p> {
     counter: i32,
     /// Instruction slots, summed over the lanes.
     pub(crate) executed: u64,
+    /// Steps of each lane, where a budget is enforced.
+    steps: Option<Box<Row>>,
+    /// Lanes that were cut off for want of steps, and the instruction in front of which.
+    pub(crate) cut: Vec<(usize, usize)>,
 }
 
 fn any(row: &Row) -> bool {
@@ -55,7 +57,8 @@ fn remove(from: &mut Row, lanes: &Row) {
 impl<'p> FlowRun<'p> {
     /// A run of the lanes in `run`, of which those in `covered` are fragments (or vertices).
     pub(crate) fn new(plan: &'p FlowPlan, around: &'p Surroundings<'p>, run: &'p Row, covered: &'p Row) -> Self {
-        Self { plan, around, run, covered, frames: Vec::new(), counter: 0, executed: 0 }
+        let steps = plan.budget.map(|_| Box::new([0; LANES]));
+        Self { plan, around, run, covered, frames: Vec::new(), counter: 0, executed: 0, steps, cut: Vec::new() }
     }
 
     /// Runs the program to its end.
@@ -78,6 +81,7 @@ impl<'p> FlowRun<'p> {
                 }
                 continue;
             };
+            self.charge(at, slots);
             let running = any(slots.row(ACTIVE));
             if running {
                 let lanes = slots.row(ACTIVE).iter().zip(self.covered).filter(|&(&a, &c)| a & c != 0).count() as u64;
@@ -103,6 +107,32 @@ impl<'p> FlowRun<'p> {
             }
             at += 1;
         }
+    }
+
+    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step left.
+    fn charge(&mut self, at: usize, slots: &mut Slots) {
+        let (Some(steps), Some(budget)) = (&mut self.steps, self.plan.budget) else { return };
+        let mut cut = [0; LANES];
+        // An active lane's mask is all ones: less it is one more.
+        for ((count, &active), cut) in steps.iter_mut().zip(slots.row(ACTIVE)).zip(&mut cut) {
+            *cut = if *count == budget { active } else { 0 };
+            *count = count.wrapping_sub(active & !*cut);
+        }
+        if !any(&cut) {
+            return;
+        }
+        remove(slots.row_mut(ACTIVE), &cut);
+        for frame in &mut self.frames {
+            match frame {
+                Frame::If { restore, otherwise: more } | Frame::Loop { restore, live: more, .. } => {
+                    remove(restore, &cut);
+                    remove(more, &cut);
+                }
+                Frame::Call { restore, .. } => remove(restore, &cut),
+            }
+        }
+        let lanes = cut.iter().zip(self.covered).enumerate();
+        self.cut.extend(lanes.filter(|(_, (cut, covered))| **cut & **covered != 0).map(|(lane, _)| (lane, at)));
     }
 
     /// The active lanes in which the instruction's condition holds.

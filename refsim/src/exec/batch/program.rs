@@ -76,6 +76,11 @@ impl StraightProgram {
         Self { ends, fetches: t.fetches, lanes_apart, graph: t.make.graph }
     }
 
+    /// Whether slots have numbers for all values at once: a plan may keep every one.
+    pub(crate) fn fits_slots(&self) -> bool {
+        self.graph.len() <= usize::from(Slot::MAX)
+    }
+
     /// Schedules the program for triangles whose components in `constant` are constant.
     pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
         let uniform = self.graph.uniform(|component| constant.has(component.into()));

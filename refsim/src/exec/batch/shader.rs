@@ -92,6 +92,11 @@ impl Shader {
         self.simd
     }
 
+    /// Where the lanes are.
+    pub(crate) fn frame(&self) -> Frame {
+        self.frame
+    }
+
     /// Goes to a tile. Nothing that belongs to another tile, or to other surfaces, is used again.
     pub(crate) fn start(&mut self, region: Region) {
         self.frame = Frame::around(region);

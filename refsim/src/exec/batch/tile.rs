@@ -14,6 +14,7 @@ use super::graph::Arith;
 use super::lane::LANES;
 use super::output::{Output, Results, Shaded, Survivors};
 use super::program::{StraightPlan, StraightProgram, has_flow, pixel_formats};
+use super::raster::Frame;
 use super::schedule::Block;
 use super::shader::{Inputs, Manner, Shader};
 use super::simd::SimdLevel;
@@ -23,8 +24,9 @@ use super::surfaces::{Surfaces, Triangle};
 use super::targets::Targets;
 use crate::device::Rules;
 use crate::event::{FragmentCounts, SAMPLERS};
+use crate::exec::budget::straight_exceeds;
 use crate::exec::{
-    BUMP_STAGES, BumpStage, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read,
+    BUMP_STAGES, BumpStage, Overrun, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read,
     sample_rules,
 };
 use crate::isa::Program;
@@ -92,13 +94,20 @@ impl Round<'_> {
 
 impl<'a> BatchTiles<'a> {
     /// Prepares a draw: decodes the program and the textures. `None` if the register format is none that
-    /// [`crate::num::Format`] can be built with.
+    /// [`crate::num::Format`] can be built with, if the program has more values than there are slots, or if no fragment can
+    /// end within the step budget: only the scalar executor counts the steps of programs without flow control.
     pub fn new(draw: &TileDraw<'a>) -> Option<Self> {
         let program = crate::exec::program(draw.program);
+        if !has_flow(program) && straight_exceeds(program, draw.step_budget) {
+            return None;
+        }
         let formats = pixel_formats(draw.rules)?;
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
         let code = decoded(program, draw, &formats, &constants);
+        if matches!(&code.code, PixelCode::Straight(straight, _) if !straight.fits_slots()) {
+            return None;
+        }
         let main = formats.lane(Arith::Main);
         let textures =
             draw.bindings.samplers.iter().map(|s| s.map(|binding| BatchTexture::new(binding, rules, main))).collect();
@@ -205,44 +214,53 @@ impl<'a> BatchTiles<'a> {
     /// Up to `hands` workers shade at a time; that changes nothing but the time it takes.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
-    pub fn draw(&self, round: &Round<'_>, order: &[u32], tile: &mut TargetTile, hands: usize) -> FragmentCounts {
+    ///
+    /// # Errors
+    /// As [`TileExecutor::run_tile`].
+    pub fn draw(
+        &self,
+        round: &Round<'_>,
+        order: &[u32],
+        tile: &mut TargetTile,
+        hands: usize,
+    ) -> Result<FragmentCounts, Overrun> {
         let region = tile.region;
         let depth = tile.depth.as_ref().map(|buffer| buffer.format);
         let mut targets = Targets::load(tile, self.output.written, &self.output.state, &self.output.rules);
-        let mut counts = FragmentCounts::default();
+        let mut counts;
         // What shading leaves is kept as fragments until it is their turn: worth it where most are killed.
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
         if hands > 1 && few_left && order.len() >= FEWEST_SHARED * hands {
             let share = order.len().div_ceil(hands).next_multiple_of(2);
             let (own, others) = order.split_at(share.min(order.len()));
             let mut rest: Vec<_> =
-                others.chunks(share).map(|part| (part, Vec::new(), FragmentCounts::default())).collect();
+                others.chunks(share).map(|part| (part, Vec::new(), Ok(FragmentCounts::default()))).collect();
             // The first share is this thread's own, and merged while the others are on their way.
-            rayon::in_place_scope(|scope| {
+            counts = rayon::in_place_scope(|scope| {
                 for (part, fragments, counts) in &mut rest {
                     scope.spawn(move |_| {
-                        self.shade_all(round, part, (region, depth), counts, |shaded, survivors, _| {
+                        *counts = self.shade_all(round, part, (region, depth), |shaded, survivors, _| {
                             shaded.gather(survivors, fragments);
                         });
                     });
                 }
-                self.shade_all(round, own, (region, depth), &mut counts, |shaded, survivors, counts| {
+                self.shade_all(round, own, (region, depth), |shaded, survivors, counts| {
                     self.output.merge(shaded, survivors, &mut targets, counts);
-                });
-            });
+                })
+            })?;
             for (_, fragments, more) in &rest {
-                counts += *more;
+                counts += (*more)?;
                 for fragment in fragments {
                     self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
                 }
             }
         } else {
-            self.shade_all(round, order, (region, depth), &mut counts, |shaded, survivors, counts| {
+            counts = self.shade_all(round, order, (region, depth), |shaded, survivors, counts| {
                 self.output.merge(shaded, survivors, &mut targets, counts);
-            });
+            })?;
         }
         targets.store();
-        counts
+        Ok(counts)
     }
 
     /// Runs the program for some triangles, part after part; `merge` gets what the tests before the depth test leave.
@@ -251,9 +269,9 @@ impl<'a> BatchTiles<'a> {
         round: &Round<'_>,
         order: &[u32],
         (region, depth): (Region, Option<DepthFormat>),
-        counts: &mut FragmentCounts,
         mut merge: impl FnMut(Shaded<'_>, &mut Survivors, &mut FragmentCounts),
-    ) {
+    ) -> Result<FragmentCounts, Overrun> {
+        let mut counts = FragmentCounts::default();
         let mut shader = self.shader(round);
         shader.start(region);
         let mut survivors = Survivors::new();
@@ -265,7 +283,7 @@ impl<'a> BatchTiles<'a> {
             if shader.covered_count == 0 {
                 continue;
             }
-            self.shade(round, part[0] as usize, &mut shader, counts);
+            self.shade(round, part[0], &mut shader, &mut counts)?;
             let shaded = Shaded {
                 results: round.results(),
                 formats: &self.formats,
@@ -273,10 +291,11 @@ impl<'a> BatchTiles<'a> {
                 covered: &shader.covered,
                 depth: &shader.depth,
             };
-            self.output.test(shaded, depth, &mut survivors, counts);
-            merge(shaded, &mut survivors, counts);
+            self.output.test(shaded, depth, &mut survivors, &mut counts);
+            merge(shaded, &mut survivors, &mut counts);
         }
         self.program.shaders.keep((round.constant, shader));
+        Ok(counts)
     }
 
     /// Rows for a plan, used before or new.
@@ -311,7 +330,13 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Runs the program for the part that the shader has taken, whose first triangle is `first`.
-    fn shade(&self, round: &Round<'_>, first: usize, shader: &mut Shader, counts: &mut FragmentCounts) {
+    fn shade(
+        &self,
+        round: &Round<'_>,
+        first: u32,
+        shader: &mut Shader,
+        counts: &mut FragmentCounts,
+    ) -> Result<(), Overrun> {
         counts.generated += shader.covered_count;
         counts.shaded += shader.covered_count;
         let around = self.around();
@@ -321,7 +346,7 @@ impl<'a> BatchTiles<'a> {
                     run_steps(&plan.invariant.steps, &around, &shader.run, &mut shader.slots);
                 }
                 for (&(_, slot), values) in plan.varying.given.iter().zip(&round.given) {
-                    shader.slots.give(slot, values[first]);
+                    shader.slots.give(slot, values[first as usize]);
                 }
                 run_steps(&plan.varying.steps, &around, &shader.run, &mut shader.slots);
                 for &sampler in &program.fetches {
@@ -333,11 +358,26 @@ impl<'a> BatchTiles<'a> {
             RoundCode::Flow(plan) => {
                 shader.forget_inputs();
                 shader.fill_inputs(round.surfaces, &round.inputs, &self.formats);
+                let frame = shader.frame();
                 let Shader { slots, run, covered, .. } = shader;
-                FlowRun::new(plan, &around, run, covered).run(slots, &mut counts.fetches);
+                let mut run = FlowRun::new(plan, &around, run, covered);
+                run.run(slots, &mut counts.fetches);
+                if let Some(overrun) = overrun(&run.cut, frame, first) {
+                    return Err(overrun);
+                }
             }
         }
+        Ok(())
     }
+}
+
+/// The first of the fragments of a triangle that were cut off, given by lane.
+pub(crate) fn overrun(cut: &[(usize, usize)], frame: Frame, triangle: u32) -> Option<Overrun> {
+    let of = |&(lane, instruction): &(usize, usize)| {
+        let (x, y) = frame.pixel(lane);
+        Overrun { triangle, y, x, instruction }
+    };
+    cut.iter().map(of).min()
 }
 
 /// What decoding depends on.
@@ -346,6 +386,7 @@ struct Key {
     program: Program,
     rules: Rules,
     constants: ResolvedConstants,
+    budget: u32,
     /// Of bound textures: whether reads need a level of detail, and the kind.
     samplers: [Option<(bool, TextureKind)>; SAMPLERS],
     bump: [BumpStage; BUMP_STAGES],
@@ -362,6 +403,7 @@ fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants:
         key.samplers == samplers
             && key.bump == bindings.bump
             && key.projections == bindings.projections
+            && key.budget == draw.step_budget
             && key.program == *program
             && key.constants == *constants
             && key.rules == *rules
@@ -369,12 +411,12 @@ fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants:
     DECODED.get(matches, || {
         let (program, constants) = (program.clone(), constants.clone());
         let code = if has_flow(&program) {
-            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings))
+            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings, draw.step_budget))
         } else {
             PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
         };
-        let (bump, projections) = (bindings.bump, bindings.projections);
-        let key = Key { program, rules: rules.clone(), constants, samplers, bump, projections };
+        let (bump, projections, budget) = (bindings.bump, bindings.projections, draw.step_budget);
+        let key = Key { program, rules: rules.clone(), constants, budget, samplers, bump, projections };
         (key, Decoded { code, shaders: Pool::default(), uniforms: Pool::default() })
     })
 }
@@ -390,7 +432,12 @@ fn plan(
 }
 
 impl TileExecutor for BatchTiles<'_> {
-    fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
+    fn run_tile(
+        &self,
+        triangles: &[TriangleSetup],
+        order: &[u32],
+        tile: &mut TargetTile,
+    ) -> Result<FragmentCounts, Overrun> {
         let surfaces = Surfaces::from_setups(triangles, self.inputs);
         self.draw(&self.round(&surfaces), order, tile, 1)
     }

@@ -20,13 +20,15 @@ use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
 use super::slots::{Row, Slot, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
-use super::tile::BatchTiles;
+use super::tile::{BatchTiles, overrun};
 use super::translate::{Effect, Translator};
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::scalar::{DepthValue, FragmentResult};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::usage::registers_delivered;
-use crate::exec::{PixelTracer, ResolvedConstants, Shading, Step, TileDraw, TileExecutor, inputs_read, sample_rules};
+use crate::exec::{
+    Overrun, PixelTracer, ResolvedConstants, Shading, Step, TileDraw, TileExecutor, inputs_read, sample_rules,
+};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile};
 use crate::num::{Flags, ops};
 use crate::output::{FragmentFate, TargetTile};
@@ -76,7 +78,7 @@ impl<'a> BatchTracer<'a> {
         let translator = || Translator::new(program, draw.rules, formats.clone(), &constants, Some(&draw.bindings));
         let delivered = delivered(&mut translator(), program);
         let code = if has_flow(program) {
-            Code::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings))
+            Code::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings, draw.step_budget))
         } else {
             straight(&mut translator(), program)
         };
@@ -251,14 +253,18 @@ impl BatchTracer<'_> {
         (steps, output)
     }
 
-    fn run_flow(&self, plan: &FlowPlan, rows: &mut Rows<'_>) -> (Vec<Step>, FragmentResult) {
+    fn run_flow(&self, plan: &FlowPlan, rows: &mut Rows<'_>) -> Result<(Vec<Step>, FragmentResult), Overrun> {
         let mut slots = Slots::new(plan.slots());
         plan.fill(&mut slots);
         rows.fill(plan.inputs(), &self.formats, &mut slots);
         let mut watch = LaneWatch { tracer: self, plan, lane: rows.lane, mask: None, steps: Vec::new() };
         let around = self.around();
-        FlowRun::new(plan, &around, &rows.run, &rows.covered).run_watched(&mut slots, &mut [0; SAMPLERS], &mut watch);
-        (watch.steps, self.output(plan.results(), &slots, rows.lane))
+        let mut run = FlowRun::new(plan, &around, &rows.run, &rows.covered);
+        run.run_watched(&mut slots, &mut [0; SAMPLERS], &mut watch);
+        match overrun(&run.cut, rows.frame, 0) {
+            Some(overrun) => Err(overrun),
+            None => Ok((watch.steps, self.output(plan.results(), &slots, rows.lane))),
+        }
     }
 }
 
@@ -328,7 +334,7 @@ impl Watch for LaneWatch<'_> {
 }
 
 impl PixelTracer for BatchTracer<'_> {
-    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading {
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun> {
         let (x, y) = (tile.region.x, tile.region.y);
         let mut rows = Rows {
             triangle,
@@ -346,10 +352,10 @@ impl PixelTracer for BatchTracer<'_> {
         let delivered = registers.iter().copied().zip(values).collect();
         let (steps, output) = match &self.code {
             Code::Straight(parts, ends) => self.run_straight(parts, ends, &mut rows),
-            Code::Flow(plan) => self.run_flow(plan, &mut rows),
+            Code::Flow(plan) => self.run_flow(plan, &mut rows)?,
         };
-        let counts = self.tiles.run_tile(std::slice::from_ref(triangle), &[0], tile);
-        Shading { input: rows.input(self.reads, &self.formats), delivered, steps, output, fate: fate(&counts) }
+        let counts = self.tiles.run_tile(std::slice::from_ref(triangle), &[0], tile)?;
+        Ok(Shading { input: rows.input(self.reads, &self.formats), delivered, steps, output, fate: fate(&counts) })
     }
 }
 

@@ -21,6 +21,7 @@ use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use super::translate::{CONSTANT_INPUTS, Effect, Place, Translator};
 use crate::device::Rules;
 use crate::event::SAMPLERS;
+use crate::exec::budget::straight_exceeds;
 use crate::exec::{Constants, ResolvedConstants};
 use crate::isa::{Program, RegisterFile};
 use crate::num::Format;
@@ -41,11 +42,13 @@ pub struct VertexRows {
     pub(crate) components: Vec<Vec<u32>>,
     /// Instruction slots executed, summed over the vertices.
     pub executed: u64,
+    /// Vertices that did not end within the step budget, and the instruction that was one too many.
+    pub(crate) cut: Vec<(usize, usize)>,
 }
 
 impl VertexRows {
     fn new() -> Self {
-        Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0 }
+        Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0, cut: Vec::new() }
     }
 
     /// Vertices given one by one.
@@ -107,6 +110,7 @@ struct Key {
     /// `None` where they are inputs.
     constants: Option<ResolvedConstants>,
     needed: ComponentMask,
+    budget: u32,
 }
 
 static DECODED: Cache<Key, Decoded> = Cache::new();
@@ -119,8 +123,10 @@ fn decoded(
     formats: &Formats,
     constants: &ResolvedConstants,
     (needed, components): (ComponentMask, &[usize]),
+    budget: u32,
 ) -> Arc<Decoded> {
-    let same = |key: &Key| key.needed == needed && key.program == *program && key.rules == *rules;
+    let same =
+        |key: &Key| key.needed == needed && key.budget == budget && key.program == *program && key.rules == *rules;
     let folded = |key: &Key| key.constants.as_ref() == Some(constants) && same(key);
     if let Some(code) = DECODED.find(folded) {
         return code;
@@ -129,24 +135,34 @@ fn decoded(
     let matches = |key: &Key| if open { key.constants.is_none() && same(key) } else { folded(key) };
     DECODED.get(matches, || {
         let code = if has_flow(program) {
-            VertexCode::Flow(Box::new(FlowPlan::vertex(program, rules, formats, constants)))
+            VertexCode::Flow(Box::new(FlowPlan::vertex(program, rules, formats, constants, budget)))
         } else {
             straight(program, rules, formats, constants, (open, components))
         };
         let constants = (!open).then(|| constants.clone());
-        let key = Key { program: program.clone(), rules: rules.clone(), constants, needed };
+        let key = Key { program: program.clone(), rules: rules.clone(), constants, needed, budget };
         (key, Decoded { code, slots: Pool::default() })
     })
 }
 
 impl BatchVertices {
     /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if
-    /// the vertex format is none that [`Format`] can be built with.
-    pub fn new(program: &Program, rules: &Rules, constants: &Constants, needed: ComponentMask) -> Option<Self> {
+    /// the vertex format is none that [`Format`] can be built with, or if no vertex can end within the step budget: only the
+    /// scalar executor counts the steps of programs without flow control.
+    pub fn new(
+        program: &Program,
+        rules: &Rules,
+        constants: &Constants,
+        needed: ComponentMask,
+        step_budget: u32,
+    ) -> Option<Self> {
+        if !has_flow(program) && straight_exceeds(program, step_budget) {
+            return None;
+        }
         let formats = vertex_formats(rules.vertex_format)?;
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
-        let code = decoded(program, rules, &formats, &constants, (needed, &components));
+        let code = decoded(program, rules, &formats, &constants, (needed, &components), step_budget);
         Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
 
@@ -172,6 +188,7 @@ impl BatchVertices {
             }
         });
         out.executed = parts.iter().map(|part| part.executed).sum();
+        out.cut = parts.into_iter().flat_map(|part| part.cut).collect();
         out
     }
 
@@ -255,6 +272,7 @@ impl BatchVertices {
                 let mut run = FlowRun::new(plan, &around, &lanes, &lanes);
                 run.run(slots, &mut [0; SAMPLERS]);
                 out.executed += run.executed;
+                out.cut.extend(run.cut.iter().map(|&(lane, instruction)| (first + lane, instruction)));
                 let places: Vec<Place> = outputs(&self.components).collect();
                 self.each_row(out, |i, row| {
                     let place = places[i];

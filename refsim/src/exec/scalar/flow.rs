@@ -2,10 +2,8 @@
 
 use super::interpreter::Interpreter;
 use crate::exec::Observer;
+use crate::exec::budget::{LOOP_LIMIT, loop_counter};
 use crate::isa::{Instruction, Modifier, Opcode, RegisterFile, Source};
-
-/// Passes of a loop at most: the range of a card's loop counter. Larger counts are cut, negative ones are 0.
-const LOOP_LIMIT: i32 = 255;
 
 /// What an open block remembers.
 #[derive(Clone, Copy, Debug)]
@@ -111,12 +109,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     fn enter_loop(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
-        let counter = match instruction.opcode {
-            Opcode::Loop => instruction.sources.get(1),
-            _ => instruction.sources.first(),
-        };
-        let number = counter.map_or(usize::MAX, |s| usize::from(s.register.index));
-        let [count, start, step, _] = self.prepared.constants.int.get(number).copied().unwrap_or_default();
+        let [count, start, step, _] = loop_counter(instruction, &self.prepared.constants);
         let left = count.clamp(0, LOOP_LIMIT);
         if left == 0 || self.active == 0 {
             return target + 1;
@@ -192,6 +185,36 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         self.frames.push(Frame::Call { restore: self.active, back: at + 1 });
         self.active = entering;
         target + 1
+    }
+
+    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step left.
+    pub(super) fn charge(&mut self, at: usize, budget: u32) {
+        let mut cut = 0;
+        for lane in self.active_lanes() {
+            if self.steps[lane] == budget {
+                cut |= 1 << lane;
+                self.cut_at[lane] = Some(at);
+            } else {
+                self.steps[lane] += 1;
+            }
+        }
+        if cut == 0 {
+            return;
+        }
+        self.active &= !cut;
+        for frame in &mut self.frames {
+            match frame {
+                Frame::If { restore, otherwise } => {
+                    *restore &= !cut;
+                    *otherwise &= !cut;
+                }
+                Frame::Loop { live, restore, .. } => {
+                    *live &= !cut;
+                    *restore &= !cut;
+                }
+                Frame::Call { restore, .. } => *restore &= !cut,
+            }
+        }
     }
 
     /// `ret`: the active lanes are done with the subroutine, or with the program.

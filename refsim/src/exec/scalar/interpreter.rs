@@ -48,6 +48,9 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) slots: u64,
     pub(super) fetches: [u64; SAMPLERS],
     pub(super) flags: [Flags; LANES],
+    /// Steps made, where a budget is enforced, and the instruction in front of which a lane ran out of them.
+    pub(super) steps: [u32; LANES],
+    pub(super) cut_at: [Option<usize>; LANES],
     /// What only an OpenGL fragment program has.
     pub(super) fragment: Option<Box<FragmentState<'a>>>,
     pub(super) observer: &'p mut O,
@@ -76,6 +79,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             slots: 0,
             fetches: [0; SAMPLERS],
             flags: [Flags::empty(); LANES],
+            steps: [0; LANES],
+            cut_at: [None; LANES],
             fragment: prepared.program.version.is_fragment_program().then(|| Box::new(FragmentState::new(rules))),
             observer,
         }
@@ -93,6 +98,11 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 }
                 continue;
             };
+            if let Some(budget) = self.prepared.budget
+                && instruction.opcode != Opcode::Phase
+            {
+                self.charge(at, budget);
+            }
             if self.active != 0 {
                 let cost = instruction.opcode.info().slot_cost(program.version);
                 self.slots += u64::from(cost.arithmetic) + u64::from(cost.texture);

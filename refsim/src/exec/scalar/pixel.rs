@@ -37,9 +37,15 @@ pub struct FragmentResult {
 }
 
 impl<'a> PixelProgram<'a> {
-    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`.
+    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`, however long that takes.
     pub fn new(program: &'a CheckedProgram, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
+    }
+
+    /// The same within a step budget.
+    pub(super) fn within(mut self, budget: u32) -> Self {
+        self.prepared.set_budget(budget);
+        self
     }
 
     /// The interpolated components that the program can read; the others need not be filled in.
@@ -96,6 +102,17 @@ impl<'a> PixelProgram<'a> {
         fetches: &mut [u64; SAMPLERS],
         observer: &mut O,
     ) -> [FragmentResult; LANES] {
+        self.run_counted(inputs, covered, fetches, observer).0
+    }
+
+    /// [`Self::run_observed`], and the instruction in front of which each lane was cut off, if it was.
+    pub(super) fn run_counted<O: Observer>(
+        &self,
+        inputs: &[FragmentInput; LANES],
+        covered: u8,
+        fetches: &mut [u64; SAMPLERS],
+        observer: &mut O,
+    ) -> ([FragmentResult; LANES], [Option<usize>; LANES]) {
         let prepared = &self.prepared;
         let (format, version) = (prepared.format, prepared.program.version);
         let mut run = Interpreter::new(prepared, 0b1111, observer);
@@ -141,6 +158,6 @@ impl<'a> PixelProgram<'a> {
                 result.colors[0] = registers.temp[0].map(|x| ops::saturate01(format, x).bits);
             }
         }
-        results
+        (results, run.cut_at)
     }
 }

@@ -1,6 +1,7 @@
 //! What is worked out once a draw: constants, jumps, bindings, which inputs are read.
 
 use crate::device::Rules;
+use crate::exec::budget::enforced;
 use crate::exec::{
     BumpStage, Constants, FlowMap, PixelBindings, Projection, ResolvedConstants, SamplerBinding, inputs_read,
     sample_rules,
@@ -21,6 +22,8 @@ pub(crate) struct Prepared<'a> {
     pub(crate) sample_rules: SampleRules,
     /// The interpolated components that the program can read.
     pub(crate) reads: ComponentMask,
+    /// The step budget, if the program may exceed it.
+    pub(crate) budget: Option<u32>,
     bindings: Option<PixelBindings<'a>>,
 }
 
@@ -34,6 +37,7 @@ impl<'a> Prepared<'a> {
             format: rules.format,
             sample_rules: sample_rules(rules),
             reads: inputs_read(program),
+            budget: None,
             bindings: Some(*bindings),
         }
     }
@@ -47,8 +51,14 @@ impl<'a> Prepared<'a> {
             format: rules.vertex_format,
             sample_rules: sample_rules(rules),
             reads: ComponentMask::NONE,
+            budget: None,
             bindings: None,
         }
+    }
+
+    /// Enforces a step budget.
+    pub(crate) fn set_budget(&mut self, budget: u32) {
+        self.budget = enforced(self.program, &self.flow, &self.constants, budget);
     }
 
     pub(crate) fn is_pixel(&self) -> bool {

@@ -4,7 +4,8 @@ use super::pixel::{DepthValue, FragmentResult, PixelProgram};
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::{
-    CheckedProgram, NoObserver, Observer, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written, program,
+    CheckedProgram, NoObserver, Observer, Overrun, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written,
+    program,
 };
 use crate::num::Format;
 use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
@@ -24,7 +25,7 @@ impl<'a> ScalarTiles<'a> {
     /// Prepares a draw.
     pub fn new(draw: &TileDraw<'a>) -> Self {
         Self {
-            program: PixelProgram::new(draw.program, draw.rules, &draw.bindings),
+            program: PixelProgram::new(draw.program, draw.rules, &draw.bindings).within(draw.step_budget),
             source: draw.program,
             written: colors_written(draw.program),
             output: draw.output,
@@ -40,18 +41,23 @@ impl<'a> ScalarTiles<'a> {
     }
 
     /// Draws the part of one triangle that lies in a region of a tile, with an observer.
+    ///
+    /// # Errors
+    /// As [`TileExecutor::run_tile`]; the triangle counts as number 0.
     pub fn run_region<O: Observer>(
         &self,
         triangle: &TriangleSetup,
         region: Region,
         tile: &mut TargetTile,
         observer: &mut O,
-    ) -> FragmentCounts {
+    ) -> Result<FragmentCounts, Overrun> {
         let mut counts = FragmentCounts::default();
+        let mut first: Option<Overrun> = None;
         for quad in triangle.quads(region) {
-            self.shade(triangle, &quad, tile, &mut counts, observer);
+            let overrun = self.shade(triangle, &quad, tile, &mut counts, observer);
+            first = first.into_iter().chain(overrun).min();
         }
-        counts
+        first.map_or(Ok(counts), Err)
     }
 
     fn shade<O: Observer>(
@@ -61,9 +67,9 @@ impl<'a> ScalarTiles<'a> {
         tile: &mut TargetTile,
         counts: &mut FragmentCounts,
         observer: &mut O,
-    ) {
+    ) -> Option<Overrun> {
         let inputs = self.inputs(triangle, quad);
-        let results = self.program.run_observed(&inputs, quad.mask, &mut counts.fetches, observer);
+        let (results, cut_at) = self.program.run_counted(&inputs, quad.mask, &mut counts.fetches, observer);
         for (lane, (result, input)) in results.iter().zip(&inputs).enumerate() {
             if quad.mask >> lane & 1 == 1 {
                 counts.generated += 1;
@@ -78,6 +84,7 @@ impl<'a> ScalarTiles<'a> {
                 }
             }
         }
+        overrun(quad, &cut_at)
     }
 
     fn merge(&self, result: &FragmentResult, depth: u32, place: (u32, u32), tile: &mut TargetTile) -> FragmentFate {
@@ -94,32 +101,51 @@ impl<'a> ScalarTiles<'a> {
 }
 
 impl TileExecutor for ScalarTiles<'_> {
-    fn run_tile(&self, triangles: &[TriangleSetup], order: &[u32], tile: &mut TargetTile) -> FragmentCounts {
+    fn run_tile(
+        &self,
+        triangles: &[TriangleSetup],
+        order: &[u32],
+        tile: &mut TargetTile,
+    ) -> Result<FragmentCounts, Overrun> {
         let mut counts = FragmentCounts::default();
         let region = tile.region;
-        for triangle in order.iter().filter_map(|&i| triangles.get(i as usize)) {
-            counts += self.run_region(triangle, region, tile, &mut NoObserver);
+        for (&number, triangle) in order.iter().filter_map(|i| Some((i, triangles.get(*i as usize)?))) {
+            let drawn = self.run_region(triangle, region, tile, &mut NoObserver);
+            counts += drawn.map_err(|overrun| Overrun { triangle: number, ..overrun })?;
         }
-        counts
+        Ok(counts)
     }
 }
 
+/// The first fragment of a quad that was cut off, as one of triangle 0.
+fn overrun(quad: &PixelQuad, cut_at: &[Option<usize>; 4]) -> Option<Overrun> {
+    let of = |lane: usize| {
+        let instruction = cut_at[lane].filter(|_| quad.mask >> lane & 1 == 1)?;
+        let (x, y) = quad.lane(lane);
+        Some(Overrun { triangle: 0, y, x, instruction })
+    };
+    (0..4).filter_map(of).min()
+}
+
 impl PixelTracer for ScalarTiles<'_> {
-    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Shading {
+    fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun> {
         let (x, y) = (tile.region.x, tile.region.y);
         let lane = ((x & 1) | (y & 1) << 1) as usize;
         let quad = PixelQuad { x: x & !1, y: y & !1, mask: 1 << lane };
         let inputs = self.inputs(triangle, &quad);
         let mut trace = Trace::of_lane(lane);
-        let results = self.program.run_observed(&inputs, quad.mask, &mut [0; SAMPLERS], &mut trace);
+        let (results, cut_at) = self.program.run_counted(&inputs, quad.mask, &mut [0; SAMPLERS], &mut trace);
+        if let Some(overrun) = overrun(&quad, &cut_at) {
+            return Err(overrun);
+        }
         let (input, output) = (inputs[lane], results[lane]);
         let source = program(self.source);
-        Shading {
+        Ok(Shading {
             delivered: self.program.delivered(&input),
             steps: trace.steps.into_iter().map(|step| as_written(step, source)).collect(),
             output,
             fate: self.merge(&output, input.depth, (x, y), tile),
             input: canonical(input),
-        }
+        })
     }
 }

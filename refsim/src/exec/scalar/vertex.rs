@@ -23,9 +23,15 @@ pub struct VertexResult {
 }
 
 impl<'a> VertexProgram<'a> {
-    /// Prepares a program, which must be a vertex program, to run under `rules`.
+    /// Prepares a program, which must be a vertex program, to run under `rules`, however long that takes.
     pub fn new(program: &'a CheckedProgram, rules: &'a Rules, constants: &Constants) -> Self {
         Self { prepared: Prepared::vertex(program, rules, constants) }
+    }
+
+    /// The same within a step budget.
+    pub(crate) fn within(mut self, budget: u32) -> Self {
+        self.prepared.set_budget(budget);
+        self
     }
 
     /// Runs the program on the attributes `v0` to `v15`, single precision patterns.
@@ -35,13 +41,22 @@ impl<'a> VertexProgram<'a> {
 
     /// [`Self::run`] with an observer; the vertex is lane 0.
     pub fn run_observed<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> VertexResult {
+        self.run_counted(attributes, observer).0
+    }
+
+    /// [`Self::run`], and the instruction in front of which the vertex was cut off, if it was.
+    pub(crate) fn run_counted<O: Observer>(
+        &self,
+        attributes: &[[u32; 4]; 16],
+        observer: &mut O,
+    ) -> (VertexResult, Option<usize>) {
         let format = self.prepared.format;
         let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
         run.lanes[0].input = attributes.map(|v| v.map(|x| ops::convert(&Format::FP32, format, x).bits));
         run.run();
         let out = |x: u32| ops::convert(&format, Format::FP32, x).bits;
         let registers = &run.lanes[0];
-        VertexResult {
+        let result = VertexResult {
             vertex: Vertex {
                 position: registers.position.map(out),
                 colors: registers.diffuse.map(|c| c.map(|x| out(ops::saturate01(format, x).bits))),
@@ -50,6 +65,7 @@ impl<'a> VertexProgram<'a> {
                 point_size: out(registers.point_size[0]),
             },
             slots: run.slots,
-        }
+        };
+        (result, run.cut_at[0])
     }
 }

@@ -41,10 +41,10 @@ pub struct Dispatch {
     pub jobs: usize,
     /// Rows of `scratch` that the program's registers take; [`super::kernel::SAVED_ROWS`] follow.
     pub registers: usize,
-    /// Whether it goes on where the one before, which was the same, ran out of its budget.
+    /// Whether it goes on where the one before, which was the same, ran out of its passes.
     pub resumes: bool,
     /// Loop passes of an invocation, about.
-    pub budget: u32,
+    pub passes: u32,
     /// The first word of the records in `video`.
     pub records: usize,
     /// Steps that a record has room for.
@@ -67,7 +67,7 @@ impl DrawWords {
         let resumes = u32::from(dispatch.resumes);
         self.set("D_TILES", &[dispatch.jobs as u32]);
         self.set("D_STRIDE", &[dispatch.jobs as u32]);
-        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.budget.max(cost + 10_000), cost, 3, 5]);
+        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.passes.max(cost + 10_000), cost, 3, 5]);
         let kept = [dispatch.record_words(), TRACE_WORDS * dispatch.room, TRACE_WORDS * dispatch.skipped];
         self.set("D_FOLLOW", &[dispatch.records, kept[0], kept[1], kept[2]].map(|word| word as u32));
         self.words()

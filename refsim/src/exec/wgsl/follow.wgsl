@@ -42,6 +42,8 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
     q_invocation = job;
     q_stride = draw[D_STRIDE];
     q_save = draw[D_SAVE];
+    q_counts_steps = draw[D_STEP_BUDGET] == 1u;
+    q_step_budget = draw[D_STEP_BUDGET + 1u];
     let record = draw[D_FOLLOW] + job * draw[D_FOLLOW + 1u];
     f_steps = record + FOLLOW_HEAD;
     let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
@@ -55,14 +57,14 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         q_suspended = state.y == 1u;
         q_traced = state.z;
     }
-    var budget = draw[D_BUDGET];
+    var passes_left = draw[D_PASSES];
     var status = FOLLOW_NOTHING;
     for (; i < count; i++) {
-        if (budget < LOOK_COST + draw[D_COST]) {
+        if (passes_left < LOOK_COST + draw[D_COST]) {
             status = FOLLOW_UNFINISHED;
             break;
         }
-        budget -= LOOK_COST;
+        passes_left -= LOOK_COST;
         let at = tiles[first + i] * draw[D_SETUP_WORDS];
         if (!r_cover(at, x & 0xfffffffeu, y & 0xfffffffeu)[lane]) {
             continue;
@@ -75,9 +77,12 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         q_covered = vec4<u32>(lane) == vec4<u32>(0u, 1u, 2u, 3u);
         q_run = vec4<bool>(true);
         q_trace = lane + 1u;
-        q_budget = budget - draw[D_COST];
+        q_passes = passes_left - draw[D_COST];
         shade();
         status = select(FOLLOW_FRAGMENT, FOLLOW_UNFINISHED, q_suspended);
+        if (!q_suspended && any(q_covered & q_cut)) {
+            atomicAdd(&counts[COUNT_OVERRUN], 1u);
+        }
         break;
     }
     video[record] = status;

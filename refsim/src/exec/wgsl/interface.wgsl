@@ -40,9 +40,13 @@ var<private> q_stride: u32;
 // Loop passes, about, that the invocation may still make in this dispatch: no dispatch shall run for seconds, and lavapipe ends
 // all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down in `scratch` from row
 // `q_save` on, says so and returns; called again, it goes on.
-var<private> q_budget: u32;
+var<private> q_passes: u32;
 var<private> q_save: u32;
 var<private> q_suspended: bool;
+// Whether the steps of each lane are counted, how many it may make, and which lanes were cut off in front of one more.
+var<private> q_counts_steps: bool;
+var<private> q_step_budget: u32;
+var<private> q_cut: vec4<bool>;
 // Where the program's words begin in `code`.
 var<private> q_code: u32;
 // The lane that is followed, counted from 1; 0 for none. And how many words were put down about it.

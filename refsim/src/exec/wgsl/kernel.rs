@@ -18,19 +18,22 @@ const KERNEL: &str = include_str!("kernel.wgsl");
 pub const ENTRY: &str = "pixel_main";
 /// Invocations of a workgroup.
 pub const INVOCATIONS: usize = 64;
-/// Words of `counts`: the fates of fragments and the reads of each sampler, two words each; then [`UNFINISHED`] and [`CUT`].
-pub const COUNT_WORDS: usize = 46;
+/// Words of `counts`: the fates of fragments and the reads of each sampler, two words each; then [`UNFINISHED`], [`CUT`] and
+/// [`OVERRUN`].
+pub const COUNT_WORDS: usize = 47;
 /// The word of `counts` that says how many invocations have work left: the dispatch must be made again.
 pub const UNFINISHED: usize = 44;
 /// The word of `counts` that says how many invocations had their loops ended by the driver: what they drew is wrong.
 pub const CUT: usize = 45;
+/// The word of `counts` that says how many quads had a fragment that ran out of its step budget.
+pub const OVERRUN: usize = 46;
 /// Rows of `scratch` after the program's registers in which an invocation puts down how far it came.
-pub const SAVED_ROWS: usize = 21;
+pub const SAVED_ROWS: usize = 23;
 /// The comparison of [`DrawWords`] that stands for no depth test.
 const NO_TEST: u32 = 16;
 
 /// Where things lie in `draw`: after eleven formats of eight words.
-const FIELDS: [(&str, usize); 25] = [
+const FIELDS: [(&str, usize); 26] = [
     ("D_STRIDE", 88),
     ("D_SETUP_WORDS", 89),
     ("D_GROUPS", 90),
@@ -55,7 +58,7 @@ const FIELDS: [(&str, usize); 25] = [
     // Row of `scratch`, whether this goes on with a dispatch, loop passes of an invocation, of a triangle.
     ("D_SAVE", 144),
     ("D_RESUMES", 145),
-    ("D_BUDGET", 146),
+    ("D_PASSES", 146),
     ("D_COST", 147),
     // Two numbers to multiply by adding.
     ("D_PROOF", 148),
@@ -64,11 +67,13 @@ const FIELDS: [(&str, usize); 25] = [
     ("D_TARGETS", 193),
     // Where records begin in `video`, words of each, how many words of steps are kept, and from which on.
     ("D_FOLLOW", 193 + 4 * target::WORDS),
-    ("D_END", 197 + 4 * target::WORDS),
+    // Whether steps are counted, and how many a fragment may make.
+    ("D_STEP_BUDGET", 197 + 4 * target::WORDS),
+    ("D_END", DRAW_WORDS),
 ];
 
 /// Words of `draw` that the kernel reads.
-pub const DRAW_WORDS: usize = 197 + 4 * target::WORDS;
+pub const DRAW_WORDS: usize = 199 + 4 * target::WORDS;
 
 /// The component of the window position that a set-up has a plane for; the others are known without.
 const RECIPROCAL: usize = POSITION_COMPONENT + 3;
@@ -131,6 +136,7 @@ pub(super) fn with_entry(library: &str, entry: &str) -> String {
         ("SAVED_ROWS", SAVED_ROWS as u32),
         ("COUNT_UNFINISHED", UNFINISHED as u32),
         ("COUNT_CUT", CUT as u32),
+        ("COUNT_OVERRUN", OVERRUN as u32),
         ("NO_TEST", NO_TEST),
     ];
     for (name, value) in steps {
@@ -171,6 +177,8 @@ pub struct DrawState<'a> {
     pub targets: [Option<target::TargetPlace>; 4],
     /// The depth buffer.
     pub depth: Option<DepthPlace>,
+    /// Steps that a fragment may make, if the program may make more.
+    pub step_budget: Option<u32>,
 }
 
 /// One dispatch of the kernel.
@@ -182,10 +190,10 @@ pub struct Dispatch {
     pub groups: usize,
     /// Rows of `scratch` that the program's registers take; [`SAVED_ROWS`] follow.
     pub registers: usize,
-    /// Whether it goes on where the one before, which was the same, ran out of its budget.
+    /// Whether it goes on where the one before, which was the same, ran out of its passes.
     pub resumes: bool,
-    /// Loop passes of an invocation, about.
-    pub budget: u32,
+    /// Loop passes of an invocation, about: not those of the program, those of the shader that runs it.
+    pub passes: u32,
 }
 
 /// The words of `draw` for a draw.
@@ -219,6 +227,9 @@ impl DrawWords {
         ];
         for (k, format) in formats.iter().enumerate() {
             words.put(8 * k, &format_words(format));
+        }
+        if let Some(budget) = state.step_budget {
+            words.set("D_STEP_BUDGET", &[1, budget]);
         }
         words.tests(state);
         words.blend(state);
@@ -317,7 +328,7 @@ impl DrawWords {
         self.set("D_STRIDE", &[(dispatch.tiles * INVOCATIONS) as u32]);
         let cost = self.cost();
         let resumes = u32::from(dispatch.resumes);
-        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.budget.max(cost + 10_000), cost, 3, 5]);
+        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.passes.max(cost + 10_000), cost, 3, 5]);
         &self.words
     }
 

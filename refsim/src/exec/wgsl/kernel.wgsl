@@ -22,7 +22,9 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     q_invocation = 64u * tile + place;
     q_stride = draw[D_STRIDE];
     q_save = draw[D_SAVE];
-    let budget = draw[D_BUDGET];
+    q_counts_steps = draw[D_STEP_BUDGET] == 1u;
+    q_step_budget = draw[D_STEP_BUDGET + 1u];
+    let passes_left = draw[D_PASSES];
     let cost = draw[D_COST];
     let eight = place >> 3u;
     var looked = 0u;
@@ -35,7 +37,7 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     for (; i < count; i++) {
         looked += LOOK_COST;
         let spent = atomicLoad(&k_spent[eight]) + looked + cost;
-        if (spent >= budget) {
+        if (spent >= passes_left) {
             break;
         }
         let at = tiles[first + i] * draw[D_SETUP_WORDS];
@@ -47,15 +49,18 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
             atomicAdd(&k_spent[eight], cost);
             atomicStore(&k_most[eight], 0u);
         }
-        q_budget = budget - spent;
+        q_passes = passes_left - spent;
         r_interpolate(at, x, y);
         q_run = vec4<bool>(true);
         shade();
-        let used = budget - spent - q_budget;
+        let used = passes_left - spent - q_passes;
         let most = atomicMax(&k_most[eight], used);
         atomicAdd(&k_spent[eight], max(used, most) - most);
         if (q_suspended) {
             break;
+        }
+        if (any(q_covered & q_cut)) {
+            atomicAdd(&counts[COUNT_OVERRUN], 1u);
         }
         for (var lane = 0u; lane < 4u; lane++) {
             if (q_covered[lane]) {

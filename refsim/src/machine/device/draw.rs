@@ -4,18 +4,20 @@ use super::shader::shader;
 use super::{Card, batches};
 use crate::device::Profile;
 use crate::event::{DrawEvents, FragmentCounts};
+use crate::exec::budget::enforced;
 use crate::exec::gpu::{AdapterKind, Gpu, GpuError, Shader};
 use crate::exec::wgsl::NumberMode;
 use crate::exec::wgsl::kernel::{
-    COUNT_WORDS, CUT, DepthPlace, Dispatch, DrawState, DrawWords, INVOCATIONS, SAVED_ROWS, UNFINISHED,
+    COUNT_WORDS, CUT, DepthPlace, Dispatch, DrawState, DrawWords, INVOCATIONS, OVERRUN, SAVED_ROWS, UNFINISHED,
 };
 use crate::exec::wgsl::target::TargetPlace;
-use crate::exec::{colors_written, inputs_read, output_rules, program};
+use crate::exec::{FlowMap, ResolvedConstants, colors_written, inputs_read, output_rules, program};
+use crate::isa::Stage;
 use crate::machine::memory::Memory;
 use crate::machine::validate::Plan;
 use crate::machine::vertices::{VertexStage, set_up};
 use crate::machine::walk::{ROUND, bytes};
-use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError};
+use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError, VertexSource, executor, tile_draw, walk};
 use crate::output::MOST_TARGETS;
 use crate::raster::TriangleSetup;
 use std::sync::Arc;
@@ -25,9 +27,9 @@ const MOST_TRIANGLES: usize = 8192;
 /// Tiles of one dispatch at most.
 const MOST_TILES: usize = 4096;
 /// Loop passes of an invocation in one dispatch: on software a quarter of lavapipe's 65,535, since lanes that take different
-/// ways through a program cost more than any of them.
-const SOFTWARE_BUDGET: u32 = 16_000;
-const BUDGET: u32 = 1 << 22;
+/// ways through a program cost more than any of them. They are the shader's own; a program's step budget is another matter.
+const SOFTWARE_PASSES: u32 = 16_000;
+const PASSES: u32 = 1 << 22;
 /// Workgroups in a row: WebGPU's limit is 65,535.
 const ROW: usize = 256;
 
@@ -44,40 +46,105 @@ impl Machine {
     }
 
     /// Draws a checked call on the GPU; the best one that the computer has, if none was given.
+    ///
+    /// Where programs may exceed their step budgets the host keeps what targets hold, for the case that they do. Which fragment
+    /// it was the batch executor finds out: the GPU knows that there was one.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,
         plan: &Plan,
     ) -> Result<DrawEvents, MachineError> {
+        let budget = match self.step_budget(call) {
+            StepBudget::Exceeded => return self.draw_on_host(ExecutorKind::Scalar, call, plan),
+            StepBudget::Enforced(budget) => Some(budget),
+            StepBudget::Kept => None,
+        };
+        let may_fail = budget.is_some() || self.vertices_may_fail(call);
+        if may_fail {
+            self.memory.bring_home(&call.targets, call.depth_buffer)?;
+        }
         let mut card = match self.memory.card.take() {
             Some(card) => card,
             None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
         };
-        let drawn = card.draw(&self.memory, &self.profile, call, plan);
+        let drawn = card.draw(&self.memory, &self.profile, call, plan, budget);
         self.memory.card = Some(card);
-        drawn
+        match drawn {
+            Ok(Some(events)) => return Ok(events),
+            Ok(None) => {}
+            Err(error) => {
+                if may_fail {
+                    self.memory.forget_drawn(&call.targets, call.depth_buffer)?;
+                }
+                return Err(error);
+            }
+        }
+        self.memory.forget_drawn(&call.targets, call.depth_buffer)?;
+        let tiles = executor((ExecutorKind::Batch, None), &tile_draw(&self.profile, &self.memory, call));
+        walk::draw(&self.memory, &self.profile, call, plan, (ExecutorKind::Batch, None), &tiles)?;
+        Err(self.disagreement())
+    }
+
+    /// The GPU cut a fragment off that the host does not.
+    pub(in crate::machine) fn disagreement(&self) -> MachineError {
+        let name = |card: &Card| card.board.gpu().adapter().name.clone();
+        let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
+        let reason = "it counts other steps of a program than the host, which is a fault of this program".to_owned();
+        GpuError::Device { adapter, reason }.into()
+    }
+
+    /// Whether the pixel program of a call may exceed its step budget.
+    pub(in crate::machine) fn step_budget(&self, call: &DrawCall<'_>) -> StepBudget {
+        let (checked, source) = (call.pixel_program, program(call.pixel_program));
+        let constants = ResolvedConstants::pixel(source, &self.profile.rules, call.pixel_constants);
+        let budget = self.profile.limits.step_budget(Stage::Pixel);
+        match enforced(source, &FlowMap::new(source), &constants, budget) {
+            Some(budget) if checked.facts().has_flow => StepBudget::Enforced(budget),
+            Some(_) => StepBudget::Exceeded,
+            None => StepBudget::Kept,
+        }
+    }
+
+    fn vertices_may_fail(&self, call: &DrawCall<'_>) -> bool {
+        let VertexSource::Program { program: source, constants, .. } = &call.vertices else { return false };
+        let constants = ResolvedConstants::vertex(source, &self.profile.rules, constants);
+        let budget = self.profile.limits.step_budget(Stage::Vertex);
+        enforced(source, &FlowMap::new(source), &constants, budget).is_some()
     }
 }
 
+/// How a pixel program stands to its step budget.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::machine) enum StepBudget {
+    /// Every fragment exceeds it: it has no flow control and is too long. The scalar executor counts its steps.
+    Exceeded,
+    /// A fragment may exceed it.
+    Enforced(u32),
+    /// No fragment can.
+    Kept,
+}
+
 impl Card {
+    /// Draws; `None` if a fragment did not end within the step budget.
     fn draw(
         &mut self,
         memory: &Memory,
         profile: &Profile,
         call: &DrawCall<'_>,
         plan: &Plan,
-    ) -> Result<DrawEvents, MachineError> {
+        step_budget: Option<u32>,
+    ) -> Result<Option<DrawEvents>, MachineError> {
         let needed = inputs_read(program(call.pixel_program));
-        let stage = VertexStage::new(call, &profile.rules, (ExecutorKind::Batch, None), needed);
+        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, None), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
-        let mut words = self.place(memory, profile, call)?;
+        let mut words = self.place(memory, profile, call, step_budget)?;
         let (shader, samplers) = shader(self, memory, profile, call, false)?;
         self.board.start(&shader, &samplers, COUNT_WORDS)?;
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
         while first < plan.instance_count {
             let count = round.min(plan.instance_count - first);
-            let batch = stage.run(first, count, plan);
+            let batch = stage.run(first, count, plan)?;
             events.vertices += batch.vertices.len() as u64;
             events.vertex_instructions += batch.slots;
             let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
@@ -88,9 +155,12 @@ impl Card {
             first += count;
         }
         let found = self.uncut()?;
+        if found.get(OVERRUN).is_some_and(|&n| n != 0) {
+            return Ok(None);
+        }
         events.fragments = counts(&found);
         events.bytes = bytes(memory, call, &stage, &events);
-        Ok(events)
+        Ok(Some(events))
     }
 
     /// The counts, if no loop was cut off.
@@ -105,7 +175,13 @@ impl Card {
     }
 
     /// Makes sure that targets are on the GPU; what the kernel is told of the draw.
-    fn place(&mut self, memory: &Memory, profile: &Profile, call: &DrawCall<'_>) -> Result<DrawWords, MachineError> {
+    fn place(
+        &mut self,
+        memory: &Memory,
+        profile: &Profile,
+        call: &DrawCall<'_>,
+        step_budget: Option<u32>,
+    ) -> Result<DrawWords, MachineError> {
         let mut targets = [None; MOST_TARGETS];
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let image = memory.texture(id)?;
@@ -133,6 +209,7 @@ impl Card {
             written: colors_written(source),
             targets,
             depth,
+            step_budget,
         }))
     }
 
@@ -164,9 +241,9 @@ impl Card {
     ) -> Result<(), MachineError> {
         let columns = part.tiles.min(ROW);
         let groups = [columns as u32, part.tiles.div_ceil(ROW) as u32, 1];
-        let budget = budget(self.board.gpu());
+        let passes = passes(self.board.gpu());
         let registers = shader.registers;
-        let mut dispatch = Dispatch { tiles: part.tiles, groups: columns, registers, resumes: false, budget };
+        let mut dispatch = Dispatch { tiles: part.tiles, groups: columns, registers, resumes: false, passes };
         loop {
             let draw = words.dispatch(&dispatch);
             let invocations = part.tiles * INVOCATIONS;
@@ -180,10 +257,10 @@ impl Card {
 }
 
 /// Loop passes that an invocation may make in one dispatch.
-pub(super) fn budget(gpu: &Gpu) -> u32 {
+pub(super) fn passes(gpu: &Gpu) -> u32 {
     match gpu.adapter().kind {
-        AdapterKind::Software => SOFTWARE_BUDGET,
-        _ => BUDGET,
+        AdapterKind::Software => SOFTWARE_PASSES,
+        _ => PASSES,
     }
 }
 

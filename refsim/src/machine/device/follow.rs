@@ -7,7 +7,7 @@ use super::shader::shader;
 use super::{Card, draw};
 use crate::exec::gpu::{Gpu, Shader};
 use crate::exec::wgsl::follow::{Dispatch, HEAD, JOB_WORDS, Record};
-use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, SAVED_ROWS};
+use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, OVERRUN, SAVED_ROWS};
 use crate::exec::wgsl::program::TRACE_WORDS;
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::wgsl::{NumberMode, texture};
@@ -49,6 +49,8 @@ pub(in crate::machine) struct Follower<'a> {
     depth: Option<usize>,
     records: usize,
     room: usize,
+    /// Whether a fragment did not end within the step budget.
+    pub(in crate::machine) overrun: bool,
 }
 
 /// A pixel's way through one pass.
@@ -65,6 +67,7 @@ impl<'a> Follower<'a> {
         call: &'a DrawCall<'a>,
         pixels: &[(u32, u32)],
         states: Vec<PixelState>,
+        step_budget: Option<u32>,
     ) -> Result<Self, MachineError> {
         let (memory, profile) = (&machine.memory, &machine.profile);
         let mut card = match &memory.card {
@@ -99,12 +102,15 @@ impl<'a> Follower<'a> {
             written: colors_written(source),
             targets,
             depth,
+            step_budget,
         });
         let records = card.board.allocate(pixels.len() * (HEAD + TRACE_WORDS * room))?;
         card.board.start(&shader, &samplers, COUNT_WORDS)?;
         let depth = depth.map(|place| place.base as usize);
         let pixels = pixels.to_vec();
-        let follower = Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room };
+        let overrun = false;
+        let follower =
+            Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room, overrun };
         follower.send()?;
         Ok(follower)
     }
@@ -215,9 +221,9 @@ impl<'a> Follower<'a> {
             lists.extend_from_slice(&ways[*p].triangles[range.clone()]);
         }
         told.append(&mut lists);
-        let (registers, budget) = (self.shader.registers, draw::budget(self.card.board.gpu()));
+        let (registers, passes) = (self.shader.registers, draw::passes(self.card.board.gpu()));
         let (records, room) = (self.records, self.room);
-        let mut dispatch = Dispatch { jobs: jobs.len(), registers, resumes: false, budget, records, room, skipped };
+        let mut dispatch = Dispatch { jobs: jobs.len(), registers, resumes: false, passes, records, room, skipped };
         let size = dispatch.record_words();
         loop {
             let words = self.words.follow(&dispatch);
@@ -225,7 +231,7 @@ impl<'a> Follower<'a> {
             self.card.board.dispatch(&self.shader, words, &told, [jobs.len() as u32, 1, 1], rows)?;
             let found = self.card.board.read(records, jobs.len() * size)?;
             if !found.chunks_exact(size).any(|words| Record::new(words).is_some_and(|r| r.is_unfinished())) {
-                self.card.uncut()?;
+                self.overrun |= self.card.uncut()?.get(OVERRUN).is_some_and(|&n| n != 0);
                 return Ok(found);
             }
             dispatch.resumes = true;

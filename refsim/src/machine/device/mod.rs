@@ -8,6 +8,7 @@ mod draw;
 mod follow;
 mod shader;
 
+pub(super) use draw::StepBudget;
 pub(super) use follow::Follower;
 
 use super::MachineError;

@@ -2,12 +2,13 @@
 
 use crate::device::Rules;
 use crate::exec::batch::arith::Formats;
-use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts, loop_counter};
+use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts};
 use crate::exec::batch::graph::{Arith, Graph, Kind, Node};
 use crate::exec::batch::ops::Code;
 use crate::exec::batch::program::{Ends, decode, has_flow, one};
 use crate::exec::batch::slots::{Slot, TRUE};
 use crate::exec::batch::translate::{Effect, Place, Translator};
+use crate::exec::budget::loop_counter;
 use crate::exec::usage::registers_delivered;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};

@@ -53,8 +53,13 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
             for (sampler, count) in counts {
                 maker.words.extend([op::FETCHED | (sampler as u32) << 16, count]);
             }
-            let here = maker.words.len() as u32;
-            maker.words.extend([op::STEP, here + 3, (*cost).min(0xffff) | u32::from(NONE) << 16]);
+            // A step tells of 65,535 slots at most.
+            let mut left = *cost;
+            while left > 0 {
+                let (here, told) = (maker.words.len() as u32, left.min(0xffff));
+                maker.words.extend([op::STEP, here + 3, told | u32::from(NONE) << 16]);
+                left -= told;
+            }
         }
         Body::Flow { start, steps, first_free, end } => {
             // Slot 0 is the machine's own.

@@ -3,10 +3,8 @@
 use super::lower::{ACTIVE_SLOT, Sink, Step, Use};
 use super::microcode::{Assembler, NONE};
 use super::operations as op;
+use crate::exec::budget::LOOP_LIMIT;
 use crate::isa::{Opcode, OpcodeClass};
-
-/// Passes of a loop at most, as in the other executors.
-const LOOP_LIMIT: i32 = 255;
 
 impl Assembler<'_> {
     /// The instructions one after the other, jumps resolved.

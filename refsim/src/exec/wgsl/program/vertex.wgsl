@@ -24,9 +24,13 @@ var<private> q_covered: vec4<bool>;
 var<private> q_invocation: u32;
 var<private> q_stride: u32;
 // Vertex programs are never broken off.
-var<private> q_budget: u32;
+var<private> q_passes: u32;
 var<private> q_save: u32;
 var<private> q_suspended: bool;
+// Nor are steps counted.
+var<private> q_counts_steps: bool;
+var<private> q_step_budget: u32;
+var<private> q_cut: vec4<bool>;
 var<private> q_code: u32;
 var<private> q_trace: u32;
 var<private> q_traced: u32;
@@ -61,7 +65,7 @@ fn vertex_main(
 ) {
     q_invocation = invocation.x;
     q_stride = 64u * groups.x;
-    q_budget = 0xffffffffu;
+    q_passes = 0xffffffffu;
     let all = draw[40];
     for (var first = 4u * q_invocation; first < all; first += 4u * q_stride) {
         v_first = first;

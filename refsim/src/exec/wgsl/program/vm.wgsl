@@ -11,6 +11,8 @@ const VM_CALL: u32 = 2u;
 var<private> vm_active: u32;
 var<private> vm_depth: u32;
 var<private> vm_counter: u32;
+// Steps of each lane.
+var<private> vm_steps: vec4<u32>;
 
 fn vm_read(operand: u32) -> vec4<u32> {
     if (operand < 0x8000u) {
@@ -89,6 +91,26 @@ fn vm_leave_loop(lanes: u32) {
         if (frame.x == VM_LOOP) {
             break;
         }
+    }
+}
+
+// Counts a step for every active lane, and cuts off the lanes that have none left.
+fn vm_charge() {
+    let lanes = vm_mask(vm_active) != vec4<u32>(0u);
+    let spent = lanes & (vm_steps == vec4<u32>(q_step_budget));
+    vm_steps += select(vec4<u32>(0u), vec4<u32>(1u), lanes & !spent);
+    if (!any(spent)) {
+        return;
+    }
+    q_cut |= spent;
+    let cut = vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), spent));
+    vm_activate(vm_active & ~cut);
+    for (var i = 0u; i < vm_depth; i += 1u) {
+        let at = vm_frame(i);
+        var frame = scratch[at];
+        frame.y &= ~cut;
+        frame.z &= ~cut;
+        scratch[at] = frame;
     }
 }
 
@@ -393,6 +415,8 @@ fn vm_suspend(next: u32) {
     for (var i = 0u; i < 16u; i += 1u) {
         scratch[vm_saved(4u + i)] = q_color[i >> 2u][i & 3u];
     }
+    scratch[vm_saved(20u)] = vm_steps;
+    scratch[vm_saved(21u)] = vec4<u32>(q_cut);
 }
 
 // Takes it up again; returns where the program goes on.
@@ -408,6 +432,8 @@ fn vm_resume() -> u32 {
     for (var i = 0u; i < 16u; i += 1u) {
         q_color[i >> 2u][i & 3u] = scratch[vm_saved(4u + i)];
     }
+    vm_steps = scratch[vm_saved(20u)];
+    q_cut = scratch[vm_saved(21u)] != vec4<u32>(0u);
     return state.x;
 }
 
@@ -416,6 +442,8 @@ fn vm_begin() -> u32 {
     q_killed = vec4<bool>(false);
     q_depth_is_main = vec4<bool>(false);
     q_executed = 0u;
+    q_cut = vec4<bool>(false);
+    vm_steps = vec4<u32>(0u);
     vm_depth = 0u;
     vm_activate(vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), q_run)));
     return code[q_code];
@@ -433,11 +461,11 @@ fn shade() {
         let word = code[at];
         let op = word & 0xffu;
         let cost = vm_cost(op, word, at);
-        if (q_budget < cost) {
+        if (q_passes < cost) {
             vm_suspend(next);
             return;
         }
-        q_budget -= cost;
+        q_passes -= cost;
         if (op >= 32u) {
             next = vm_flow(op, at, next + select(3u, 6u, op == 35u));
             continue;
@@ -483,7 +511,10 @@ fn shade() {
                 q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_covered());
                 next += 2u;
             }
-            case 12u: { // slots of an instruction; where to go on if no lane runs; the sampler it reads
+            case 12u: { // a step: slots of an instruction; where to go on if no lane runs; the sampler it reads
+                if (q_counts_steps) {
+                    vm_charge();
+                }
                 let lanes = countOneBits(vm_covered() & vm_active);
                 q_executed += (code[at + 2u] & 0xffffu) * lanes;
                 let sampler_number = code[at + 2u] >> 16u;

@@ -1,0 +1,183 @@
+//! "Formats": the value of every pattern and one rounding, in exact doubles.
+
+use super::{Random, probes};
+use refsim::num::{Flags, Format, ops};
+
+/// A format by its words.
+pub(crate) struct Words {
+    /// Integer and fraction bits, or exponent and mantissa bits.
+    layout: (i32, i32),
+    fixed: bool,
+    rounding: &'static str,
+    overflow: &'static str,
+    flush: bool,
+}
+
+impl Words {
+    pub(crate) fn float(exponent: i32, mantissa: i32) -> Self {
+        Self { layout: (exponent, mantissa), fixed: false, rounding: "rne", overflow: "inf", flush: false }
+    }
+
+    fn random(r: &mut Random) -> Self {
+        let rounding = r.choose(&["rne", "rna", "rtz", "rdn"]);
+        if r.below(2) == 0 {
+            let layout = r.choose(&[(3, 12), (1, 10), (0, 8), (0, 15), (7, 0), (15, 16)]);
+            return Self { layout, fixed: true, rounding, overflow: r.choose(&["sat", "wrap"]), flush: false };
+        }
+        let layout = r.choose(&[(5, 10), (7, 16), (8, 23), (4, 3), (2, 1), (8, 7)]);
+        let overflow = r.choose(&["inf", "sat", "nvovf"]);
+        Self { layout, fixed: false, rounding, overflow, flush: r.below(2) == 0 }
+    }
+
+    fn text(&self) -> String {
+        let ((a, b), rules) = (self.layout, format!("{}:{}", self.rounding, self.overflow));
+        match (self.fixed, self.flush) {
+            (true, _) => format!("s{a}.{b}:{rules}"),
+            (false, true) => format!("e{a}m{b}:{rules}:ftz"),
+            (false, false) => format!("e{a}m{b}:{rules}"),
+        }
+    }
+
+    /// A number of units to a whole one.
+    fn whole(&self, x: f64) -> f64 {
+        match self.rounding {
+            "rne" => x.round_ties_even(),
+            "rna" => x.round(),
+            "rtz" => x.trunc(),
+            _ => x.floor(),
+        }
+    }
+
+    /// A number rounded once: pattern and flags.
+    pub(crate) fn round(&self, x: f64) -> (u32, Flags) {
+        let (a, b) = self.layout;
+        if self.fixed {
+            let (top, units) = (2f64.powi(a + b), x * 2f64.powi(b));
+            let (width, kept) = (1 + a + b, self.whole(units));
+            let mask = u32::MAX >> (32 - width);
+            let pattern = |k: f64| (k as i64 as u32) & mask;
+            if x.is_nan() {
+                return (0, Flags::INVALID);
+            }
+            if kept < -top || kept > top - 1.0 {
+                let end = if kept < 0.0 { -top } else { top - 1.0 };
+                let wraps = self.overflow == "wrap" && kept.is_finite();
+                let kept = if wraps { kept.rem_euclid(2.0 * top) } else { end };
+                return (pattern(kept), Flags::OVERFLOW | Flags::INEXACT);
+            }
+            return (pattern(kept), if kept == units { Flags::empty() } else { Flags::INEXACT });
+        }
+        let (bias, infinity) = ((1 << (a - 1)) - 1, ((1u32 << a) - 1) << b);
+        let sign = u32::from(x.is_sign_negative()) << (a + b);
+        if x.is_nan() {
+            return (infinity | 1 << (b - 1), Flags::empty());
+        }
+        if x.is_infinite() {
+            return (sign | infinity, Flags::empty());
+        }
+        // The exponent of a double that is exact: its own field.
+        let exponent = |x: f64| if x == 0.0 { -5000 } else { ((x.to_bits() >> 52 & 0x7ff) as i32) - 1023 };
+        let at = |least: i32| {
+            let unit = 2f64.powi(exponent(x).max(least) - b);
+            self.whole(x / unit) * unit
+        };
+        let (rounded, least) = (at(1 - bias), 1 - bias);
+        if rounded.abs() >= 2f64.powi(bias + 1) {
+            let huge = x.abs() >= 2f64.powi(bias + 1);
+            let infinite = match (self.overflow, self.rounding) {
+                ("sat", _) | (_, "rtz") if self.overflow != "nvovf" => false,
+                ("nvovf", _) => huge,
+                (_, "rdn") => sign != 0,
+                _ => true,
+            };
+            let magnitude = if infinite { infinity } else { infinity - 1 };
+            return (sign | magnitude, Flags::OVERFLOW | Flags::INEXACT);
+        }
+        let mut flags = if rounded == x { Flags::empty() } else { Flags::INEXACT };
+        if rounded != x && at(-4000).abs() < 2f64.powi(least) {
+            flags |= Flags::UNDERFLOW;
+        }
+        let magnitude = rounded.abs();
+        if self.flush && magnitude != 0.0 && magnitude < 2f64.powi(least) {
+            return (sign, Flags::UNDERFLOW | Flags::INEXACT);
+        }
+        let field = exponent(magnitude).max(least - 1) - least + 1;
+        let mantissa = match field {
+            0 => magnitude / 2f64.powi(least - b),
+            _ => magnitude / 2f64.powi(exponent(magnitude) - b) - 2f64.powi(b),
+        };
+        (sign | (field as u32) << b | mantissa as u32, flags)
+    }
+
+    /// The number of a pattern.
+    pub(crate) fn value(&self, bits: u32) -> f64 {
+        let (a, b) = self.layout;
+        if self.fixed {
+            let spare = 31 - a - b;
+            return f64::from(((bits << spare) as i32) >> spare) * 2f64.powi(-b);
+        }
+        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)) as i32);
+        let mantissa = f64::from(bits & ((1 << b) - 1));
+        let magnitude = match field {
+            0 if self.flush => 0.0,
+            0 => mantissa * 2f64.powi(1 - bias - b),
+            _ if field == (1 << a) - 1 => {
+                if mantissa == 0.0 {
+                    f64::INFINITY
+                } else {
+                    f64::NAN
+                }
+            }
+            _ => (mantissa + 2f64.powi(b)) * 2f64.powi(field - bias - b),
+        };
+        if bits >> (a + b) & 1 == 1 { -magnitude } else { magnitude }
+    }
+}
+
+#[test]
+fn one_rounding_into_every_format() {
+    let mut r = Random(1);
+    for probe in 0..probes(60_000) {
+        let (from, into) = (Words::random(&mut r), Words::random(&mut r));
+        let [source, target]: [Format; 2] = [&from, &into].map(|w| w.text().parse().unwrap());
+        let bits = match probe % 4 {
+            0 => r.next() as u32 & source.mask(),
+            _ => ops::convert(&Format::FP32, source, r.single().to_bits()).bits,
+        };
+        let value = from.value(bits);
+        let (expected, mut flags) = into.round(value);
+        let mut bits_expected = expected;
+        if value.is_infinite() && into.fixed {
+            (bits_expected, flags) = (into.round(value).0, Flags::OVERFLOW | Flags::INEXACT);
+        }
+        if value.is_nan() {
+            let quiet = bits & 1 << (from.layout.1 - 1) != 0;
+            flags = if into.fixed || !quiet { Flags::INVALID } else { Flags::empty() };
+        }
+        if value.is_nan() && !into.fixed {
+            bits_expected &= !target.sign_bit();
+        }
+        let found = ops::convert(&source, target, bits);
+        let place = format!("{bits:#x} of {} into {}", from.text(), into.text());
+        assert_eq!((found.bits, found.flags), (bits_expected, flags), "{place}: {value}");
+    }
+}
+
+/// Sums, products and quotients of singles: what the page says of zeros, infinities and NaN is what hosts do.
+#[test]
+fn special_values_are_those_of_the_page() {
+    let mut r = Random(2);
+    for _ in 0..probes(20_000) {
+        let (a, b) = (r.single(), r.single());
+        let (x, y) = (a.to_bits(), b.to_bits());
+        let found = [ops::add(Format::FP32, x, y), ops::sub(Format::FP32, x, y), ops::mul(Format::FP32, x, y)];
+        assert_eq!(found.map(|o| o.bits), [a + b, a - b, a * b].map(super::clean), "{a} {b}");
+        assert_eq!(ops::div(Format::FP32, x, y).bits, super::clean(a / b), "{a} / {b}");
+    }
+    let fixed: Format = "s3.12".parse().unwrap();
+    assert_eq!([0, 1, 0x8000].map(|x| ops::div(fixed, x, 0).bits), [0, 0x7fff, 0x8000], "the end on its side");
+    let saturating: Format = "e5m10:sat".parse().unwrap();
+    assert_eq!(ops::div(saturating, 0x3c00, 0).bits, 0x7bff, "no infinity is made");
+    let down: Format = "fp32:rdn".parse().unwrap();
+    assert_eq!(ops::sub(down, 0x3f80_0000, 0x3f80_0000).bits, 0x8000_0000, "an exact zero sum");
+}

@@ -1,0 +1,77 @@
+//! Step budgets: executors agree on what fits a budget, and on what does not down to the instruction.
+
+use crate::executors::{EXECUTORS, Executor, REFERENCE};
+use crate::scene::{Case, Outcome, Programs};
+use crate::suite;
+use refsim::machine::MachineError;
+
+/// The programs: those with flow control, and some without.
+const SUITES: [&str; 6] = [
+    "programs::ps_2_a::",
+    "programs::vs_2_0::",
+    "programs::ps_2_a::",
+    "cards::nv30::ps_2_a",
+    "programs::ps_1_4::",
+    "programs::fp_1_0::",
+];
+/// Above the steps of every random program.
+const PLENTY: u32 = 1 << 16;
+
+fn case(n: u64) -> Case {
+    let suites = suite::all();
+    let some: Vec<_> = suites.iter().filter(|s| s.name.starts_with(SUITES[n as usize % SUITES.len()])).collect();
+    let mut case = some[(n as usize * 61) % some.len()].case(2000 + n);
+    (case.scene.draws, case.scene.second_pass) = (1, false);
+    case.scene.size = case.scene.size.map(|side| side.min(21));
+    case
+}
+
+fn draw(case: &mut Case, programs: &Programs, executor: &Executor, budget: u32) -> Result<Outcome, MachineError> {
+    case.scene.profile.limits.set_step_budget(budget);
+    case.scene.draw(executor, programs)
+}
+
+/// The least budget with which the reference draws.
+fn least(case: &mut Case, programs: &Programs) -> u32 {
+    let (mut fails, mut fits) = (0, PLENTY);
+    while fits - fails > 1 {
+        let middle = fails + (fits - fails) / 2;
+        match draw(case, programs, &REFERENCE, middle) {
+            Ok(_) => fits = middle,
+            Err(MachineError::StepBudget { .. }) => fails = middle,
+            Err(error) => panic!("{error}"),
+        }
+    }
+    fits
+}
+
+#[test]
+fn executors_run_out_of_steps_at_the_same_place() {
+    let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse::<u64>().ok());
+    let short = if std::env::var_os("CROSSBAR_FULL").is_some() { 1200 } else { 48 };
+    let mut failures = 0;
+    for seed in one.map_or(0..short, |seed| seed..seed + 1) {
+        let mut case = case(seed);
+        let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        let least = least(&mut case, &programs);
+        for budget in [least, least - 1, least / 2, least / 7 + 1] {
+            if budget == 0 {
+                continue;
+            }
+            let expected = draw(&mut case, &programs, &REFERENCE, budget);
+            assert_eq!(expected.is_ok(), budget >= least, "seed {seed}: a larger budget fails");
+            failures += usize::from(expected.is_err());
+            for executor in EXECUTORS.iter().filter(|e| seed.is_multiple_of(e.every)) {
+                let found = draw(&mut case, &programs, executor, budget);
+                let place = format!("seed {seed}, {}, budget {budget}\n{}", executor.name, case.pixel.join("\n"));
+                match (&expected, &found) {
+                    (Ok(expected), Ok(found)) => {
+                        assert_eq!(expected.difference(found, &executor.name), None, "{place}");
+                    }
+                    _ => assert_eq!(expected.as_ref().err(), found.as_ref().err(), "{place}"),
+                }
+            }
+        }
+    }
+    assert!(one.is_some() || failures > 60, "{failures}");
+}
