@@ -36,6 +36,7 @@ pub mod gather;
 pub mod kernels;
 pub mod model;
 pub mod on_card;
+mod open;
 pub mod packing;
 mod patch;
 mod patches;

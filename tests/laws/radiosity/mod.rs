@@ -1,6 +1,7 @@
 //! Matrix radiosity: what light must satisfy, whoever computes it.
 
 mod bounds;
+mod covered;
 mod display;
 mod errors;
 mod factors;
