@@ -106,7 +106,7 @@ fn a_sweep_over_patches_and_switches() {
         assert_eq!(dark(&default, patches, "as it is"), dark(&turned, patches, "rounding=rne"));
         assert!(dark(&turned, patches, "as it is") > 3.0 * dark(&default, patches, "as it is").abs());
     }
-    assert!(dark(&turned, many, "as it is") > 2.0 * dark(&turned, few, "as it is"), "{turned:?}");
+    assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
 }
 
 #[test]

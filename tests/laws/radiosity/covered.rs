@@ -15,6 +15,7 @@ use crossbar::scene::{Camera, Scene};
 use super::tracer;
 
 /// The feet of the two blocks, as `rooms::cornell` builds them.
+#[expect(clippy::approx_constant, reason = "a corner of a block")]
 const FEET: [[[f64; 2]; 4]; 2] =
     [[[1.3, 0.65], [0.82, 2.25], [2.4, 2.72], [2.9, 1.14]], [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]]];
 const RAYS: VisibilityParameters = VisibilityParameters { side: 3, seed: 1, bundle: 1 << 18 };
