@@ -1,13 +1,15 @@
 //! Which parts of a patch are open, and which are covered by a solid that stands on it.
 //!
-//! No light reaches the floor under a block, and nobody sees it. Averaged in, it would make the radiosity of a patch that lies partly
-//! under a block too low, or, once its row of form factors is scaled to 1, its area and so its light too large. A patch is therefore
-//! represented by its open parts; docs/decisions/0014 has the reasons.
+//! No light reaches the floor under a block, and nobody sees it. Averaged in, it would make the radiosity of a patch
+//! that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its light
+//! too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
 //!
 //! The rule, for each face's plane raised by [`lift`] towards its front, where visibility rays start:
 //!
-//! 1. Triangles of other faces that cross the raised plane leave line segments in it, which cut the patches into convex cells.
-//! 2. A cell is covered if from several of its points the first surface in each of 25 directions is seen from behind: it lies in a solid.
+//! 1. Triangles of other faces that cross the raised plane leave line segments in it, which cut the patches into convex
+//!    cells.
+//! 2. A cell is covered if from several of its points the first surface in each of 25 directions is seen from behind:
+//!    it lies in a solid.
 //! 3. Everything else is open. What is in doubt (a sheet close above the patch, solids that overlap) counts as open.
 
 use std::collections::BTreeMap;
@@ -31,8 +33,8 @@ const OUTWARDS: f64 = 0.75;
 /// Tangents of the tested directions, along two axes of the plane: the normal first.
 const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
 
-/// How far in front of a patch's plane rays start, for a scene of this diagonal: farther than f32 corners and a tracer's rounding can be
-/// off, nearer than anything that one would model.
+/// How far in front of a patch's plane rays start, for a scene of this diagonal: farther than f32 corners and a
+/// tracer's rounding can be off, nearer than anything that one would model.
 pub(super) fn lift(extent: f64) -> f64 {
     LIFT * extent
 }

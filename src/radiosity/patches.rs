@@ -124,8 +124,8 @@ impl Patches {
         self.extent
     }
 
-    /// The parts of a patch that no solid covers: itself, if nothing does; nothing, if it is covered altogether. Radiosities and form
-    /// factors are means over them. The rule is in `open.rs`.
+    /// The parts of a patch that no solid covers: itself, if nothing does; nothing, if it is covered altogether.
+    /// Radiosities and form factors are means over them. The rule is in `open.rs`.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -151,7 +151,8 @@ impl Patches {
         [self.open.len() - altogether, altogether]
     }
 
-    /// The unit square laid over the open parts of a patch, which share its first side in the order and the ratio of their areas.
+    /// The unit square laid over the open parts of a patch, which share its first side in the order and the ratio of
+    /// their areas.
     pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
         let parts = self.open_parts(patch);
         if let [one] = parts {
@@ -170,8 +171,8 @@ impl Patches {
         PatchPoint { density: point.density * (area / part.area()), ..point }
     }
 
-    /// The area of each patch, as form factors count it: that of its open parts, since nothing else takes part in the exchange of light. A
-    /// patch that is covered altogether exchanges nothing, and has its whole area.
+    /// The area of each patch, as form factors count it: that of its open parts, since nothing else takes part in the
+    /// exchange of light. A patch that is covered altogether exchanges nothing, and has its whole area.
     #[must_use]
     pub fn areas(&self) -> Vec<f64> {
         let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };

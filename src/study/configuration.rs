@@ -57,7 +57,8 @@ impl Configuration {
         Self { label: file_name(&profile.name), profile: profile.clone(), switch: None }
     }
 
-    /// This configuration, and then the same with each open switch of its device turned to each other value, one at a time.
+    /// This configuration, and then the same with each open switch of its device turned to each other value, one at a
+    /// time.
     ///
     /// # Errors
     /// If a switch does not take one of its own values.

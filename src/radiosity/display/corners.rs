@@ -18,7 +18,8 @@ pub(super) struct Meetings {
 }
 
 impl Meetings {
-    /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not covered.
+    /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not
+    /// covered.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
@@ -51,8 +52,9 @@ impl Meetings {
     }
 }
 
-/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not across an edge
-/// (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do not count. A radiosity that is the same everywhere stays the same.
+/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not
+/// across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do not count.
+/// A radiosity that is the same everywhere stays the same.
 ///
 /// # Panics
 /// If there is not one radiosity a patch.

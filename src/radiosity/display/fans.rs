@@ -1,7 +1,9 @@
-//! Corners of patches in the middle of their neighbours' sides: where the patches of one face end between those of the next.
+//! Corners of patches in the middle of their neighbours' sides: where the patches of one face end between those of the
+//! next.
 //!
-//! A side that is drawn as one line while the neighbour's corners on it are snapped to the raster's grid would leave a crack of a
-//! sixteenth of a pixel. A patch with such a side is drawn as a fan around its centre, with a vertex at each corner on its sides.
+//! A side that is drawn as one line while the neighbour's corners on it are snapped to the raster's grid would leave a
+//! crack of a sixteenth of a pixel. A patch with such a side is drawn as a fan around its centre, with a vertex at each
+//! corner on its sides.
 
 use std::collections::{BTreeMap, BTreeSet};
 

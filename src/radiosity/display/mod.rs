@@ -220,7 +220,8 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// The vertices of all patches that are in the picture: of quadrilaterals, of their fans, of triangles and their fans.
+    /// The vertices of all patches that are in the picture: of quadrilaterals, of their fans, of triangles and their
+    /// fans.
     fn vertices(&self) -> [Vec<Vertex>; 3] {
         let list = self.patches.list();
         let within = list.first().map_or([0.0; 3], |patch| patch.corners()[0]);

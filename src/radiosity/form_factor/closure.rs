@@ -16,8 +16,8 @@ pub struct RowSums {
     pub least: f64,
     /// The largest sum.
     pub most: f64,
-    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the areas. Blind patches do
-    /// not count, unless all are blind.
+    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the
+    /// areas. Blind patches do not count, unless all are blind.
     pub escaping: f64,
     /// Patches that see nothing at all, such as those under a block.
     pub blind: usize,

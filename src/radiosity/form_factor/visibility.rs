@@ -71,7 +71,8 @@ pub(super) fn hide(
     Ok(())
 }
 
-/// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the other, dealt out at random.
+/// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
+/// other, dealt out at random.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<Sample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));

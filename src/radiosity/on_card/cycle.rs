@@ -1,7 +1,8 @@
-//! Cycles: an iteration in finitely many bits either reaches its tolerance or comes back to a state that it was in before.
+//! Cycles: an iteration in finitely many bits either reaches its tolerance or comes back to a state that it was in
+//! before.
 //!
-//! Every state that is looked at is remembered by a digest. Where a digest comes back, the iteration goes once around, and the states
-//! themselves are compared: no cycle is reported on the word of a digest.
+//! Every state that is looked at is remembered by a digest. Where a digest comes back, the iteration goes once around,
+//! and the states themselves are compared: no cycle is reported on the word of a digest.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};
@@ -14,8 +15,8 @@ type State = [[f32; 3]];
 /// States that come back for ever, bit for bit: the end of what the card's numbers can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Iterations after which the first state of the cycle was reached. With [`super::CardOptions::check_every`] above 1, the first that
-    /// was looked at.
+    /// Iterations after which the first state of the cycle was reached. With [`super::CardOptions::check_every`] above
+    /// 1, the first that was looked at.
     pub entered: u32,
     /// The fewest iterations after which every bit is as it was; 1 is a fixed point.
     pub period: u32,
@@ -53,8 +54,8 @@ fn digest(state: &State) -> u64 {
 }
 
 impl CardSolver {
-    /// Goes around from `start`, which is on the card, at most `most` iterations; `None` if `start` does not come back, and the card has it
-    /// again then.
+    /// Goes around from `start`, which is on the card, at most `most` iterations; `None` if `start` does not come back,
+    /// and the card has it again then.
     pub(super) fn around(&mut self, start: &State, [entered, most]: [u32; 2]) -> Result<Option<Cycle>, CardError> {
         let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
         let mut last = start.to_vec();

@@ -42,8 +42,8 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// The cycle that the radiosities go round in for ever, or the fixed point at which they stay: why it ended without the tolerance.
-    /// `None` if it ended before one was found.
+    /// The cycle that the radiosities go round in for ever, or the fixed point at which they stay: why it ended without
+    /// the tolerance. `None` if it ended before one was found.
     pub cycle: Option<Cycle>,
 }
 
@@ -56,8 +56,9 @@ impl CardSolution {
 }
 
 impl CardSolver {
-    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state that was looked at comes back
-    /// to the bit. `system` is what is on the card before it was rounded; `each` is told whenever the residual is looked at.
+    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state that was
+    /// looked at comes back to the bit. `system` is what is on the card before it was rounded; `each` is told whenever
+    /// the residual is looked at.
     ///
     /// # Errors
     /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`], [`CardError::Machine`]. Reaching the

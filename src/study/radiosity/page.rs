@@ -92,8 +92,8 @@ fn residuals(outcome: &Outcome) -> Option<Chart> {
     })
 }
 
-/// How dark the room is by number of patches: a line for the card as it is in each way, and one for each setting that ever finds other
-/// bits. `None` without a sweep.
+/// How dark the room is by number of patches: a line for the card as it is in each way, and one for each setting that
+/// ever finds other bits. `None` without a sweep.
 fn darkness(outcome: &Outcome) -> Option<Chart> {
     let mut lines: Vec<Line> = Vec::new();
     for row in &outcome.sweep {

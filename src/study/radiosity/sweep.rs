@@ -1,5 +1,5 @@
-//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how far a figure depends on
-//! the size of the system, and on what is a guess about the card.
+//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how far a
+//! figure depends on the size of the system, and on what is a guess about the card.
 
 use refsim::device::Profile;
 

@@ -18,7 +18,8 @@ pub struct Tables {
     pub card: Table,
     /// A row a way, after the changes; empty without.
     pub relit: Table,
-    /// A row a number of patches, way on a card, and settings of its switches that find other bits; empty without a sweep.
+    /// A row a number of patches, way on a card, and settings of its switches that find other bits; empty without a
+    /// sweep.
     pub sweep: Table,
 }
 
@@ -125,7 +126,8 @@ fn ways(outcome: &Outcome) -> Table {
     table
 }
 
-/// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit for bit.
+/// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit
+/// for bit.
 fn ends(parameters: &Parameters, outcome: &Outcome) -> Table {
     let headings = ["way", "ends", "entered_after", "period", "values_changing", "of_values", "largest_change_%"];
     let mut table =

@@ -123,7 +123,8 @@ fn enforcing_closure_hardly_changes_a_room_with_blocks() {
         worst = (0..3).map(|c| (closed[i][c] / found[i][c] - 1.0).abs()).fold(worst, f64::max);
         light = [light[0] + factors.areas()[i] * found[i][0], light[1] + factors.areas()[i] * closed[i][0]];
     }
-    // What closure takes away is the noise of nine rays a pair: 1.5 % of a patch at most here, and a fortieth of that of the room.
+    // What closure takes away is the noise of nine rays a pair: 1.5 % of a patch at most here, and a fortieth of that
+    // of the room.
     assert!(worst < 0.03, "a patch changes by {worst}");
     assert!((light[1] / light[0] - 1.0).abs() < 1e-3, "the room changes by {}", light[1] / light[0] - 1.0);
 }
@@ -148,7 +149,8 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
             points.iter().map(|&p| radiosity_by_paths(&scene, &mut caster, [p, patch.normal()], 64)).collect();
         for c in 0..3 {
             let [truth, sigma] = estimate(&seen.iter().map(|b| b[c]).collect::<Vec<_>>());
-            // Four standard errors of the paths and points. A patch of this size is one radiosity in uneven light: a tenth.
+            // Four standard errors of the paths and points. A patch of this size is one radiosity in uneven light: a
+            // tenth.
             for (what, b) in [("found", found[i][c]), ("closed", closed[i][c])] {
                 let off = (b - truth).abs();
                 let message = format!("{what}: patch {i}, {share} open, channel {c}: {b} against {truth} +- {sigma}");

@@ -32,7 +32,8 @@ fn small(size: usize, seed: u64) -> System {
     System::new(factors, vec![[0.9, 0.7, 0.3]; size], emittance).expect("a system")
 }
 
-/// All states by the host's loop, in the order of the card's passes, until one comes back; the iteration after which it came first.
+/// All states by the host's loop, in the order of the card's passes, until one comes back; the iteration after which it
+/// came first.
 fn orbit(system: &System) -> (Vec<Vec<[f32; 3]>>, usize) {
     let host = CardSystem::rgb(system, 254, 4096).expect("it fits");
     let (mut state, mut states) = (host.zero(), Vec::<Vec<[f32; 3]>>::new());

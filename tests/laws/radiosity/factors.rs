@@ -243,8 +243,9 @@ fn a_closed_room_with_blocks_closes_but_for_what_is_wholly_under_them() {
     let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
     let mut factors =
         FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |_, _| ()).expect("factors");
-    // A pair's share is the mean of side^2 samples of 0 or 1: it deviates by at most 1 / (2 side), a row by that times the root of the
-    // sum of its squares. Five deviations. What a block covers of a patch of the floor does not count; blind patches are wholly covered.
+    // A pair's share is the mean of side^2 samples of 0 or 1: it deviates by at most 1 / (2 side), a row by that times
+    // the root of the sum of its squares. Five deviations. What a block covers of a patch of the floor does not count;
+    // blind patches are wholly covered.
     let covered = |i: usize| patches.open_parts(i).is_empty();
     for (i, (sum, row)) in factors.row_sums().into_iter().zip(open.matrix().rows()).enumerate() {
         let squares: f64 = row.iter().map(|f| f * f).sum();

@@ -64,9 +64,9 @@ impl Default for Hemicube {
 }
 
 impl FormFactors {
-    /// By hemicubes at the centres of the patches, or of their largest open parts; where a centre sees nothing, at the first of nine points
-    /// that does. What stands
-    /// in between hides what is behind it, from either side; a back takes light from nobody. `done` hears of patches done, and of how many.
+    /// By hemicubes at the centres of the patches, or of their largest open parts; where a centre sees nothing, at the
+    /// first of nine points that does. What stands in between hides what is behind it, from either side; a back takes
+    /// light from nobody. `done` hears of patches done, and of how many.
     ///
     /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
     /// [`FormFactors::enforce_reciprocity`].
