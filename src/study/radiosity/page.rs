@@ -3,7 +3,7 @@
 use refsim::timing::replay::{Options, replay};
 use refsim::timing::{Level, Model};
 
-use super::{Outcome, Parameters, Row, StudyError, Way, tables};
+use super::{Outcome, Parameters, Row, StudyError, SweepRow, Way, tables};
 use crate::report::picture::rgb8;
 use crate::report::{Cell, Chart, Figure, Line, Page, Provenance, ReportError, Scale, Table};
 use crate::study::leaky_teapot_report::NamedFile;
@@ -92,21 +92,32 @@ fn residuals(outcome: &Outcome) -> Option<Chart> {
     })
 }
 
-/// How dark the room is by number of patches: a line for the card as it is in each way, and one for each setting that
-/// ever finds other bits. `None` without a sweep.
+/// Settings of switches get a line of their own where they change the error by more than this factor; the table has all.
+const APART: f64 = 1.5;
+
+/// By how much the room is too dark or too bright, by number of patches: a line for the card as it is in each way, and
+/// one for each setting that makes a difference. `None` without a sweep.
 fn darkness(outcome: &Outcome) -> Option<Chart> {
-    let mut lines: Vec<Line> = Vec::new();
-    for row in &outcome.sweep {
+    let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
+    let apart = |row: &SweepRow| {
+        let same = |other: &&SweepRow| other.as_it_is && (other.patches, &other.way) == (row.patches, &row.way);
+        let default = outcome.sweep.iter().find(same).map_or(0.0, error);
+        error(row).max(default) > APART * error(row).min(default)
+    };
+    let label = |row: &SweepRow| {
         let turned = row.switches.iter().filter(|_| !row.as_it_is).map(|(name, value)| format!("{name}={value}"));
-        let label = std::iter::once(row.way.clone()).chain(turned.take(1)).collect::<Vec<_>>().join(", ");
-        let point = (row.patches as f64, 100.0 * row.off.bias.abs());
+        std::iter::once(row.way.clone()).chain(turned.take(1)).collect::<Vec<_>>().join(", ")
+    };
+    let mut lines: Vec<Line> = Vec::new();
+    for row in outcome.sweep.iter().filter(|row| row.as_it_is || apart(row)) {
+        let (label, point) = (label(row), (row.patches as f64, error(row)));
         match lines.iter_mut().find(|line| line.label == label) {
             Some(line) => line.points.push(point),
             None => lines.push(Line { label, points: vec![point] }),
         }
     }
     (!lines.is_empty()).then(|| Chart {
-        title: "Mean error of patches that do not shine, in per cent".to_owned(),
+        title: "Mean error of patches that do not shine, either way".to_owned(),
         x: "patches".to_owned(),
         y: "error, %".to_owned(),
         y_scale: Scale::Logarithmic,
@@ -187,8 +198,7 @@ fn page(
     if !found.sweep.rows().is_empty() {
         page = page.heading("Other numbers of patches, other answers to open questions");
         if let Some(svg) = sweep {
-            page = page
-                .drawing(svg, "How dark the room is: the mean error of what does not shine, in per cent of itself.");
+            page = page.drawing(svg, "The mean error of what does not shine, in per cent of itself, without its sign.");
         }
         page = page.table(found.sweep).text(
             "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
