@@ -2,10 +2,7 @@
 
 use std::path::PathBuf;
 
-use refsim::{
-    check::{Violation, Warning},
-    device::Profile,
-};
+use refsim::check::{Violation, Warning};
 use serde_json::{Value, json};
 
 use super::{Out, Verdict, error};
@@ -37,10 +34,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let mut profile = Profile::named(&args.device)?;
-    for (name, value) in &args.switch {
-        profile.set_switch(name, value)?;
-    }
+    let profile = super::switch::device(&args.device, &args.switch)?;
     let text = ShaderText::read(&args.shader)?;
     let program = text.assemble()?;
     let (version, size) = (program.version, slots(&program));

@@ -1,5 +1,16 @@
 //! `NAME=VALUE` on the command line.
 
+use refsim::device::{DeviceError, Profile};
+
+/// A device with switches set.
+pub(super) fn device(name: &str, switches: &[(String, String)]) -> Result<Profile, DeviceError> {
+    let mut profile = Profile::named(name)?;
+    for (name, value) in switches {
+        profile.set_switch(name, value)?;
+    }
+    Ok(profile)
+}
+
 /// The two sides of the first `=`.
 pub(super) fn parse(text: &str) -> Result<(String, String), String> {
     text.split_once('=')

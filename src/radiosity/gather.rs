@@ -22,11 +22,10 @@ pub fn irradiance(
     parameters: VisibilityParameters,
 ) -> Result<[f64; 3], FormFactorError> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
-    let seen: Vec<(usize, f64)> = patches
-        .list()
-        .iter()
-        .enumerate()
-        .map(|(j, patch)| (j, point_to_polygon(point, normal, patch.corners())))
+    let seen: Vec<(usize, f64)> = (0..patches.list().len())
+        .map(|j| {
+            (j, patches.open_parts(j).iter().map(|part| point_to_polygon(point, normal, part.corners())).sum::<f64>())
+        })
         .filter(|&(_, factor)| factor > 0.0)
         .collect();
     let targets: Vec<usize> = seen.iter().map(|&(j, _)| j).collect();

@@ -8,7 +8,7 @@
 //! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a direct solve as truth;
 //! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;
 //! - [`kernels`], [`on_card`]: the same as fragment programs on an emulated card;
-//! - [`bound`]: how far that step's rounding can lead;
+//! - [`bound`]: how far that step's rounding can lead; [`bias`]: where it leads on average in half precision;
 //! - [`model`], [`rate`]: the paper's passes and operation counts, and how fast a card would be;
 //! - [`display`]: pictures drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
 //! - [`rooms`]: closed boxes to try it on.
@@ -27,6 +27,7 @@
 //! # }
 //! ```
 
+pub mod bias;
 pub mod bound;
 pub mod card_order;
 pub mod display;
@@ -36,6 +37,7 @@ pub mod gather;
 pub mod kernels;
 pub mod model;
 pub mod on_card;
+mod open;
 pub mod packing;
 mod patch;
 mod patches;

@@ -1,8 +1,11 @@
 //! A scene cut into patches.
 
+use std::collections::BTreeMap;
+
 use thiserror::Error;
 
-use super::patch::Patch;
+use super::open::open_parts;
+use super::patch::{Patch, PatchPoint};
 use super::subdivide::{Face, faces_of, steps_for_at_most};
 use crate::geom::Mesh;
 use crate::geom::vector::{length, sub};
@@ -56,6 +59,8 @@ pub enum PatchError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patches {
     list: Vec<Patch>,
+    /// The open parts of patches that are not wholly open.
+    open: BTreeMap<u32, Vec<Patch>>,
     mesh: Mesh,
     face_of: Vec<u32>,
     extent: f64,
@@ -87,7 +92,9 @@ impl Patches {
             face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
         }
         let [low, high] = bounds.map(|corner| corner.map(f64::from));
-        Ok(Self { list, mesh: mesh.clone(), face_of, extent: length(sub(high, low)), materials: materials? })
+        let (materials, extent) = (materials?, length(sub(high, low)));
+        let open = open_parts(&list, mesh, &face_of, extent);
+        Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }
 
     /// All patches; a patch's place is its row in the matrix.
@@ -117,10 +124,59 @@ impl Patches {
         self.extent
     }
 
-    /// The area of each patch.
+    /// The parts of a patch that no solid covers: itself, if nothing does; nothing, if it is covered altogether.
+    /// Radiosities and form factors are means over them. The rule is in `open.rs`.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn open_parts(&self, patch: usize) -> &[Patch] {
+        let whole = std::slice::from_ref(&self.list[patch]);
+        self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)
+    }
+
+    /// The area of what is open of a patch.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn open_area(&self, patch: usize) -> f64 {
+        self.open_parts(patch).iter().map(Patch::area).sum()
+    }
+
+    /// The patches that something covers in part, and those that are covered altogether.
+    #[must_use]
+    pub fn covered(&self) -> [usize; 2] {
+        let altogether = self.open.values().filter(|parts| parts.is_empty()).count();
+        [self.open.len() - altogether, altogether]
+    }
+
+    /// The unit square laid over the open parts of a patch, which share its first side in the order and the ratio of
+    /// their areas.
+    pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
+        let parts = self.open_parts(patch);
+        if let [one] = parts {
+            return one.at(u, v);
+        }
+        let area = self.open_area(patch);
+        let mut along = u * area;
+        let is_here = |part: &&Patch| {
+            let here = along <= part.area();
+            along -= if here { 0.0 } else { part.area() };
+            here
+        };
+        // Rounding may lead beyond the last part. A patch without parts has no exchange to be sampled.
+        let part = parts.iter().find(is_here).or(parts.last()).unwrap_or(&self.list[patch]);
+        let point = part.at((along / part.area()).min(1.0), v);
+        PatchPoint { density: point.density * (area / part.area()), ..point }
+    }
+
+    /// The area of each patch, as form factors count it: that of its open parts, since nothing else takes part in the
+    /// exchange of light. A patch that is covered altogether exchanges nothing, and has its whole area.
     #[must_use]
     pub fn areas(&self) -> Vec<f64> {
-        self.list.iter().map(Patch::area).collect()
+        let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };
+        (0..self.list.len()).map(area).collect()
     }
 
     /// The reflectance of each patch: red, green, blue.

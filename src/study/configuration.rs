@@ -20,7 +20,7 @@ impl Configuration {
     /// # Errors
     /// If there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
-        Ok(Self { label: file_name(name), profile: Profile::named(name)?, switch: None })
+        Ok(Self { label: file_name(name), ..Self::of(&Profile::named(name)?) })
     }
 
     /// A device without limits that computes in `format`.
@@ -49,13 +49,26 @@ impl Configuration {
     /// # Errors
     /// If there is no such device.
     pub fn device_under_each_switch(name: &str) -> Result<Vec<Self>, DeviceError> {
-        let default = Self::device(name)?;
-        let mut all = vec![default.clone()];
-        for switch in default.profile.switches() {
+        Self::device(name)?.under_each_switch()
+    }
+
+    /// A profile as it is.
+    pub fn of(profile: &Profile) -> Self {
+        Self { label: file_name(&profile.name), profile: profile.clone(), switch: None }
+    }
+
+    /// This configuration, and then the same with each open switch of its device turned to each other value, one at a
+    /// time.
+    ///
+    /// # Errors
+    /// If a switch does not take one of its own values.
+    pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
+        let mut all = vec![self.clone()];
+        for switch in self.profile.switches() {
             for value in switch.values.iter().filter(|v| **v != switch.current) {
-                let mut turned = default.clone();
+                let mut turned = self.clone();
                 turned.profile.set_switch(&switch.name, value)?;
-                turned.label = file_name(&format!("{name}-{}-{value}", switch.name));
+                turned.label = file_name(&format!("{}-{}-{value}", self.profile.name, switch.name));
                 turned.switch = Some((switch.name.to_string(), value.to_string()));
                 all.push(turned);
             }

@@ -1,5 +1,7 @@
 //! `crossbar radiosity`.
 
+use std::collections::BTreeSet;
+
 use crate::{Ran, crossbar_in};
 
 fn radiosity(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
@@ -66,6 +68,47 @@ fn a_document_for_machines() {
     assert_eq!(found["provenance"]["profiles"][0], "nv35");
 }
 
+/// Truncation makes half floats darker, and more patches make both darker; what has the same bits shares a row.
+#[test]
+fn a_sweep_over_patches_and_switches() {
+    let run = |switch: &[&str]| {
+        let mut arguments = SMALL.to_vec();
+        arguments.extend(["--storage", "fp16", "--iterations", "60", "--sweep", "30,90", "--json"]);
+        arguments.extend(switch);
+        let (ran, folder) = radiosity(&arguments);
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+        for file in ["sweep.csv", "sweep.svg"] {
+            assert!(folder.path().join("out/radiosity").join(file).exists(), "{file}");
+        }
+        serde_json::from_str::<serde_json::Value>(&ran.stdout).expect("one JSON document")
+    };
+    let (default, turned) = (run(&[]), run(&["--switch", "rounding=rtz"]));
+    assert_eq!(turned["provenance"]["switches"][0], serde_json::json!(["rounding", "rtz"]));
+    // Patches, settings and darkness of each row.
+    let rows = |found: &serde_json::Value| -> Vec<(u64, String, f64)> {
+        let row = |row: &serde_json::Value| {
+            let switches = row["switches"].as_str().expect("words").to_owned();
+            (row["patches"].as_u64().expect("a count"), switches, -row["mean_relative"].as_f64().expect("a number"))
+        };
+        found["sweep"].as_array().expect("rows").iter().map(row).collect()
+    };
+    let dark = |found: &[(u64, String, f64)], patches: u64, switches: &str| -> f64 {
+        let row = found.iter().find(|row| row.0 == patches && row.1.starts_with(switches));
+        row.unwrap_or_else(|| panic!("{patches}, {switches}: {found:?}")).2
+    };
+    let (default, turned) = (rows(&default), rows(&turned));
+    let sizes: BTreeSet<u64> = default.iter().map(|row| row.0).collect();
+    let folded = default.iter().filter(|row| row.1.contains("the same bits")).count();
+    assert!(sizes.len() == 2 && folded == 2 && default.len() < 10, "most switches find the same bits: {default:?}");
+    let [few, many] = sizes.iter().copied().collect::<Vec<_>>()[..] else { panic!("{sizes:?}") };
+    for patches in [few, many] {
+        assert_eq!(dark(&default, patches, "rounding=rtz"), dark(&turned, patches, "as it is"));
+        assert_eq!(dark(&default, patches, "as it is"), dark(&turned, patches, "rounding=rne"));
+        assert!(dark(&turned, patches, "as it is") > 3.0 * dark(&default, patches, "as it is").abs());
+    }
+    assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
+}
+
 #[test]
 fn the_card_draws_its_own_form_factors() {
     let (ran, _folder) = radiosity(&[
@@ -99,7 +142,7 @@ const FILES: [(&str, &str); 7] = [
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 21] = [
+    let cases: [(&str, &[&str]); 24] = [
         ("unknown_scene", &["cornell-rooms"]),
         ("no_surface", &["empty.obj"]),
         ("zero_area", &["flat.obj"]),
@@ -116,6 +159,9 @@ fn bad_input() {
         ("over_relaxed", &["cornell-room", "--solver", "sor:2.5"]),
         ("packing_of_the_host", &["cornell-room", "--solver", "direct", "--packing", "rgb"]),
         ("frames_of_the_host", &["cornell-room", "--solver", "direct", "--frames", "1"]),
+        ("sweep_of_the_host", &["cornell-room", "--solver", "direct", "--sweep", "60"]),
+        ("unknown_switch", &["cornell-room", "--switch", "madness=fused"]),
+        ("switch_value", &["cornell-room", "--switch", "rounding=up"]),
         ("no_fragment_programs", &["cornell-room", "--patches", "60", "--device", "r300"]),
         ("too_large", &["cornell-room", "--patches", "5000", "--factors", "unoccluded", "--solver", "card"]),
         ("no_patches", &["cornell-room", "--patches", "0"]),

@@ -128,6 +128,10 @@ pub(super) fn ways(args: &Args) -> Result<Vec<Way>, Problem> {
         let help = "add `--solver card`, or leave it out";
         return Err(Problem::usage("`--frames` shows the iterations of the card", help));
     }
+    if !on_card && !args.sweep.is_empty() {
+        let help = "add `--solver card`, or leave it out";
+        return Err(Problem::usage("`--sweep` turns the switches of the card", help));
+    }
     let packings = if args.packing.is_empty() { &[PackingArg::Rgb][..] } else { &args.packing };
     let storages = if args.storage.is_empty() { &[StorageArg::Fp32][..] } else { &args.storage };
     let mut ways: Vec<Way> = Vec::new();
@@ -209,6 +213,9 @@ pub(super) fn spelled(args: &Args) -> String {
         add(format_args!("--storage {}", word(*storage)));
     }
     add(format_args!("--device {}", args.device));
+    for (name, value) in &args.switch {
+        add(format_args!("--switch {name}={value}"));
+    }
     if let Some(x) = args.tolerance {
         add(format_args!("--tolerance {x}"));
     }
@@ -220,9 +227,11 @@ pub(super) fn spelled(args: &Args) -> String {
             add(format_args!("--{option} {material}={r},{g},{b}"));
         }
     }
-    if !args.frames.is_empty() {
-        let frames: Vec<String> = args.frames.iter().map(ToString::to_string).collect();
-        add(format_args!("--frames {}", frames.join(",")));
+    for (option, numbers) in [("frames", &args.frames), ("sweep", &args.sweep)] {
+        if !numbers.is_empty() {
+            let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+            add(format_args!("--{option} {}", numbers.join(",")));
+        }
     }
     add(format_args!("--size {}", args.size));
     if let Some(view) = &args.view {

@@ -5,7 +5,6 @@ mod ask;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use refsim::device::Profile;
 
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::scene_name::{self, EyeArgs, Stand};
@@ -26,8 +25,11 @@ Examples:
       solve, then change the light and the left wall, and go on from the solution
   crossbar radiosity room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
+  crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep 60,240,515,889
+      half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
 
-Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, pictures of every way \
+Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, with --sweep \
+sweep.csv and sweep.svg, pictures of every way \
 (NAME-flat.png, NAME-smooth.png) and of --frames; with a way on a card timeline.json, a trace for https://ui.perfetto.dev or \
 chrome://tracing. docs/papers/radiosity.md explains all of it.";
 
@@ -88,6 +90,10 @@ pub(super) struct Args {
     #[arg(long, value_name = "D", default_value = "nv35")]
     device: String,
 
+    /// A switch of the device; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = super::switch::parse)]
+    switch: Vec<(String, String)>,
+
     /// Which executor computes; the bits are the same
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
@@ -114,6 +120,10 @@ pub(super) struct Args {
     /// Pictures of the first way on the card after so many iterations
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Vec<u32>,
+
+    /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=16384))]
+    sweep: Vec<u32>,
 
     /// Pixels of the pictures
     #[arg(long, value_name = "WxH", default_value = "256x256")]
@@ -164,7 +174,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         subdivision: ask::subdivision(args),
         factors: ask::wishes(args),
         ways,
-        profile: Profile::named(&args.device)?,
+        profile: super::switch::device(&args.device, &args.switch)?,
         executor: args.executor.open(&args.gpu)?,
         options: Options {
             tolerance: args.tolerance.unwrap_or(if args.iterations.is_some() { 0.0 } else { 1e-4 }),
@@ -173,6 +183,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         changes: ask::changes(args),
         exposure: args.exposure,
         frames: args.frames.clone(),
+        sweep: args.sweep.clone(),
         scene,
     };
     // Before the long work, so that a folder that cannot be written is found out at once.
@@ -209,5 +220,6 @@ fn provenance(args: &Args, parameters: &Parameters) -> Provenance {
     let mut provenance = Provenance::new(command);
     provenance.seed = (args.factors == FactorsArg::Rays).then_some(args.seed);
     provenance.profiles.push(parameters.profile.name.clone());
+    provenance.switches.clone_from(&args.switch);
     provenance
 }

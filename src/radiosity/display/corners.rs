@@ -18,7 +18,8 @@ pub(super) struct Meetings {
 }
 
 impl Meetings {
-    /// At each corner of each patch the patches of one material that meet there and are not across an edge.
+    /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not
+    /// covered.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
@@ -27,6 +28,7 @@ impl Meetings {
                 meeting.entry(place(corner)).or_default().push(i);
             }
         }
+        let covered: Vec<bool> = (0..list.len()).map(|i| patches.open_parts(i).is_empty()).collect();
         let (mut sets, mut places) = (Vec::new(), BTreeMap::new());
         let mut of = vec![[0; 4]; list.len()];
         for (patch, of) in list.iter().zip(&mut of) {
@@ -35,7 +37,11 @@ impl Meetings {
                 other.material == patch.material && dot(other.normal(), patch.normal()) >= CREASE
             };
             for (&corner, of) in patch.corners().iter().zip(of) {
-                let set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
+                let mut set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
+                // What is covered altogether is dark and out of sight: it counts only where there is nothing else.
+                if set.iter().any(|&j| !covered[j as usize]) {
+                    set.retain(|&j| !covered[j as usize]);
+                }
                 *of = *places.entry(set).or_insert_with_key(|set| {
                     sets.push(set.clone());
                     sets.len() as u32 - 1
@@ -46,8 +52,9 @@ impl Meetings {
     }
 }
 
-/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not across an edge
-/// (Cohen and Greenberg, 1985, without their extrapolation at the border). A radiosity that is the same everywhere stays the same.
+/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not
+/// across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do not count.
+/// A radiosity that is the same everywhere stays the same.
 ///
 /// # Panics
 /// If there is not one radiosity a patch.
@@ -65,6 +72,6 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
 }
 
 /// Corners of neighbours agree in f32; both zeros are one place.
-fn place(corner: Vec3) -> [u32; 3] {
+pub(super) fn place(corner: Vec3) -> [u32; 3] {
     corner.map(|x| (x as f32 + 0.0).to_bits())
 }

@@ -4,6 +4,7 @@
 //! corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the host.
 
 mod corners;
+mod fans;
 pub(super) mod programs;
 mod resample;
 
@@ -74,7 +75,7 @@ pub struct Picture {
     pub pixels: Vec<[f64; 3]>,
 }
 
-/// Patches of three corners or of four: their vertices, and how they are drawn smoothly.
+/// Patches of three corners or of four, whole or as fans: their vertices, and how they are drawn smoothly.
 #[derive(Debug)]
 struct Shape {
     primitive: Primitive,
@@ -87,7 +88,7 @@ struct Shape {
 pub struct Display {
     patches: usize,
     options: DisplayOptions,
-    shapes: [Shape; 2],
+    shapes: [Shape; 3],
     flat: CheckedProgram,
     id: CheckedProgram,
     resampler: Resampler,
@@ -113,9 +114,11 @@ impl Display {
         let meetings = Meetings::new(patches);
         let resampler = Resampler::new(machine, &meetings, options.vector)?;
         let view = View { patches, camera, meetings: &meetings, resampler: &resampler, vector: options.vector };
+        let [quads, quad_fans, triangles] = view.vertices();
         let shapes = [
-            Shape { primitive: Primitive::QuadList, vertices: view.vertices(4), smooth: quad },
-            Shape { primitive: Primitive::TriangleList, vertices: view.vertices(3), smooth: triangle },
+            Shape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
+            Shape { primitive: Primitive::TriangleList, vertices: quad_fans, smooth: quad },
+            Shape { primitive: Primitive::TriangleList, vertices: triangles, smooth: triangle },
         ];
         let [width, height] = [camera.width(), camera.height()];
         let target = machine.create_target(options.target, width, height)?;
@@ -217,17 +220,22 @@ struct View<'a> {
 }
 
 impl View<'_> {
-    /// The vertices of all patches of so many corners that are in the picture.
-    fn vertices(&self, sides: usize) -> Vec<Vertex> {
+    /// The vertices of all patches that are in the picture: of quadrilaterals, of their fans, of triangles and their
+    /// fans.
+    fn vertices(&self) -> [Vec<Vertex>; 3] {
         let list = self.patches.list();
         let within = list.first().map_or([0.0; 3], |patch| patch.corners()[0]);
         let projection = Projection::of(self.camera, within, self.patches.extent());
-        let mut vertices = Vec::new();
-        for (i, patch) in list.iter().enumerate().filter(|(_, patch)| patch.corners().len() == sides) {
+        let mut vertices = [const { Vec::new() }; 3];
+        for (i, (patch, fan)) in list.iter().zip(fans::fans(self.patches)).enumerate() {
             if let Some(side) = projection.side(patch).filter(|_| !projection.misses(patch)) {
                 let code = side.code(i);
-                let corner = |(&corner, at)| self.dressed(projection.vertex(corner, at, side), i, code);
-                vertices.extend(patch.corners().iter().zip(in_patch(patch)).map(corner));
+                let dressed = |(point, at)| self.dressed(projection.vertex(point, at, side), i, code);
+                let into = &mut vertices[if patch.corners().len() == 3 { 2 } else { usize::from(fan.is_some()) }];
+                match fan {
+                    Some(triangles) => into.extend(triangles.into_iter().flatten().map(dressed)),
+                    None => into.extend(patch.corners().iter().copied().zip(in_patch(patch)).map(dressed)),
+                }
             }
         }
         vertices

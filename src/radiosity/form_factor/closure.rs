@@ -16,7 +16,8 @@ pub struct RowSums {
     pub least: f64,
     /// The largest sum.
     pub most: f64,
-    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the areas.
+    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the
+    /// areas. Blind patches do not count, unless all are blind.
     pub escaping: f64,
     /// Patches that see nothing at all, such as those under a block.
     pub blind: usize,
@@ -36,8 +37,9 @@ impl FormFactors {
         let fold = |start: f64, f: fn(f64, f64) -> f64| {
             if sums.is_empty() { 0.0 } else { sums.iter().copied().fold(start, f) }
         };
-        let (area, leaving) =
-            self.areas.iter().zip(&sums).fold((0.0, 0.0), |(a, l), (x, s)| (a + x, l + x * (1.0 - s)));
+        let all_blind = sums.iter().all(|&sum| sum == 0.0);
+        let counted = self.areas.iter().zip(&sums).filter(|&(_, &sum)| all_blind || sum > 0.0);
+        let (area, leaving) = counted.fold((0.0, 0.0), |(a, l), (x, s)| (a + x, l + x * (1.0 - s)));
         RowSums {
             least: fold(f64::INFINITY, f64::min),
             most: fold(f64::NEG_INFINITY, f64::max),

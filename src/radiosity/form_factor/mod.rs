@@ -3,6 +3,7 @@
 //! - between two patches with nothing in between: a Gauss product far away, a contour integral near by, both in f64;
 //! - with something in between: that, times the share of sample rays that get through, asked of whoever traces;
 //! - by hemicubes that a card draws ([`FormFactors::hemicube`]);
+//! - patches by their open parts ([`Patches::open_parts`]): areas and form factors are those of what nothing stands on;
 //! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
 //! - checks and their enforcement: reciprocity, and rows that sum to 1 in a closed room.
 
@@ -25,6 +26,7 @@ use exchange::Prepared;
 
 pub use closure::RowSums;
 pub use hemicube::Hemicube;
+pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
 pub use visibility::VisibilityParameters;
 pub(super) use visibility::point_share;
@@ -181,7 +183,7 @@ impl FormFactors {
         self.areas.is_empty()
     }
 
-    /// The areas of the patches.
+    /// The areas of the patches: of their open parts, see [`Patches::areas`].
     #[must_use]
     pub fn areas(&self) -> &[f64] {
         &self.areas
@@ -194,13 +196,16 @@ impl FormFactors {
     }
 }
 
-/// Area times form factor of every two patches, above the diagonal, with nothing between them.
+/// Area times form factor of the open parts of every two patches, above the diagonal, with nothing between them.
 fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
-    let list: Vec<Prepared<'_>> = patches.list().iter().map(Prepared::new).collect();
+    let parts = |i| patches.open_parts(i).iter().map(Prepared::new).collect();
+    let list: Vec<Vec<Prepared<'_>>> = (0..patches.list().len()).map(parts).collect();
     let mut matrix = Matrix::zero(list.len())?;
     matrix.par_rows_mut().enumerate().for_each(|(i, row)| {
-        for (into, other) in row.iter_mut().zip(&list).skip(i + 1) {
-            *into = exchange::unoccluded(&list[i], other);
+        for (into, others) in row.iter_mut().zip(&list).skip(i + 1) {
+            for one in &list[i] {
+                *into += others.iter().map(|other| exchange::unoccluded(one, other)).sum::<f64>();
+            }
         }
     });
     Ok(matrix)

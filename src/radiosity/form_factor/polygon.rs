@@ -30,7 +30,7 @@ pub(super) fn in_front_of(corners: &[Vec3], patch: &Patch) -> Vec<Vec3> {
 }
 
 /// The part of a convex polygon where a linear function is not negative.
-fn clipped(corners: &[Vec3], height: impl Fn(Vec3) -> f64) -> Vec<Vec3> {
+pub(in crate::radiosity) fn clipped(corners: &[Vec3], height: impl Fn(Vec3) -> f64) -> Vec<Vec3> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (i, &here) in corners.iter().enumerate() {
         let next = corners[(i + 1) % corners.len()];

@@ -11,11 +11,7 @@ use crate::geom::random::Keyed;
 use crate::geom::vector::{Vec3, add, dot, length, scale, sub};
 use crate::geom::{Caster, Hit, Ray};
 use crate::linalg::Matrix;
-use crate::radiosity::Patch;
-
-/// Rays start this far in front of their patch, in shares of the scene's diagonal: farther than f32 corners and a tracer's
-/// rounding can be off, nearer than anything that one would model.
-const LIFT: f64 = 1.0 / 65_536.0;
+use crate::radiosity::open::lift;
 
 /// How visibility is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,14 +71,15 @@ pub(super) fn hide(
     Ok(())
 }
 
-/// The rays of a pair: a jittered point in each stratum of one patch, each with one of a stratum of the other, dealt out at random.
+/// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
+/// other, dealt out at random.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<Sample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
-    let (side, lift) = (parameters.side as usize, LIFT * patches.extent());
-    let at = |patch: &Patch, stratum: usize, sample: u64, dimension: u64| {
+    let (side, lift) = (parameters.side as usize, lift(patches.extent()));
+    let at = |patch: u32, stratum: usize, sample: u64, dimension: u64| {
         let along = |k: usize, d| (k as f64 + random.unit(index, sample, dimension + d)) / side as f64;
-        let point = patch.at(along(stratum % side, 0), along(stratum / side, 1));
+        let point = patches.open_point(patch as usize, [along(stratum % side, 0), along(stratum / side, 1)]);
         (point.at, point.density)
     };
     let mut far: Vec<usize> = (0..side * side).collect();
@@ -91,7 +88,7 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
         let number = sample as u64;
         let left = (far.len() - sample) as u64;
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
-        let ((x, dx), (y, dy)) = (at(pair[0], sample, number, 0), at(pair[1], far[sample], number, 2));
+        let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
         let (ray, arrives) = ray_between(add(x, scale(lift, pair[0].normal())), y, lift);
         dealt.push(Sample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
     }
@@ -131,13 +128,13 @@ pub(in crate::radiosity) fn point_share(
     if parameters.side == 0 {
         return Err(FormFactorError::NoSamples);
     }
-    let (side, lift) = (u64::from(parameters.side), LIFT * patches.extent());
+    let (side, lift) = (u64::from(parameters.side), lift(patches.extent()));
     let (random, start) = (Keyed::new(parameters.seed), add(point, scale(lift, normal)));
     let count = side.saturating_mul(side);
     let sample = |target: usize, k: u64| {
         let patch = &patches.list()[target];
         let along = |stratum: u64, d| ((stratum as f64) + random.unit(target as u64, k, d)) / side as f64;
-        let there = patch.at(along(k % side, 0), along(k / side, 1));
+        let there = patches.open_point(target, [along(k % side, 0), along(k / side, 1)]);
         let to = sub(there.at, point);
         let (cosines, square) = (dot(normal, to).max(0.0) * (-dot(patch.normal(), to)).max(0.0), dot(to, to));
         let (ray, arrives) = ray_between(start, there.at, lift);

@@ -3,6 +3,7 @@
 //! A target is one row of texels, a patch each (RGB) or four (luminance), so that a texture coordinate along it is a patch's number, as
 //! the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that row and is lost.
 
+mod cycle;
 mod error;
 mod fit;
 mod layer;
@@ -16,6 +17,7 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, Machine, TextureId};
 
+pub use cycle::Cycle;
 pub use error::CardError;
 pub use fit::{Fit, Storage};
 pub use product::{product, product_block};

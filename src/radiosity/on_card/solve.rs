@@ -1,6 +1,7 @@
 //! Iterations until the residual is small enough; the residual is the host's, in f64, from what it reads back.
 
-use super::{CardError, CardSolver};
+use super::cycle::Seen;
+use super::{CardError, CardSolver, Cycle};
 use crate::radiosity::System;
 use crate::radiosity::solve::mean_square;
 
@@ -41,9 +42,9 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// Whether the radiosities came back to what they had been before, bit for bit, so that they would go round for ever: the end of what
-    /// the card's numbers can do.
-    pub settled: bool,
+    /// The cycle that the radiosities go round in for ever, or the fixed point at which they stay: why it ended without
+    /// the tolerance. `None` if it ended before one was found.
+    pub cycle: Option<Cycle>,
 }
 
 impl CardSolution {
@@ -55,8 +56,9 @@ impl CardSolution {
 }
 
 impl CardSolver {
-    /// Iterates from the radiosities on the card until every channel's residual is small enough, or they go round in a circle. `system` is
-    /// what is on the card before it was rounded; `each` is told whenever the residual is looked at.
+    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state that was
+    /// looked at comes back to the bit. `system` is what is on the card before it was rounded; `each` is told whenever
+    /// the residual is looked at.
     ///
     /// # Errors
     /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`], [`CardError::Machine`]. Reaching the
@@ -72,9 +74,7 @@ impl CardSolver {
         let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right(c)));
         let (mut history, mut number) = (Vec::new(), 0);
         let mut radiosity = self.read()?;
-        let (mut settled, mut looks) = (false, 0_u32);
-        // An earlier state, taken again after 1, 2, 4, ... looks: sooner or later it lies on the circle, if there is one.
-        let mut earlier = radiosity.clone();
+        let mut seen = Seen::default();
         loop {
             let residual = system.residual(&widened(&radiosity));
             if residual.iter().any(|r| !r.is_finite()) {
@@ -83,28 +83,23 @@ impl CardSolver {
             history.push((number, residual));
             each(&Iteration { number, residual, radiosity: &radiosity });
             let converged = channels.iter().all(|&c| residual[c] <= target[c]);
-            if converged || settled || number >= options.most_iterations {
-                return Ok(CardSolution { radiosity, history, converged, settled });
+            let cycle = match seen.note(&radiosity, number) {
+                Some(first) if !converged => self.around(&radiosity, [first, number - first])?,
+                _ => None,
+            };
+            if converged || cycle.is_some() || number >= options.most_iterations {
+                return Ok(CardSolution { radiosity, history, converged, cycle });
             }
             let steps = options.check_every.max(1).min(options.most_iterations - number);
             for _ in 0..steps {
                 self.iterate()?;
             }
             number += steps;
-            let before = std::mem::replace(&mut radiosity, self.read()?);
-            settled = same_bits(&radiosity, &before) || same_bits(&radiosity, &earlier);
-            looks += 1;
-            if looks.is_power_of_two() {
-                earlier.clone_from(&radiosity);
-            }
+            radiosity = self.read()?;
         }
     }
 }
 
 fn widened(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
-}
-
-fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
-    a.iter().zip(b).all(|(a, b)| a.map(f32::to_bits) == b.map(f32::to_bits))
 }

@@ -1,6 +1,7 @@
 //! What can be wrong with what a study of radiosity is asked.
 
 use miette::Diagnostic;
+use refsim::device::DeviceError;
 use refsim::machine::MachineError;
 use refsim::timing::replay::ReplayError;
 use thiserror::Error;
@@ -54,6 +55,10 @@ pub enum StudyError {
     #[error(transparent)]
     #[diagnostic(code(radiosity::machine))]
     Machine(#[from] MachineError),
+    /// A switch.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
     /// The timeline.
     #[error(transparent)]
     #[diagnostic(transparent)]

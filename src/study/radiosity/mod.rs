@@ -9,6 +9,7 @@ mod error;
 mod page;
 mod pictures;
 mod room;
+mod sweep;
 mod tables;
 mod time;
 mod way;
@@ -28,6 +29,7 @@ pub use error::StudyError;
 pub use page::files;
 pub use pictures::{Frame, Pictures};
 pub use room::{Factors, Wishes};
+pub use sweep::SweepRow;
 pub use tables::{Tables, tables};
 pub use time::IterationTime;
 pub use way::{CardFacts, CardWay, Stopped, Way};
@@ -59,6 +61,8 @@ pub struct Parameters {
     pub exposure: Option<f64>,
     /// Iterations of the first way on a card of which there are pictures.
     pub frames: Vec<u32>,
+    /// Other numbers of patches in which the room is solved on the card, under each of its open switches.
+    pub sweep: Vec<u32>,
 }
 
 /// One way of solving, and what came of it.
@@ -103,6 +107,8 @@ pub struct Outcome {
     pub rows: Vec<Row>,
     /// The room after some iterations.
     pub frames: Vec<Frame>,
+    /// Other numbers of patches, other settings of the switches.
+    pub sweep: Vec<SweepRow>,
 }
 
 /// Hears what is being done, how much of it is done, and of how much.
@@ -144,12 +150,14 @@ pub fn run(parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Outcome, St
         rows.push(row(one, &system, truth.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
+    let sweep = sweep::run(parameters, watch)?;
     Ok(Outcome {
         found_sums: room.found_sums,
         reciprocity_error: room.reciprocity_error,
         exposure,
         rows,
         frames,
+        sweep,
         patches,
     })
 }

@@ -3,7 +3,7 @@
 use refsim::timing::replay::{Options, replay};
 use refsim::timing::{Level, Model};
 
-use super::{Outcome, Parameters, Row, StudyError, Way, tables};
+use super::{Outcome, Parameters, Row, StudyError, SweepRow, Way, tables};
 use crate::report::picture::rgb8;
 use crate::report::{Cell, Chart, Figure, Line, Page, Provenance, ReportError, Scale, Table};
 use crate::study::leaky_teapot_report::NamedFile;
@@ -40,10 +40,17 @@ pub fn files(
     if let Some(svg) = &chart {
         files.push(("residual.svg".to_owned(), svg.clone().into_bytes()));
     }
+    if !outcome.sweep.is_empty() {
+        files.push(("sweep.csv".to_owned(), found.sweep.csv()?.into_bytes()));
+    }
+    let sweep = darkness(outcome).map(|chart| chart.svg()).transpose()?;
+    if let Some(svg) = &sweep {
+        files.push(("sweep.svg".to_owned(), svg.clone().into_bytes()));
+    }
     if let Some(bytes) = timeline(parameters, outcome)? {
         files.push(("timeline.json".to_owned(), bytes));
     }
-    let page = page(parameters, outcome, provenance, chart)?;
+    let page = page(parameters, outcome, provenance, [chart, sweep])?;
     files.push(("index.html".to_owned(), page.html().into_bytes()));
     Ok(files)
 }
@@ -51,7 +58,7 @@ pub fn files(
 /// A row a patch: where it is, what it is, and its radiosity by each way.
 fn patches(outcome: &Outcome) -> Table {
     let mut headings: Vec<String> =
-        ["patch", "x", "y", "z", "area", "face", "material"].into_iter().map(str::to_owned).collect();
+        ["patch", "x", "y", "z", "area", "open_area", "face", "material"].into_iter().map(str::to_owned).collect();
     for row in &outcome.rows {
         headings.extend(["r", "g", "b"].map(|c| format!("{}_{c}", row.label)));
     }
@@ -59,10 +66,11 @@ fn patches(outcome: &Outcome) -> Table {
     let mut table = Table::new("Patches", &headings);
     for (i, patch) in outcome.patches.list().iter().enumerate() {
         let [x, y, z] = patch.centre();
-        let head: [Cell; 7] =
-            [i.into(), x.into(), y.into(), z.into(), patch.area().into(), patch.face.into(), patch.material.into()];
+        let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
+        let areas: [Cell; 2] = [patch.area().into(), outcome.patches.open_area(i).into()];
+        let parts: [Cell; 2] = [patch.face.into(), patch.material.into()];
         let found = outcome.rows.iter().flat_map(|row| row.radiosity[i].map(Cell::Real));
-        table.push(head.into_iter().chain(found));
+        table.push(places.into_iter().chain(areas).chain(parts).chain(found));
     }
     table
 }
@@ -79,6 +87,39 @@ fn residuals(outcome: &Outcome) -> Option<Chart> {
         title: "Mean squared residual of M B - E".to_owned(),
         x: "iterations".to_owned(),
         y: "error".to_owned(),
+        y_scale: Scale::Logarithmic,
+        lines,
+    })
+}
+
+/// Settings of switches get a line of their own where they change the error by more than this factor; the table has all.
+const APART: f64 = 1.5;
+
+/// By how much the room is too dark or too bright, by number of patches: a line for the card as it is in each way, and
+/// one for each setting that makes a difference. `None` without a sweep.
+fn darkness(outcome: &Outcome) -> Option<Chart> {
+    let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
+    let apart = |row: &SweepRow| {
+        let same = |other: &&SweepRow| other.as_it_is && (other.patches, &other.way) == (row.patches, &row.way);
+        let default = outcome.sweep.iter().find(same).map_or(0.0, error);
+        error(row).max(default) > APART * error(row).min(default)
+    };
+    let label = |row: &SweepRow| {
+        let turned = row.switches.iter().filter(|_| !row.as_it_is).map(|(name, value)| format!("{name}={value}"));
+        std::iter::once(row.way.clone()).chain(turned.take(1)).collect::<Vec<_>>().join(", ")
+    };
+    let mut lines: Vec<Line> = Vec::new();
+    for row in outcome.sweep.iter().filter(|row| row.as_it_is || apart(row)) {
+        let (label, point) = (label(row), (row.patches as f64, error(row)));
+        match lines.iter_mut().find(|line| line.label == label) {
+            Some(line) => line.points.push(point),
+            None => lines.push(Line { label, points: vec![point] }),
+        }
+    }
+    (!lines.is_empty()).then(|| Chart {
+        title: "Mean error of patches that do not shine, either way".to_owned(),
+        x: "patches".to_owned(),
+        y: "error, %".to_owned(),
         y_scale: Scale::Logarithmic,
         lines,
     })
@@ -102,7 +143,7 @@ fn page(
     parameters: &Parameters,
     outcome: &Outcome,
     provenance: &Provenance,
-    chart: Option<String>,
+    [chart, sweep]: [Option<String>; 2],
 ) -> Result<Page, StudyError> {
     let png = |bytes: &[u8]| rgb8(parameters.camera.width() as usize, parameters.camera.height() as usize, bytes);
     let found = tables(parameters, outcome);
@@ -139,6 +180,12 @@ fn page(
         page =
             page.drawing(svg, "The mean over the channels of the mean squared residual, as in the paper's Figure 3.");
     }
+    if !found.ends.rows().is_empty() {
+        page = page.table(found.ends).text(
+            "An iteration in finitely many bits that never meets its tolerance comes back to a state that it was in before, and goes \
+             round from there on. States are compared bit for bit; the period is the smallest.",
+        );
+    }
     if !found.card.rows().is_empty() {
         page = page.heading("On the card").table(found.card).text(
             "Operations are counted as the paper does: two an element and channel, indexing left out. bandwidth_used is what an \
@@ -147,6 +194,16 @@ fn page(
     }
     if !relit.is_empty() {
         page = page.heading("Relit").figures(relit).table(found.relit);
+    }
+    if !found.sweep.rows().is_empty() {
+        page = page.heading("Other numbers of patches, other answers to open questions");
+        if let Some(svg) = sweep {
+            page = page.drawing(svg, "The mean error of what does not shine, in per cent of itself, without its sign.");
+        }
+        page = page.table(found.sweep).text(
+            "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
+             predicted_mean is what follows to first order from rounding every term of a sum to the sum's own step.",
+        );
     }
     Ok(page)
 }

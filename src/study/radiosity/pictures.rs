@@ -40,10 +40,10 @@ pub struct Frame {
 /// The exposure at which what does not shine is grey in the mean over its area.
 pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
     let (mut light, mut area) = (0.0, 0.0);
-    for ((patch, e), b) in patches.list().iter().zip(emittance).zip(radiosity) {
+    for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
         if e.iter().all(|&e| e == 0.0) {
-            light += patch.area() * crate::geom::vector::dot(LUMINANCE, *b) / std::f64::consts::PI;
-            area += patch.area();
+            light += patches.open_area(i) * crate::geom::vector::dot(LUMINANCE, *b) / std::f64::consts::PI;
+            area += patches.open_area(i);
         }
     }
     // Where everything shines, or nothing is lit, radiance is shown as it is.

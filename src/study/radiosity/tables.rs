@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Difference, Outcome, Parameters, Row, Way};
+use super::{Difference, Outcome, Parameters, Row, Stopped, Way};
 use crate::report::{Cell, Table};
 
 /// The tables of a study.
@@ -12,29 +12,44 @@ pub struct Tables {
     pub room: Table,
     /// A row a way of solving.
     pub ways: Table,
+    /// What iterations on a card come to: a row a way on a card; empty without.
+    pub ends: Table,
     /// A row a way on a card; empty without.
     pub card: Table,
     /// A row a way, after the changes; empty without.
     pub relit: Table,
+    /// A row a number of patches, way on a card, and settings of its switches that find other bits; empty without a
+    /// sweep.
+    pub sweep: Table,
 }
 
 impl Tables {
     /// Those that have rows, in the order in which they are read.
     pub fn all(&self) -> impl Iterator<Item = &Table> {
-        [&self.room, &self.ways, &self.card, &self.relit].into_iter().filter(|table| !table.rows().is_empty())
+        [&self.room, &self.ways, &self.ends, &self.card, &self.relit, &self.sweep]
+            .into_iter()
+            .filter(|table| !table.rows().is_empty())
     }
 
     /// All of them as one document.
     pub fn json(&self) -> Value {
         json!({
-            "room": self.room.json(), "ways": self.ways.json(), "card": self.card.json(), "relit": self.relit.json(),
+            "room": self.room.json(), "ways": self.ways.json(), "ends": self.ends.json(), "card": self.card.json(),
+            "relit": self.relit.json(), "sweep": self.sweep.json(),
         })
     }
 }
 
 /// The tables.
 pub fn tables(parameters: &Parameters, outcome: &Outcome) -> Tables {
-    Tables { room: room(parameters, outcome), ways: ways(outcome), card: card(outcome), relit: relit(outcome) }
+    Tables {
+        room: room(parameters, outcome),
+        ways: ways(outcome),
+        ends: ends(parameters, outcome),
+        card: card(outcome),
+        relit: relit(outcome),
+        sweep: sweep(outcome),
+    }
 }
 
 /// So many digits that count, for people.
@@ -53,6 +68,7 @@ fn room(parameters: &Parameters, outcome: &Outcome) -> Table {
         "least_row_sum",
         "largest_row_sum",
         "light_escaping",
+        "partly_covered",
         "blind_patches",
         "reciprocity_error",
         "enforced",
@@ -71,6 +87,7 @@ fn room(parameters: &Parameters, outcome: &Outcome) -> Table {
         digits(sums.least, 7),
         digits(sums.most, 7),
         digits(sums.escaping, 3),
+        outcome.patches.covered()[0].into(),
         sums.blind.into(),
         digits(outcome.reciprocity_error, 3),
         enforced.into(),
@@ -104,6 +121,59 @@ fn ways(outcome: &Outcome) -> Table {
             off(|off| off.largest),
             off(|off| off.relative),
             off(|off| off.bias),
+        ]);
+    }
+    table
+}
+
+/// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit
+/// for bit.
+fn ends(parameters: &Parameters, outcome: &Outcome) -> Table {
+    let headings = ["way", "ends", "entered_after", "period", "values_changing", "of_values", "largest_change_%"];
+    let mut table =
+        Table::new("What iterations on the card come to; changes from one iteration to the next", &headings);
+    let values = 3 * outcome.patches.list().len();
+    for row in outcome.rows.iter().filter(|row| row.card.is_some()) {
+        let ends = match row.stopped {
+            Stopped::Tolerance => "within the tolerance".to_owned(),
+            Stopped::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
+            Stopped::Cycle(_) => "in a cycle".to_owned(),
+            Stopped::Iterations | Stopped::Direct => {
+                format!("no cycle within {} iterations", parameters.options.most_iterations)
+            }
+        };
+        let cycle = if let Stopped::Cycle(cycle) = row.stopped { Some(cycle) } else { None };
+        table.push([
+            row.label.as_str().into(),
+            ends.into(),
+            cycle.map(|c| c.entered).into(),
+            cycle.map(|c| c.period).into(),
+            cycle.map(|c| c.changing).into(),
+            cycle.map(|_| values).into(),
+            cycle.map_or(Cell::Empty, |c| digits(100.0 * c.largest_change, 3)),
+        ]);
+    }
+    table
+}
+
+/// The sweep over numbers of patches and switches.
+fn sweep(outcome: &Outcome) -> Table {
+    let headings =
+        ["patches", "way", "switches", "iterations", "stopped_by", "largest_error", "mean_relative", "predicted_mean"];
+    let mut table = Table::new(
+        "Other numbers of patches, and each open switch of the card turned alone; errors as above",
+        &headings,
+    );
+    for row in &outcome.sweep {
+        table.push([
+            row.patches.into(),
+            row.way.as_str().into(),
+            row.settings().into(),
+            row.iterations.into(),
+            row.stopped.to_string().into(),
+            digits(row.off.largest, 3),
+            digits(row.off.bias, 3),
+            row.predicted.map_or(Cell::Empty, |bias| digits(bias, 3)),
         ]);
     }
     table

@@ -9,7 +9,7 @@ use super::change::Relit;
 use super::time::IterationTime;
 use super::{Parameters, StudyError};
 use crate::radiosity::System;
-use crate::radiosity::on_card::{CardOptions, CardSolver, Storage};
+use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Options, Solver, mean_square};
 
@@ -32,13 +32,13 @@ pub enum Way {
 }
 
 /// Why an iteration stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stopped {
     /// The residual is small enough.
     Tolerance,
-    /// The last iteration changed no bit.
-    FixedPoint,
-    /// There were to be no more.
+    /// The same bits come back for ever.
+    Cycle(Cycle),
+    /// There were to be no more; on a card, no state came back before.
     Iterations,
     /// It was no iteration.
     Direct,
@@ -92,14 +92,26 @@ impl Way {
     }
 }
 
+impl Stopped {
+    /// Why an iteration on a card stopped.
+    pub(super) fn on_card(found: &CardSolution) -> Self {
+        match (found.converged, found.cycle) {
+            (true, _) => Self::Tolerance,
+            (false, Some(cycle)) => Self::Cycle(cycle),
+            (false, None) => Self::Iterations,
+        }
+    }
+}
+
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Tolerance => "tolerance",
-            Self::FixedPoint => "no bit changes",
-            Self::Iterations => "iterations",
-            Self::Direct => "elimination",
-        })
+        match self {
+            Self::Tolerance => f.write_str("tolerance"),
+            Self::Cycle(cycle) if cycle.is_fixed_point() => f.write_str("fixed point"),
+            Self::Cycle(cycle) => write!(f, "cycle of {}", cycle.period),
+            Self::Iterations => f.write_str("iterations"),
+            Self::Direct => f.write_str("elimination"),
+        }
     }
 }
 
@@ -185,7 +197,7 @@ fn on_card(
         // The card goes on to show the first solution.
         card.load(&found.radiosity)?;
         card.set_system(system)?;
-        let count = |s: &crate::radiosity::on_card::CardSolution| s.converged.then(|| s.iterations() as usize);
+        let count = |s: &CardSolution| s.converged.then(|| s.iterations() as usize);
         Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: widened(&again.radiosity) })
     });
     let relit = relit.transpose()?;
@@ -194,11 +206,7 @@ fn on_card(
         radiosity,
         history: found.history.iter().map(|(_, residual)| mean(*residual)).collect(),
         emitted: emitted(system),
-        stopped: match (found.converged, found.settled) {
-            (true, _) => Stopped::Tolerance,
-            (false, true) => Stopped::FixedPoint,
-            (false, false) => Stopped::Iterations,
-        },
+        stopped: Stopped::on_card(&found),
         relit,
         card: Some(card),
         kept,

@@ -1,6 +1,9 @@
 //! Matrix radiosity: what light must satisfy, whoever computes it.
 
+mod bias;
 mod bounds;
+mod covered;
+mod cycles;
 mod display;
 mod errors;
 mod factors;

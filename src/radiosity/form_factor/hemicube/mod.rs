@@ -64,8 +64,9 @@ impl Default for Hemicube {
 }
 
 impl FormFactors {
-    /// By hemicubes at the patches' centres; where a centre sees nothing, at the first of nine points of the patch that does. What stands
-    /// in between hides what is behind it, from either side; a back takes light from nobody. `done` hears of patches done, and of how many.
+    /// By hemicubes at the centres of the patches, or of their largest open parts; where a centre sees nothing, at the
+    /// first of nine points that does. What stands in between hides what is behind it, from either side; a back takes
+    /// light from nobody. `done` hears of patches done, and of how many.
     ///
     /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
     /// [`FormFactors::enforce_reciprocity`].
@@ -106,9 +107,12 @@ impl Work<'_> {
     /// The rows of some patches in a row.
     fn fill(&self, first: usize, rows: &mut [&mut [f64]]) -> Result<(), DrawError> {
         let mut buffer = ItemBuffer::new(self.executor, &self.hemicube.device, self.hemicube.resolution)?;
-        for (patch, row) in self.patches.list()[first..].iter().zip(rows) {
-            if !self.look(&mut buffer, patch, patch.centre(), row)? {
-                self.look_elsewhere(&mut buffer, patch, row)?;
+        for (patch, row) in (first..).zip(rows) {
+            // The largest open part; of the first of equals, so that a patch that is wholly open is its own.
+            let larger = |one: &&Patch, other: &&Patch| one.area().total_cmp(&other.area());
+            let Some(part) = self.patches.open_parts(patch).iter().rev().max_by(larger) else { continue };
+            if !self.look(&mut buffer, part, part.centre(), row)? {
+                self.look_elsewhere(&mut buffer, part, row)?;
             }
         }
         Ok(())

@@ -1,0 +1,151 @@
+//! What the step of a short accumulator does to a solution, to first order: why half precision makes a room dark, and
+//! more patches make it darker.
+//!
+//! An accumulator S of p mantissa bits lies on its own grid, of step `q = 2^(floor(log2 |S|) - p)`. What is added to it
+//! therefore changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or
+//! with truncation to the one below. A row of the iteration adds N terms of about a Nth of the radiosity to a sum as
+//! large as the radiosity itself, so t / q is about 2^p / N:
+//!
+//! - with truncation every term loses q / 2 on average, a row about `N 2^-(p+1)` of its radiosity: linear in N;
+//! - to nearest, terms below q / 2 are lost altogether and the others lose nothing on average: the loss is the share of
+//!   light that comes in terms below q / 2, next to nothing for few patches and nearly all of it for many.
+//!
+//! The loss d of an iteration is the error of the sum of equation 4, so the solution is off by `M^-1 d`. [`predicted`]
+//! takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so it is good to
+//! first order in the loss.
+
+use refsim::num::{Format, Kind, Rounding};
+
+use super::System;
+use super::packing::Packing;
+use super::solve::{self, Options, SolveError, Solver};
+
+/// How the sums of a row are formed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Accumulator {
+    /// Explicit mantissa bits: 10 of fp16, 23 of fp32.
+    pub mantissa: u8,
+    /// The exponent of the smallest normal number, below which steps no longer shrink: -14 of fp16, -126 of fp32.
+    pub least_exponent: i32,
+    /// Truncation, or one of the roundings to nearest.
+    pub rounding: Rounding,
+    /// One sum of a channel, or four partial ones per block.
+    pub packing: Packing,
+    /// Texels of a block.
+    pub block: usize,
+}
+
+impl Accumulator {
+    /// The accumulator of a floating-point register; `None` for fixed point.
+    #[must_use]
+    pub fn of(format: &Format, packing: Packing, block: usize) -> Option<Self> {
+        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+        let least_exponent = 2 - (1 << (exp_bits - 1));
+        Some(Self { mantissa: man_bits, least_exponent, rounding: format.rounding, packing, block })
+    }
+
+    /// What is lost where `term` is added to `sum`: the difference between what arrives and the term.
+    fn loss(&self, sum: f64, term: f64) -> f64 {
+        let after = sum + term;
+        let size = sum.abs().max(after.abs());
+        let exponent = (size.to_bits() >> 52) as i32 - 1023;
+        let step = f64::from_bits(((exponent.max(self.least_exponent) - i32::from(self.mantissa) + 1023) as u64) << 52);
+        let steps = term / step;
+        let counted = match self.rounding {
+            Rounding::NearestEven | Rounding::NearestAway => steps.round_ties_even(),
+            Rounding::Down => steps.floor(),
+            Rounding::TowardZero => {
+                if after >= 0.0 {
+                    steps.floor()
+                } else {
+                    steps.ceil()
+                }
+            }
+        };
+        counted * step - term
+    }
+
+    /// The sum of the losses of a row: it starts from `start`, and takes up the terms.
+    fn row(&self, start: f64, terms: &[f64]) -> f64 {
+        let mut lost = 0.0;
+        let mut add = |sum: &mut f64, term: f64| {
+            lost += self.loss(*sum, term);
+            *sum += term;
+        };
+        let mut sum = start;
+        match self.packing {
+            Packing::Rgb => terms.iter().for_each(|&term| add(&mut sum, term)),
+            Packing::Luminance => {
+                for block in terms.chunks(4 * self.block.max(1)) {
+                    let mut lanes = [0.0; 4];
+                    block.iter().enumerate().for_each(|(j, &term)| add(&mut lanes[j % 4], term));
+                    let [mut four, y, z, w] = lanes;
+                    [y, z, w].into_iter().for_each(|lane| add(&mut four, lane));
+                    add(&mut sum, four);
+                }
+            }
+        }
+        lost
+    }
+}
+
+/// By how much each radiosity will be off, to first order, given the exact solution.
+///
+/// # Errors
+/// [`SolveError`].
+///
+/// # Panics
+/// If there is not one radiosity a patch.
+pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, SolveError> {
+    assert_eq!(exact.len(), system.factors().len(), "one radiosity a patch");
+    let mut off = vec![[0.0; 3]; exact.len()];
+    for c in 0..3 {
+        let matrix = system.matrix(c);
+        let row = |i: usize| {
+            // Equation 4 with the diagonal divided out: B + e, less A B.
+            let diagonal = matrix.row(i)[i];
+            let terms: Vec<f64> = matrix.row(i).iter().zip(exact).map(|(m, b)| -m * b[c] / diagonal).collect();
+            how.row(exact[i][c] + system.emittance()[i][c] / diagonal, &terms) * diagonal
+        };
+        let lost: Vec<f64> = (0..exact.len()).map(row).collect();
+        let problem = solve::Problem { matrix: &matrix, right: &lost, areas: system.factors().areas(), start: None };
+        let found = solve::solve(Solver::GaussSeidel, &problem, &Options { tolerance: 1e-6, most_iterations: 1000 })?;
+        off.iter_mut().zip(found.radiosity).for_each(|(off, x)| off[c] = x);
+    }
+    Ok(off)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HALF: Accumulator = Accumulator {
+        mantissa: 10,
+        least_exponent: -14,
+        rounding: Rounding::NearestEven,
+        packing: Packing::Rgb,
+        block: 254,
+    };
+
+    #[test]
+    fn a_term_counts_as_a_multiple_of_the_sums_step() {
+        // The step of 1 is 2^-10.
+        let step = 1.0 / 1024.0;
+        let truncated = Accumulator { rounding: Rounding::TowardZero, ..HALF };
+        for (term, nearest, below) in [(0.4, 0.0, 0.0), (0.6, 1.0, 0.0), (2.3, 2.0, 2.0), (2.7, 3.0, 2.0)] {
+            assert_eq!(HALF.loss(1.0, term * step), nearest * step - term * step);
+            assert_eq!(truncated.loss(1.0, term * step), below * step - term * step);
+        }
+    }
+
+    #[test]
+    fn truncation_loses_half_a_step_a_term_and_partial_sums_lose_less() {
+        let terms: Vec<f64> = (0..800).map(|j| (1.0 + f64::from(j % 97) / 97.0) / 1200.0).collect();
+        let truncated = Accumulator { rounding: Rounding::TowardZero, ..HALF };
+        let lost = truncated.row(1.0, &terms);
+        // The sum is between 1 and 2.
+        assert!((lost / (-800.0 / 2048.0) - 1.0).abs() < 0.2, "{lost}");
+        let four = Accumulator { packing: Packing::Luminance, ..truncated };
+        assert!(four.row(1.0, &terms).abs() < 0.2 * lost.abs());
+    }
+}

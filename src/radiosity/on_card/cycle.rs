@@ -1,0 +1,87 @@
+//! Cycles: an iteration in finitely many bits either reaches its tolerance or comes back to a state that it was in
+//! before.
+//!
+//! Every state that is looked at is remembered by a digest. Where a digest comes back, the iteration goes once around,
+//! and the states themselves are compared: no cycle is reported on the word of a digest.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hasher as _};
+
+use super::{CardError, CardSolver};
+
+/// Radiosities as the card has them: red, green, blue of each patch.
+type State = [[f32; 3]];
+
+/// States that come back for ever, bit for bit: the end of what the card's numbers can do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// Iterations after which the first state of the cycle was reached. With [`super::CardOptions::check_every`] above
+    /// 1, the first that was looked at.
+    pub entered: u32,
+    /// The fewest iterations after which every bit is as it was; 1 is a fixed point.
+    pub period: u32,
+    /// How many values, of three a patch, an iteration changes at most; 0 at a fixed point.
+    pub changing: usize,
+    /// The largest change of a value in one iteration, as a share of the larger of the two.
+    pub largest_change: f64,
+}
+
+impl Cycle {
+    /// Whether no iteration changes a bit.
+    #[must_use]
+    pub fn is_fixed_point(&self) -> bool {
+        self.period == 1
+    }
+}
+
+/// The digests of the states looked at, and after which iteration each came first.
+#[derive(Debug, Default)]
+pub(super) struct Seen(BTreeMap<u64, u32>);
+
+impl Seen {
+    /// Notes a state; the iteration after which one of the same digest was seen before, if one was.
+    pub(super) fn note(&mut self, state: &State, number: u32) -> Option<u32> {
+        let first = *self.0.entry(digest(state)).or_insert(number);
+        (first < number).then_some(first)
+    }
+}
+
+fn digest(state: &State) -> u64 {
+    // Its keys are fixed, so that the same states have the same digest in every run.
+    let mut hasher = DefaultHasher::new();
+    state.iter().flatten().for_each(|value| hasher.write_u32(value.to_bits()));
+    hasher.finish()
+}
+
+impl CardSolver {
+    /// Goes around from `start`, which is on the card, at most `most` iterations; `None` if `start` does not come back,
+    /// and the card has it again then.
+    pub(super) fn around(&mut self, start: &State, [entered, most]: [u32; 2]) -> Result<Option<Cycle>, CardError> {
+        let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
+        let mut last = start.to_vec();
+        while cycle.period < most {
+            self.iterate()?;
+            let next = self.read()?;
+            let changes = last.iter().flatten().zip(next.iter().flatten()).filter(|(a, b)| a.to_bits() != b.to_bits());
+            let (mut changing, mut largest) = (0, cycle.largest_change);
+            for (&a, &b) in changes {
+                let (a, b) = (f64::from(a), f64::from(b));
+                // From one zero to the other is a change of bits, but not of value.
+                let size = a.abs().max(b.abs()).max(f64::MIN_POSITIVE);
+                (changing, largest) = (changing + 1, largest.max((a - b).abs() / size));
+            }
+            (cycle.changing, cycle.largest_change) = (cycle.changing.max(changing), largest);
+            cycle.period += 1;
+            if same_bits(&next, start) {
+                return Ok(Some(cycle));
+            }
+            last = next;
+        }
+        self.load(start)?;
+        Ok(None)
+    }
+}
+
+fn same_bits(a: &State, b: &State) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.map(f32::to_bits) == b.map(f32::to_bits))
+}

@@ -1,0 +1,167 @@
+//! Which parts of a patch are open, and which are covered by a solid that stands on it.
+//!
+//! No light reaches the floor under a block, and nobody sees it. Averaged in, it would make the radiosity of a patch
+//! that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its light
+//! too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
+//!
+//! The rule, for each face's plane raised by [`lift`] towards its front, where visibility rays start:
+//!
+//! 1. Triangles of other faces that cross the raised plane leave line segments in it, which cut the patches into convex
+//!    cells.
+//! 2. A cell is covered if from several of its points the first surface in each of 25 directions is seen from behind:
+//!    it lies in a solid.
+//! 3. Everything else is open. What is in doubt (a sheet close above the patch, solids that overlap) counts as open.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::form_factor::clipped;
+use super::patch::Patch;
+use crate::geom::exact::{Sides, Tracer};
+use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub, unit};
+use crate::geom::{Mesh, Ray};
+
+/// See [`lift`].
+const LIFT: f64 = 1.0 / 65_536.0;
+/// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
+const FINEST: f64 = 4.0;
+/// Cells of a patch at most; beyond, the cells stay as they are.
+const MOST_CELLS: usize = 4096;
+/// Test points between a cell's centre and its corners lie this far out.
+const OUTWARDS: f64 = 0.75;
+/// Tangents of the tested directions, along two axes of the plane: the normal first.
+const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
+
+/// How far in front of a patch's plane rays start, for a scene of this diagonal: farther than f32 corners and a
+/// tracer's rounding can be off, nearer than anything that one would model.
+pub(super) fn lift(extent: f64) -> f64 {
+    LIFT * extent
+}
+
+/// A line segment in a raised plane.
+type Section = [Vec3; 2];
+
+/// The open parts of the patches that are not wholly open, by patch; none for a patch that is covered altogether.
+pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
+    let triangles: Vec<[Vec3; 3]> = mesh.iter_corners().map(|t| t.map(|c| c.map(f64::from))).collect();
+    let lift = lift(extent);
+    let mut faces: BTreeMap<u32, Vec<Section>> = BTreeMap::new();
+    for patch in list {
+        faces.entry(patch.face).or_insert_with(|| {
+            let others = triangles.iter().zip(face_of).filter(|&(_, &face)| face != patch.face);
+            others.filter_map(|(triangle, _)| section(patch, lift, triangle)).collect()
+        });
+    }
+    let tracer = Tracer::new(mesh);
+    let parts = |(i, patch): (usize, &Patch)| {
+        let mut cells = Vec::new();
+        cut(patch.corners().to_vec(), patch.normal(), &faces[&patch.face], FINEST * lift, &mut cells);
+        let all = cells.len();
+        cells.retain(|cell| !is_covered(cell, patch, lift, (mesh, &tracer)));
+        (cells.len() < all)
+            .then(|| (i as u32, cells.iter().flat_map(|cell| pieces(cell, patch)).collect::<Vec<Patch>>()))
+    };
+    list.par_iter().enumerate().filter_map(parts).collect()
+}
+
+/// A convex polygon in the patch's plane, counter-clockwise from its front.
+type Cell = Vec<Vec3>;
+
+/// Where a triangle crosses a patch's plane raised by `lift`.
+fn section(patch: &Patch, lift: f64, triangle: &[Vec3; 3]) -> Option<Section> {
+    let heights = triangle.map(|corner| patch.height(corner) - lift);
+    let crossing = |k: usize| {
+        let (from, to) = (k, (k + 1) % 3);
+        let (h, g) = (heights[from], heights[to]);
+        ((h > 0.0) != (g > 0.0)).then(|| add(triangle[from], scale(h / (h - g), sub(triangle[to], triangle[from]))))
+    };
+    let mut ends = (0..3).filter_map(crossing);
+    Some([ends.next()?, ends.next()?])
+}
+
+/// Cuts a cell along the lines of all sections that enter it by more than `finest`.
+fn cut(cell: Cell, normal: Vec3, sections: &[Section], finest: f64, into: &mut Vec<Cell>) {
+    for (k, &[a, b]) in sections.iter().enumerate() {
+        let Some(along) = unit(sub(b, a)) else { continue };
+        let aside = cross(normal, along);
+        let beside = |point: Vec3| dot(aside, sub(point, a));
+        let (low, high) = cell.iter().map(|&c| beside(c)).fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
+        if low < -finest && high > finest && inside(&cell, normal, [a, along], length(sub(b, a))) > finest {
+            if into.len() >= MOST_CELLS {
+                break;
+            }
+            let rest = &sections[k + 1..];
+            cut(clipped(&cell, beside), normal, rest, finest, into);
+            cut(clipped(&cell, |point| -beside(point)), normal, rest, finest, into);
+            return;
+        }
+    }
+    into.push(cell);
+}
+
+/// How much of a segment of this length lies inside a cell.
+fn inside(cell: &[Vec3], normal: Vec3, [start, along]: [Vec3; 2], length: f64) -> f64 {
+    let (mut from, mut to) = (0.0_f64, length);
+    for (i, &corner) in cell.iter().enumerate() {
+        let inwards = cross(normal, sub(cell[(i + 1) % cell.len()], corner));
+        let (height, slope) = (dot(inwards, sub(start, corner)), dot(inwards, along));
+        // Inside where height + t slope is not negative.
+        if slope > 0.0 {
+            from = from.max(-height / slope);
+        } else if slope < 0.0 {
+            to = to.min(-height / slope);
+        } else if height < 0.0 {
+            return 0.0;
+        }
+    }
+    to - from
+}
+
+/// Whether every test ray of a cell sees the back of a surface first. Most cells are open, as their first ray tells.
+fn is_covered(cell: &[Vec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
+    let normal = patch.normal();
+    let along = unit(sub(patch.centre(), patch.corners()[0])).unwrap_or(normal);
+    let aside = cross(normal, along);
+    test_points(cell).into_iter().all(|point| {
+        let start = add(point, scale(lift, normal)).map(|x| x as f32);
+        let mut tangents = TANGENTS.iter().flat_map(|&x| TANGENTS.map(|y| [x, y]));
+        tangents.all(|[x, y]| {
+            let direction = add(normal, add(scale(x, along), scale(y, aside)));
+            Ray::new(start, direction.map(|x| x as f32)).is_ok_and(|ray| sees_a_back(&ray, mesh, tracer))
+        })
+    })
+}
+
+fn sees_a_back(ray: &Ray, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
+    let hit = tracer.nearest(ray, Sides::Both).and_then(|hit| mesh.corners(hit.triangle));
+    hit.is_some_and(|corners| {
+        let [a, b, c] = corners.map(|corner| corner.map(f64::from));
+        dot(cross(sub(b, a), sub(c, a)), ray.direction().map(f64::from)) > 0.0
+    })
+}
+
+/// The mean of a cell's corners.
+fn middle(cell: &[Vec3]) -> Vec3 {
+    let sum = cell.iter().fold([0.0; 3], |sum, &corner| add(sum, corner));
+    scale(1.0 / cell.len() as f64, sum)
+}
+
+/// The middle of a cell, and a point towards each corner.
+fn test_points(cell: &[Vec3]) -> Vec<Vec3> {
+    let middle = middle(cell);
+    let towards = |&corner: &Vec3| add(middle, scale(OUTWARDS, sub(corner, middle)));
+    std::iter::once(middle).chain(cell.iter().map(towards)).collect()
+}
+
+/// A cell as patches of three or four corners.
+fn pieces(cell: &[Vec3], patch: &Patch) -> Vec<Patch> {
+    let rest = &cell[1..];
+    (0..rest.len().saturating_sub(1))
+        .step_by(2)
+        .filter_map(|k| {
+            let outline: Vec<Vec3> = std::iter::once(cell[0]).chain(rest[k..].iter().copied().take(3)).collect();
+            Patch::new(&outline, patch.face, patch.material)
+        })
+        .collect()
+}

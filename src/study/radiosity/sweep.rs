@@ -1,0 +1,125 @@
+//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how far a
+//! figure depends on the size of the system, and on what is a guess about the card.
+
+use refsim::device::Profile;
+
+use super::{CardWay, Difference, Parameters, Stopped, StudyError, Watch, Way, room};
+use crate::radiosity::bias::{Accumulator, predicted};
+use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
+use crate::radiosity::solve::{Options, Solver};
+use crate::radiosity::{Patches, Subdivision, System};
+use crate::study::configuration::Configuration;
+
+/// One number of patches, one way on the card, and all settings of its switches that found the same bits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepRow {
+    /// How many patches the room was cut into.
+    pub patches: usize,
+    /// The way's name.
+    pub way: String,
+    /// Whether the card as it was asked for is among the settings.
+    pub as_it_is: bool,
+    /// The switches, each turned alone, with which the same bits come out.
+    pub switches: Vec<(String, String)>,
+    /// How many iterations it took.
+    pub iterations: u32,
+    /// Why it stopped.
+    pub stopped: Stopped,
+    /// How far it is from the direct solution.
+    pub off: Difference,
+    /// What its mean, [`Difference::bias`], should be to first order; `None` for formats without exponents.
+    pub predicted: Option<f64>,
+}
+
+/// Rows by patches, way and settings.
+pub(super) fn run(parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Vec<SweepRow>, StudyError> {
+    let on_card = |way: &Way| if let Way::Card(how) = way { Some(*how) } else { None };
+    let ways: Vec<CardWay> = parameters.ways.iter().filter_map(on_card).collect();
+    let settings = Configuration::of(&parameters.profile).under_each_switch()?;
+    let (mut rows, mut done) = (Vec::new(), 0);
+    let all = (parameters.sweep.len() * ways.len() * settings.len()) as u64;
+    for &size in &parameters.sweep {
+        let patches = Patches::new(&parameters.scene, Subdivision::AtMost(size as usize))?;
+        for how in &ways {
+            let fit = Fit::of(&parameters.profile, how.packing)?;
+            fit.require(&parameters.profile, how.packing, patches.list().len())?;
+        }
+        let factors = room::find(&patches, parameters, watch)?.factors;
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        let truth = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
+        for &how in &ways {
+            let mut found: Vec<(Vec<[f32; 3]>, SweepRow)> = Vec::new();
+            for setting in &settings {
+                watch("sweep", done, all);
+                done += 1;
+                let (radiosity, row) = solved(how, setting, &system, &truth, parameters)?;
+                match found.iter_mut().find(|(other, _)| same_bits(other, &radiosity)) {
+                    Some((_, same)) => {
+                        same.as_it_is |= row.as_it_is;
+                        same.switches.extend(row.switches);
+                    }
+                    None => found.push((radiosity, row)),
+                }
+            }
+            rows.extend(found.into_iter().map(|(_, row)| row));
+        }
+    }
+    Ok(rows)
+}
+
+fn solved(
+    how: CardWay,
+    setting: &Configuration,
+    system: &System,
+    truth: &[[f64; 3]],
+    parameters: &Parameters,
+) -> Result<(Vec<[f32; 3]>, SweepRow), StudyError> {
+    let profile = &setting.profile;
+    let mut card = CardSolver::new(profile.clone(), parameters.executor.clone(), system, how.packing, how.storage)?;
+    let Options { tolerance, most_iterations } = parameters.options;
+    let options = CardOptions { tolerance, most_iterations, check_every: 1 };
+    let solution = card.solve(system, &options, &mut |_| ())?;
+    let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
+    let row = SweepRow {
+        patches: truth.len(),
+        way: Way::Card(how).label(profile),
+        as_it_is: setting.switch.is_none(),
+        switches: setting.switch.iter().cloned().collect(),
+        iterations: solution.iterations(),
+        stopped: Stopped::on_card(&solution),
+        off: Difference::between(&widened, truth, system.emittance()),
+        predicted: bias(how, profile, system, truth)?,
+    };
+    Ok((solution.radiosity, row))
+}
+
+/// The mean that rounding alone should leave.
+fn bias(how: CardWay, profile: &Profile, system: &System, truth: &[[f64; 3]]) -> Result<Option<f64>, StudyError> {
+    let rules = &profile.rules;
+    let format = if how.storage == Storage::Fp16 { rules.partial.unwrap_or(rules.format) } else { rules.format };
+    let block = Fit::of(profile, how.packing)?.block;
+    let Some(accumulator) = Accumulator::of(&format, how.packing, block) else { return Ok(None) };
+    let off = predicted(system, truth, accumulator)?;
+    let found: Vec<[f64; 3]> = truth.iter().zip(off).map(|(b, off)| [0, 1, 2].map(|c| b[c] + off[c])).collect();
+    Ok(Some(Difference::between(&found, truth, system.emittance()).bias))
+}
+
+fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
+    a.iter().flatten().map(|x| x.to_bits()).eq(b.iter().flatten().map(|x| x.to_bits()))
+}
+
+impl SweepRow {
+    /// The settings of the switches, in words.
+    pub fn settings(&self) -> String {
+        let count = self.switches.len();
+        let plural = if count == 1 { "" } else { "es" };
+        match (self.as_it_is, &self.switches[..]) {
+            (true, []) => "as it is".to_owned(),
+            (true, _) => format!("as it is; {count} switch{plural}: the same bits"),
+            (false, turned) => {
+                let names: Vec<String> = turned.iter().map(|(name, value)| format!("{name}={value}")).collect();
+                names.join(", ")
+            }
+        }
+    }
+}

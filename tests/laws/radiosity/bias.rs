@@ -1,0 +1,65 @@
+//! Half precision makes a room dark: how dark, by patches, packing and rounding, against what rounding to the sum's
+//! step predicts.
+
+use crossbar::radiosity::bias::{Accumulator, predicted};
+use crossbar::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
+use crossbar::radiosity::packing::Packing;
+use crossbar::radiosity::solve::Solver;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::cornell;
+
+/// How much too dark the closed Cornell box is in half floats: the mean over patches that do not shine, of what each
+/// should be; measured and predicted.
+fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
+    let system = cornell(patches);
+    let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
+    let mut nv35 = Profile::named("nv35").expect("a device");
+    nv35.set_switch("rounding", rounding).expect("a value of the switch");
+    let format = nv35.rules.partial.expect("half floats");
+    let block = Fit::of(&nv35, packing).expect("a fit").block;
+    let accumulator = Accumulator::of(&format, packing, block).expect("a float");
+    let expected = predicted(&system, &truth, accumulator).expect("a prediction");
+    let mut card = CardSolver::new(nv35, ExecutorKind::Batch, &system, packing, Storage::Fp16).expect("a card");
+    let options = CardOptions { tolerance: 0.0, most_iterations: 60, check_every: 1 };
+    let found = card.solve(&system, &options, &mut |_| ()).expect("a solution").radiosity;
+    let grey = |i: &usize| system.emittance()[*i] == [0.0; 3];
+    let mean = |off: &dyn Fn(usize, usize) -> f64| {
+        let all = (0..truth.len()).filter(grey).flat_map(|i| [0, 1, 2].map(|c| -off(i, c) / truth[i][c]));
+        all.clone().sum::<f64>() / all.count() as f64
+    };
+    [mean(&|i, c| f64::from(found[i][c]) - truth[i][c]), mean(&|i, c| expected[i][c])]
+}
+
+const SIZES: [usize; 3] = [60, 120, 240];
+
+/// First order in the loss: what is lost makes the sums smaller that lose, so that the prediction is too large by about
+/// as much again.
+fn is_predicted([found, predicted]: [f64; 2]) -> bool {
+    (found - predicted).abs() <= 0.1 * predicted + 1.5 * predicted * predicted
+}
+
+#[test]
+fn the_room_is_darker_the_more_patches_and_darkest_where_sums_are_truncated() {
+    let [nearest, truncated] =
+        ["rne", "rtz"].map(|rounding| SIZES.map(|patches| darkness(patches, Packing::Rgb, rounding)));
+    for all in [nearest, truncated] {
+        assert!(all.iter().all(|&one| one[0] > 0.0 && is_predicted(one)), "{all:?}");
+        assert!(all.windows(2).all(|two| two[1][0] > 1.1 * two[0][0]), "{all:?}");
+    }
+    for (patches, (nearest, truncated)) in SIZES.into_iter().zip(nearest.into_iter().zip(truncated)) {
+        assert!(truncated[0] > 4.0 * nearest[0], "{patches}: {nearest:?}, {truncated:?}");
+        // Half a step a term, a step being 2^-10 to 2^-11 of the sum, and light that goes round about twice.
+        let per_patch = truncated[0] / patches as f64;
+        assert!((1.0 / 4096.0..1.0 / 1024.0).contains(&per_patch), "{per_patch} a patch");
+    }
+}
+
+#[test]
+fn four_partial_sums_lose_less_than_one() {
+    for rounding in ["rne", "rtz"] {
+        let [one, four] = [Packing::Rgb, Packing::Luminance].map(|packing| darkness(120, packing, rounding)[0]);
+        assert!(four.abs() < 0.6 * one, "{rounding}: {four} against {one}");
+    }
+}

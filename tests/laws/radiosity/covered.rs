@@ -1,0 +1,168 @@
+//! Patches that something stands on: their form factors and radiosities are those of what is open of them.
+
+use std::f64::consts::PI;
+
+use crossbar::geom::random::Keyed;
+use crossbar::geom::vector::Vec3;
+use crossbar::radiosity::form_factor::VisibilityParameters;
+use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::solve::{Options, Solver};
+use crossbar::radiosity::{FormFactors, Patch, Patches, Subdivision, System};
+use crossbar::renderer::Settings;
+use crossbar::renderer::path::{self, Direct};
+use crossbar::scene::{Camera, Scene};
+
+use super::tracer;
+
+/// The feet of the two blocks, as `rooms::cornell` builds them.
+#[expect(clippy::approx_constant, reason = "a corner of a block")]
+const FEET: [[[f64; 2]; 4]; 2] =
+    [[[1.3, 0.65], [0.82, 2.25], [2.4, 2.72], [2.9, 1.14]], [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]]];
+const RAYS: VisibilityParameters = VisibilityParameters { side: 3, seed: 1, bundle: 1 << 18 };
+
+fn scene() -> Scene {
+    rooms::cornell(CornellBox { blocks: true, open: false })
+}
+
+fn factors(scene: &Scene, patches: &Patches) -> FormFactors {
+    FormFactors::with_visibility(patches, &mut tracer(scene), RAYS, &mut |_, _| ()).expect("factors")
+}
+
+fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
+    let system = System::new(factors.clone(), patches.reflectances(), patches.emittances()).expect("a system");
+    let options = Options { tolerance: 1e-9, most_iterations: 500 };
+    system.solve(Solver::GaussSeidel, &options, None).expect("a solution").radiosity()
+}
+
+/// Whether a point of the floor is under a block: on the same side of all sides of its foot.
+fn under_a_block([x, y, _]: Vec3) -> bool {
+    FEET.iter().any(|foot| {
+        (0..4).all(|i| {
+            let ([ax, ay], [bx, by]) = (foot[i], foot[(i + 1) % 4]);
+            (bx - ax) * (y - ay) - (by - ay) * (x - ax) <= 0.0
+        })
+    })
+}
+
+/// Points of a patch that no block stands on, and the share of all that they are.
+fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<Vec3>, f64) {
+    let random = Keyed::new(seed);
+    let (mut points, mut tried) = (Vec::new(), 0);
+    while (points.len() as u64) < count && tried < 1000 * count {
+        let point = patch.at(random.unit(tried, 0, 0), random.unit(tried, 0, 1)).at;
+        tried += 1;
+        if patch.normal()[2] < 0.5 || point[2] > 0.0 || !under_a_block(point) {
+            points.push(point);
+        }
+    }
+    let share = points.len() as f64 / tried as f64;
+    (points, share)
+}
+
+/// The radiosity around a point by paths: one pixel, looked at from just above.
+fn radiosity_by_paths(scene: &Scene, caster: &mut dyn crossbar::geom::Caster, at: [Vec3; 2], samples: u32) -> [f64; 3] {
+    let [point, normal] = at;
+    let eye = [0, 1, 2].map(|k| (point[k] + 0.02 * normal[k]) as f32);
+    let up = if normal[2].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let camera = Camera::new(eye, point.map(|x| x as f32), up, 1e-3, 1, 1).expect("a camera");
+    let settings = Settings { samples, depth: 40, seed: (point[0] * 1e6) as u64, ..Settings::default() };
+    let picture = path::render(scene, &camera, &settings, Direct::Both, caster, &mut |_| ()).expect("a pixel");
+    picture.color[0].map(|l| PI * l)
+}
+
+/// Mean and standard error.
+fn estimate(values: &[f64]) -> [f64; 2] {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
+    [mean, (square / n).sqrt()]
+}
+
+/// The open parts of the floor are the floor without the feet.
+#[test]
+fn open_areas_are_what_the_feet_leave() {
+    let scene = scene();
+    let feet: f64 = FEET.iter().map(|foot| shoelace(foot).abs()).sum();
+    // Cuts nearer than four lifts (2^-16 of the diagonal) to a border are not made, along each foot at most.
+    let perimeter: f64 = FEET.iter().flat_map(|foot| (0..4).map(|i| distance(foot[i], foot[(i + 1) % 4]))).sum();
+    let finest = 4.0 * (3.0_f64 * 5.5 * 5.5).sqrt() / 65_536.0;
+    for count in [20, 150, 700, 2000] {
+        let patches = Patches::new(&scene, Subdivision::AtMost(count)).expect("patches");
+        let floor = |i: &usize| patches.list()[*i].normal()[2] > 0.5 && patches.list()[*i].centre()[2] == 0.0;
+        let open: f64 = (0..patches.list().len()).filter(floor).map(|i| patches.open_area(i)).sum();
+        let left = 5.5 * 5.5 - feet;
+        assert!((open - left).abs() <= finest * perimeter, "{count} patches: {open}, expected {left}");
+        let touched = |i: &usize| patches.open_area(*i) < patches.list()[*i].area();
+        assert!((0..patches.list().len()).filter(touched).all(|i| floor(&i)), "nothing stands on a wall or a block");
+        assert!(patches.covered()[0] > 0 && (count < 700 || patches.covered()[1] > 0), "{:?}", patches.covered());
+    }
+    let empty = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(700)).expect("patches");
+    assert_eq!(empty.covered(), [0, 0]);
+}
+
+fn shoelace(foot: &[[f64; 2]; 4]) -> f64 {
+    let cross = |i: usize| foot[i][0] * foot[(i + 1) % 4][1] - foot[i][1] * foot[(i + 1) % 4][0];
+    (0..4).map(cross).sum::<f64>() / 2.0
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt()
+}
+
+#[test]
+fn enforcing_closure_hardly_changes_a_room_with_blocks() {
+    let scene = scene();
+    let patches = Patches::new(&scene, Subdivision::AtMost(500)).expect("patches");
+    let mut factors = factors(&scene, &patches);
+    let found = solved(&patches, &factors);
+    let blind = factors.blind();
+    factors.enforce_closure().expect("a closed room");
+    let closed = solved(&patches, &factors);
+    let (mut worst, mut light) = (0.0_f64, [0.0; 2]);
+    for i in (0..found.len()).filter(|i| !blind.contains(i)) {
+        worst = (0..3).map(|c| (closed[i][c] / found[i][c] - 1.0).abs()).fold(worst, f64::max);
+        light = [light[0] + factors.areas()[i] * found[i][0], light[1] + factors.areas()[i] * closed[i][0]];
+    }
+    // What closure takes away is the noise of nine rays a pair: 1.5 % of a patch at most here, and a fortieth of that
+    // of the room.
+    assert!(worst < 0.03, "a patch changes by {worst}");
+    assert!((light[1] / light[0] - 1.0).abs() < 1e-3, "the room changes by {}", light[1] / light[0] - 1.0);
+}
+
+#[test]
+fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
+    let scene = scene();
+    let patches = Patches::new(&scene, Subdivision::AtMost(500)).expect("patches");
+    let mut factors = factors(&scene, &patches);
+    let found = solved(&patches, &factors);
+    factors.enforce_closure().expect("a closed room");
+    let closed = solved(&patches, &factors);
+    let mut caster = tracer(&scene);
+    let (mut compared, mut bias) = (0, [const { Vec::new() }; 3]);
+    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.centre()[2] == 0.0) {
+        let (points, share) = open_points(patch, 24, 5);
+        if !(0.01..0.35).contains(&share) {
+            continue;
+        }
+        compared += 1;
+        let seen: Vec<[f64; 3]> =
+            points.iter().map(|&p| radiosity_by_paths(&scene, &mut caster, [p, patch.normal()], 64)).collect();
+        for c in 0..3 {
+            let [truth, sigma] = estimate(&seen.iter().map(|b| b[c]).collect::<Vec<_>>());
+            // Four standard errors of the paths and points. A patch of this size is one radiosity in uneven light: a
+            // tenth.
+            for (what, b) in [("found", found[i][c]), ("closed", closed[i][c])] {
+                let off = (b - truth).abs();
+                let message = format!("{what}: patch {i}, {share} open, channel {c}: {b} against {truth} +- {sigma}");
+                assert!(off <= 4.0 * sigma + 0.1 * truth, "{message}");
+                bias[c].push(b / truth - 1.0);
+            }
+        }
+    }
+    assert!(compared >= 5, "{compared}");
+    // Over all of them light is not uneven to one side.
+    for bias in bias {
+        let mean = bias.iter().sum::<f64>() / bias.len() as f64;
+        assert!(mean.abs() < 0.06, "{mean}: {bias:?}");
+    }
+}
