@@ -1,26 +1,36 @@
 //! `crossbar intersect`: first hits of your own rays on your own mesh.
 
+use std::io::Write as _;
 use std::path::PathBuf;
+use std::time::Instant;
 
+use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 use refsim::machine::Executor;
+use serde_json::json;
 
+use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
 use super::{Out, Problem, Verdict, view};
-use crate::geom::Ray;
 use crate::geom::classify::Candidate;
-use crate::geom::exact::{Sides, nearest_all};
+use crate::geom::exact::{Sides, Tracer};
+use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
 use crate::io::obj::load_obj;
 use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
+use crate::ray_engine::engine::EngineCounts;
 
 const EXAMPLES: &str = "\
 Examples:
   crossbar intersect --mesh teapot.obj --rays rays.csv --executor exact --out hits.csv
       decided in exact arithmetic on the f32 numbers of the files
   crossbar intersect --mesh teapot.obj --rays rays.csv --device r200 --out hits.csv
-      what a Radeon 8500 would have said
+      what a Radeon 8500 would have said, with every ray against the triangles near it
+  crossbar intersect --mesh bunny.obj --rays rays.csv --caster host --time --out hits.csv
+      found by the host's octree in single precision; says how long the octree took to build, and the rays to cast
+  crossbar intersect --mesh bunny.obj --rays rays.csv --caster engine --device r300 --time --out hits.csv
+      the same by the Ray Engine, host and emulated Radeon 9700 together
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
@@ -42,55 +52,123 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value = "front")]
     sides: view::SidesArg,
 
-    /// The card; `exact` arithmetic needs none [default: ideal-fp32]
+    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
-    /// Who decides [default: batch where a device is named, else exact]
+    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
     #[command(flatten)]
     gpu: GpuArgs,
 
+    /// Who finds first hits [default: exact arithmetic, or `--device` alone without an octree]
+    #[arg(long, value_enum, value_name = "C")]
+    caster: Option<CasterArg>,
+
+    /// Say on standard error how long casting took, how many rays a second that is, and how long building took. Files
+    /// are not counted
+    #[arg(long)]
+    time: bool,
+
     /// Where the hits go
     #[arg(long, value_name = "H.csv")]
     out: PathBuf,
+}
+
+/// Who answers.
+enum Way {
+    Exact,
+    Card(Box<Profile>, Executor),
+    Caster(CasterChoice),
+}
+
+/// What came of it, with the seconds that it took.
+struct Answer {
+    hits: Vec<Candidate>,
+    engine: Option<EngineCounts>,
+    build_s: f64,
+    cast_s: f64,
 }
 
 /// No hit.
 const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    // The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
-    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
+    let way = choose(args)?;
     let mesh = load_obj(&args.mesh)?;
     let rays = load_rays(&args.rays)?;
-    let sides = Sides::from(args.sides);
-    let hits: Vec<Candidate> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
-        None => {
-            let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
-            nearest_all(&mesh, &rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect()
-        }
-        Some(executor) => on_card(profile, executor, &mesh, &rays, sides)?,
-    };
-    write_file(&args.out, |out| write_hits(&hits, out)).map_err(Problem::from)?;
-    let found = hits.iter().filter(|h| h.triangle.is_some()).count();
-    if out.json() {
-        out.document(&serde_json::json!({ "rays": rays.len(), "hits": found, "out": args.out }))?;
-    } else {
-        out.line(format_args!("{found} of {} rays hit; written to {}", rays.len(), args.out.display()))?;
-    }
+    let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;
+    write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
+    tell(args, &answer, out)?;
     Ok(Verdict::Done)
 }
 
-fn on_card(
-    profile: Profile,
-    executor: Executor,
-    mesh: &crate::geom::Mesh,
-    rays: &[Ray],
-    sides: Sides,
-) -> miette::Result<Vec<Candidate>> {
-    let hits = Crossbar::new(profile, executor).intersect_list(mesh, rays, sides)?;
-    Ok(hits.into_iter().map(|h| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t })).collect())
+/// The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
+fn choose(args: &Args) -> miette::Result<Way> {
+    let device = args.device.as_deref();
+    if let Some(caster) = args.caster {
+        return caster.choose(device, args.executor, &args.gpu).map(Way::Caster);
+    }
+    let profile = Box::new(Profile::named(device.unwrap_or(view::DEFAULT_DEVICE))?);
+    let executor = Decider::choose(args.executor, device).open(&args.gpu)?;
+    Ok(executor.map_or(Way::Exact, |executor| Way::Card(profile, executor)))
+}
+
+impl Way {
+    fn answer(self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> miette::Result<Answer> {
+        let start = Instant::now();
+        let of_hit = |h: Option<Hit>| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t });
+        let (hits, engine, built): (Vec<Candidate>, _, _) = match self {
+            Self::Exact => {
+                let tracer = Tracer::new(mesh);
+                let built = Instant::now();
+                let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
+                let hits = tracer.nearest_all(rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect();
+                (hits, None, built)
+            }
+            Self::Card(profile, executor) => {
+                let crossbar = Crossbar::new(*profile, executor);
+                let built = Instant::now();
+                let hits = crossbar.intersect_list(mesh, rays, sides)?;
+                (hits.into_iter().map(of_hit).collect(), None, built)
+            }
+            Self::Caster(choice) => {
+                let mut caster = choice.build(mesh, sides)?;
+                let built = Instant::now();
+                let hits = caster.caster().cast(rays).into_diagnostic()?;
+                (hits.into_iter().map(of_hit).collect(), caster.counts(), built)
+            }
+        };
+        Ok(Answer { hits, engine, build_s: (built - start).as_secs_f64(), cast_s: built.elapsed().as_secs_f64() })
+    }
+}
+
+fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
+    let (rays, found) = (answer.hits.len(), answer.hits.iter().filter(|h| h.triangle.is_some()).count());
+    let rate = rays as f64 / answer.cast_s.max(1e-9);
+    if args.time {
+        let Answer { build_s, cast_s, .. } = answer;
+        let rate = rate / 1e6;
+        // Nothing is to be done if nobody reads this.
+        writeln!(std::io::stderr().lock(), "time: {cast_s:.4} s to cast, {rate:.3} M rays/s; {build_s:.4} s to build")
+            .ok();
+    }
+    if out.json() {
+        let mut document = json!({ "rays": rays, "hits": found, "out": args.out });
+        if let Some(engine) = &answer.engine {
+            document["engine"] = caster::document(engine);
+        }
+        if args.time {
+            document["time"] = json!({ "build_s": answer.build_s, "cast_s": answer.cast_s, "rays_per_s": rate });
+        }
+        out.document(&document)?;
+        return Ok(());
+    }
+    if let Some(engine) = &answer.engine {
+        out.line(format_args!("{}", caster::sentence(engine)))?;
+    }
+    out.line(format_args!("{found} of {rays} rays hit; written to {}", args.out.display()))?;
+    Ok(())
 }

@@ -5,6 +5,7 @@
 //! input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
+mod caster;
 mod check;
 mod compare;
 mod devices;

@@ -43,10 +43,17 @@ pub(super) struct Pass<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CardHit {
     pub(super) triangle: u32,
-    /// If the t-buffer was read back.
-    pub(super) t: Option<f32>,
+    /// In multiples of the ray's direction, not yet rounded to single precision, if the t-buffer was read back.
+    pub(super) t: Option<f64>,
     /// If the card computed it.
     pub(super) uvw: Option<[f32; 3]>,
+}
+
+impl CardHit {
+    /// Triangle and t, if the t-buffer was read back.
+    pub(super) fn hit(self) -> Option<Hit> {
+        Some(Hit { triangle: self.triangle, t: self.t? as f32 })
+    }
 }
 
 /// What to read back of a bucket, and how.
@@ -230,8 +237,7 @@ impl Card {
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
         let reading = Reading { rays, units: &self.units, triangles: &[], t: true, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
-        let hit = |hit: CardHit| Some(Hit { triangle: hit.triangle, t: hit.t? });
-        Ok(hits.into_iter().map(|found| found.and_then(hit)).collect())
+        Ok(hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect())
     }
 }
 
@@ -249,15 +255,15 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Triangles in their order, coloured as a target's code says.
-    pub(super) fn new(mesh: &Mesh, ids: &[u32], code: Code) -> Self {
+    /// Triangles in their order, coloured as a target's code says. The fourth component of a is the place in the pass,
+    /// that of b the edge scale, that of c nothing.
+    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: Code) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (place, id, corners) in ids.iter().enumerate().filter_map(|(i, id)| Some((i, *id, mesh.corners(*id)?))) {
-            // Programs that return places find them in w.
-            let w = (place + 1) as f32;
-            for (stream, [x, y, z]) in triangles.iter_mut().zip(corners) {
+            let fourth = [(place + 1) as f32, units.edge_scale(corners) as f32, 0.0];
+            for ((stream, [x, y, z]), w) in triangles.iter_mut().zip(corners).zip(fourth) {
                 stream.push([x, y, z, w].map(f32::to_bits));
             }
             triangles[3].push(code.color(place, id));

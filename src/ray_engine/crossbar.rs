@@ -14,6 +14,7 @@ use super::card::{Card, CardHit, Streams};
 use super::kept::KeptCard;
 use super::outputs::{Code, Outputs};
 use super::pass::{PassCard, PassWish};
+use super::range::Range;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::geom::exact::Sides;
@@ -167,8 +168,7 @@ impl Crossbar {
         let mut card = self.pass_card(mesh, sides, wish)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
-        let hit = |hit: CardHit| Some(Hit { triangle: hit.triangle, t: hit.t? });
-        let hits = hits.into_iter().map(|found| found.and_then(hit)).collect();
+        let hits = hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect();
         Ok(Answer { hits, events: drawn.events, kernel: card.kernel_name(), log: Vec::new() })
     }
 
@@ -196,10 +196,10 @@ impl Crossbar {
         if rays.rays().is_empty() || mesh.is_empty() {
             return Ok(KeptCard::idle(rays.clone(), name));
         }
-        let units = Units::choose(kernel.form, mesh, rays);
+        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(KeptCard::new(card, Streams::new(mesh, &ids, Code::Id), rays.clone(), name))
+        Ok(KeptCard::new(card, Streams::new(mesh, &units, &ids, Code::Id), rays.clone(), name))
     }
 
     /// The program for a use: chosen once.
@@ -227,7 +227,7 @@ impl Crossbar {
             let hits = vec![None; rays.rays().len()];
             return Ok(Answer { hits, events: DrawEvents::default(), kernel: kernel.name, log: Vec::new() });
         }
-        let units = Units::choose(kernel.form, mesh, rays);
+        let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let draw = |(region, triangles): (Region, Vec<u32>)| -> Result<_, EngineError> {
             let bucket = rays.part(region);
             let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
@@ -236,7 +236,7 @@ impl Crossbar {
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
             // New targets hold just that; a card that keeps them from bucket to bucket has to be told.
             card.clear()?;
-            let events = card.draw(&Streams::new(mesh, &triangles, Code::Id))?;
+            let events = card.draw(&Streams::new(mesh, &units, &triangles, Code::Id))?;
             Ok((region, card.read_back(&bucket)?, events, card.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);

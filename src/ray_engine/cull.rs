@@ -18,6 +18,7 @@ use refsim::num::{Format, Kind};
 
 use super::RayBatch;
 use super::rays::normalise_range;
+use super::reach::mixed;
 use super::units::Units;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
@@ -187,11 +188,6 @@ impl Bounds {
         debug_assert_eq!(all.len(), COUNT);
         all.map(|c| c.map(f32::to_bits)).to_vec()
     }
-}
-
-/// The components of a cross product of vectors with these magnitudes, at most.
-fn mixed(a: Vec3, d: Vec3) -> Vec3 {
-    [a[1] * d[2] + a[2] * d[1], a[2] * d[0] + a[0] * d[2], a[0] * d[1] + a[1] * d[0]]
 }
 
 /// The largest |ab| + |ac| at which nothing leaves the range of the format; negative if other things do.

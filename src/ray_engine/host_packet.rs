@@ -1,6 +1,6 @@
 //! Triangles eight at a time: the test of `host_test.rs` on lanes, for the vector units of the host.
 
-use super::host_test::{HostRay, HostTriangle};
+use super::host_test::{HostRay, HostTriangle, scaled_corners};
 use super::host_tracer::Best;
 use crate::geom::Mesh;
 
@@ -30,12 +30,12 @@ struct Packet {
 pub(crate) struct Packets(Vec<Packet>);
 
 impl Packets {
-    /// Adds a leaf's triangles, at least one; gives its number.
-    pub(crate) fn add(&mut self, mesh: &Mesh, leaf: &[u32]) -> u32 {
+    /// Adds a leaf's triangles, at least one, at a scale; gives its number.
+    pub(crate) fn add(&mut self, mesh: &Mesh, scale: f64, leaf: &[u32]) -> u32 {
         let first = self.0.len() as u32;
         let parts = leaf.chunks(LANES);
         let last = parts.len() - 1;
-        self.0.extend(parts.enumerate().map(|(i, ids)| Packet::new(mesh, ids, i < last)));
+        self.0.extend(parts.enumerate().map(|(i, ids)| Packet::new(mesh, scale, ids, i < last)));
         first
     }
 
@@ -55,8 +55,11 @@ impl Packets {
 }
 
 impl Packet {
-    fn new(mesh: &Mesh, ids: &[u32], more: bool) -> Self {
-        let lane = |i: usize| ids.get(i).and_then(|&id| mesh.corners(id)).unwrap_or_default();
+    fn new(mesh: &Mesh, scale: f64, ids: &[u32], more: bool) -> Self {
+        let lane = |i: usize| {
+            let corners = ids.get(i).and_then(|&id| mesh.corners(id)).unwrap_or_default();
+            scaled_corners(corners, scale)
+        };
         let of = |corner: usize| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[corner][axis]));
         Self {
             a: of(0),

@@ -1,8 +1,9 @@
 //! The host's own ray-triangle test: `float.psa` and `seven_vectors.vsa` in f32, operation by operation.
 //!
-//! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the result; so the
-//! host computes what a card with fp32 pipelines computes, bit for bit (tests draw both). Every `f32` operation here is one
-//! IEEE operation with its own rounding: Rust never fuses them.
+//! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the
+//! result; so the host computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the
+//! scene brought to the same scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation
+//! here is one IEEE operation with its own rounding: Rust never fuses them.
 
 use super::rays::normalise_range;
 use crate::geom::exact::Sides;
@@ -24,16 +25,16 @@ pub(crate) struct HostTriangle {
 /// A ray as the textures hold it: its direction brought into range by a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostRay {
-    origin: Vector,
-    direction: Vector,
-    /// What a t along `direction` is multiplied by for the ray's own direction; a power of two.
+    pub(super) origin: Vector,
+    pub(super) direction: Vector,
+    /// What a t in scaled units along `direction` is multiplied by for the ray's own direction; a power of two.
     pub(crate) power: f64,
 }
 
 impl HostTriangle {
-    /// All triangles of a mesh.
-    pub(crate) fn all(mesh: &Mesh) -> Vec<Self> {
-        mesh.iter_corners().map(Self::new).collect()
+    /// All triangles of a mesh, at a scale.
+    pub(crate) fn all(mesh: &Mesh, scale: f64) -> Vec<Self> {
+        mesh.iter_corners().map(|corners| Self::new(scaled_corners(corners, scale))).collect()
     }
 
     #[inline(always)]
@@ -71,10 +72,22 @@ impl HostTriangle {
 }
 
 impl HostRay {
-    pub(crate) fn new(ray: &Ray) -> Self {
+    /// A ray among triangles at a scale.
+    pub(crate) fn new(ray: &Ray, scale: f64) -> Self {
         let (direction, power) = normalise_range(ray.direction());
-        Self { origin: ray.origin(), direction: direction.map(|x| x as f32), power }
+        Self { origin: scaled(ray.origin(), scale), direction: direction.map(|x| x as f32), power: power / scale }
     }
+}
+
+/// A point times a power of two: exact unless it leaves the range of single precision.
+#[inline(always)]
+pub(super) fn scaled(p: Vector, scale: f64) -> Vector {
+    p.map(|x| (f64::from(x) * scale) as f32)
+}
+
+/// Three of them.
+pub(super) fn scaled_corners(corners: [Vector; 3], scale: f64) -> [Vector; 3] {
+    corners.map(|p| scaled(p, scale))
 }
 
 #[inline(always)]

@@ -6,6 +6,7 @@ use super::Hit;
 use super::host_packet::Packets;
 use super::host_test::{HostRay, HostTriangle};
 use super::octree::{Compact, Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit, Waiting};
+use super::units::host_scale;
 use crate::geom::exact::Sides;
 use crate::geom::{CastError, Caster, Mesh, Ray};
 use refsim::exec::batch::SimdLevel;
@@ -64,6 +65,8 @@ pub struct HostTracer {
     octree: Octree,
     triangles: Vec<HostTriangle>,
     sides: Sides,
+    /// What single-precision coordinates are multiplied by; a power of two.
+    scale: f64,
     /// The octree and its lists once more, laid out for rays that the host traces alone.
     compact: Compact,
     packets: Packets,
@@ -73,15 +76,26 @@ pub struct HostTracer {
 impl HostTracer {
     /// A mesh with its octree.
     pub fn new(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
-        let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh));
+        let scale = host_scale(mesh);
+        let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh, scale));
         let mut packets = Packets::default();
-        let compact = Compact::new(&octree, |leaf| packets.add(mesh, leaf));
-        Self { octree, triangles, sides, compact, packets, level: SimdLevel::widest() }
+        let compact = Compact::new(&octree, |leaf| packets.add(mesh, scale, leaf));
+        Self { octree, triangles, sides, scale, compact, packets, level: SimdLevel::widest() }
     }
 
     /// The octree.
     pub fn octree(&self) -> &Octree {
         &self.octree
+    }
+
+    /// What single-precision coordinates are multiplied by; a power of two.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// A ray as the test takes it.
+    pub(crate) fn host_ray(&self, ray: &Ray) -> HostRay {
+        HostRay::new(ray, self.scale)
     }
 
     /// The first hit of a ray, and what it cost.
@@ -144,7 +158,7 @@ impl HostTracer {
         t_max: f32,
         waiting: &mut Waiting,
     ) -> (Option<Hit>, HostCounts) {
-        let host = HostRay::new(ray);
+        let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
         let end = f64::from(t_max) * (1.0 + BEYOND);
         let traversal = self.compact.walk(
@@ -166,7 +180,7 @@ impl HostTracer {
     /// The first hit with the cells that `gpu` marks tested as the card tests them, every triangle of the cell. It goes the plain way,
     /// through [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
-        let host = HostRay::new(ray);
+        let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
         let traversal = self.octree.traverse(ray, gpu, |cell: &Visit<'_>| {
             if best.settles(cell.t[0], host.power) {
@@ -181,7 +195,7 @@ impl HostTracer {
 
     /// The first hit of a ray among all triangles, each one tested: what the octree must not change.
     pub fn nearest_of_all(&self, ray: &Ray) -> Option<Hit> {
-        let host = HostRay::new(ray);
+        let host = self.host_ray(ray);
         let mut best = Best::default();
         for (id, triangle) in (0..).zip(&self.triangles) {
             if let Some(t) = triangle.hit(&host, self.sides) {

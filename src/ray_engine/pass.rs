@@ -9,6 +9,7 @@ use refsim::machine::Machine;
 use super::card::{CardHit, Pass, Reading, Sheet, Streams};
 use super::cull;
 use super::outputs::{Code, Outputs};
+use super::range::Range;
 use super::units::Units;
 use super::{EngineError, Kernel, RayBatch};
 use crate::geom::Mesh;
@@ -80,7 +81,7 @@ impl PassCard {
         rays: &RayBatch,
     ) -> Result<Drawn, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
-        let units = Units::within(kernel.form, self.bounds, rays);
+        let units = Units::within(kernel.form, Range::of_pixels(&machine.profile().rules), self.bounds, rays);
         let bucket = match (kernel.takes_bucket(), kernel.culls) {
             (true, true) => cull::bucket(&machine.profile().rules, &units, mesh, triangles, rays, self.sides),
             (true, false) => cull::nothing(),
@@ -97,7 +98,7 @@ impl PassCard {
         };
         loaded.clear(machine)?;
         let pass = Pass { kernel, units: &units, bucket: &bucket };
-        let events = loaded.draw(machine, pass, &Streams::new(mesh, triangles, code))?;
+        let events = loaded.draw(machine, pass, &Streams::new(mesh, &units, triangles, code))?;
         Ok(Drawn { units, code, sheet, events })
     }
 

@@ -110,7 +110,7 @@ fn floor_log2(x: f64) -> i32 {
 }
 
 /// 2^`exponent`, for exponents in the range of normal f64.
-fn power_of_two(exponent: i32) -> f64 {
+pub(super) fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
 }
 

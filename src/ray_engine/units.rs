@@ -1,8 +1,12 @@
 //! The scene in the units of a card, by powers of two; and rays as textures.
 
+use refsim::num::Format;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
 
-use super::rays::{ceil_power_of_two, normalise_range, scale_into};
+use super::range::Range;
+use super::rays::{ceil_power_of_two, normalise_range, power_of_two, scale_into};
+use super::reach::{Reach, Span, inner, largest, most_of_partial_sums};
+use super::reference::{Vec3, cross, sub};
 use super::{Form, Kernel, RayBatch};
 use crate::geom::{Mesh, Ray};
 
@@ -10,45 +14,54 @@ use crate::geom::{Mesh, Ray};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Units {
     form: Form,
+    range: Range,
     /// Card units in a scene unit; a power of two.
     scale: f64,
     /// The t of depth 1, in card units and for directions brought into range; a power of two.
     t_max: f64,
+    /// The origins, in card units.
+    origins: Span,
+    /// The directions, brought into range.
+    directions: Span,
     /// The common origin, in card units.
     origin: [f32; 3],
 }
 
-/// The largest component that s3.12 is sure to hold.
-const REGISTER_RANGE: f64 = 7.999;
-/// Depth 1 means no hit, so that the largest t must stay below it, rounded as it may be.
-const ROOM: f64 = 1.0 + 1e-3;
 /// What `any_origin_*.psa` divides t by.
 const ANY_ORIGIN_T_MAX: f64 = 4.0;
 
 impl Units {
     /// The largest scale at which everything fits the registers, textures and depth range of a program.
-    pub(super) fn choose(form: Form, mesh: &Mesh, rays: &RayBatch) -> Self {
-        Self::within(form, mesh.bounds().unwrap_or_default(), rays)
+    pub(super) fn choose(form: Form, range: Range, mesh: &Mesh, rays: &RayBatch) -> Self {
+        Self::within(form, range, mesh.bounds().unwrap_or_default(), rays)
     }
 
     /// The same for a mesh of which these are the lowest and the highest coordinates.
-    pub(super) fn within(form: Form, bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
+    pub(super) fn within(form: Form, range: Range, bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let reach = Reach::of(bounds, rays);
+        // Registers hold o - a and its product with d.
+        let offsets =
+            || scale_into(reach.offset, range.of_vectors()).min(scale_into(reach.cross, range.of_cross_products()));
         let scale = match form {
-            // Registers hold o - a.
-            Form::OneOrigin => scale_into(reach.offset, REGISTER_RANGE),
-            // Textures hold o, registers a and o - a, depth t / 4.
-            Form::AnyOrigin => scale_into(reach.origin, 1.0)
-                .min(scale_into(reach.position.max(reach.offset), REGISTER_RANGE))
+            Form::OneOrigin => offsets(),
+            // Textures hold o, registers a, depth t / 4.
+            Form::AnyOrigin => scale_into(reach.origin, range.of_texels())
+                .min(scale_into(reach.position, range.of_vectors()))
+                .min(offsets())
                 .min(scale_into(reach.t, ANY_ORIGIN_T_MAX)),
-            Form::Float => 1.0,
+            Form::Float => {
+                let [corners, offsets] = range.of_float_scenes();
+                scale_into(reach.position, corners).min(scale_into(reach.offset.max(reach.origin), offsets))
+            }
         };
+        let scale = in_single_precision(scale);
         let t_max = match form {
             Form::AnyOrigin => ANY_ORIGIN_T_MAX,
             Form::OneOrigin | Form::Float => ceil_power_of_two(reach.t * scale),
         };
+        let origins = reach.origins.times(scale);
         let origin = rays.common_origin().unwrap_or_default().map(|x| (f64::from(x) * scale) as f32);
-        Self { form, scale, t_max, origin }
+        Self { form, range, scale, t_max, origins, directions: reach.directions, origin }
     }
 
     /// Card units in a scene unit; a power of two.
@@ -56,10 +69,43 @@ impl Units {
         self.scale
     }
 
-    /// `c0` is the program's own; `c1` scene scale, edge scale, 1 / t_max; `c2` the common origin.
+    /// The t of depth 1, in card units and for directions brought into range; a power of two.
+    pub(super) const fn t_max(&self) -> f64 {
+        self.t_max
+    }
+
+    /// What the vertex program multiplies the edges and the normal of a triangle by: a power of two that brings u, v,
+    /// w, n.d and n.ao, each multiplied by it, into the range of the format for every ray of the batch.
+    pub(super) fn edge_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
+        if !self.range.has_edge_scale() {
+            return 1.0;
+        }
+        let [a, b, c] = corners.map(|p| p.map(|x| f64::from(x) * self.scale));
+        let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+        let n = cross(ab, ac);
+        let (texel, error) = (self.range.texel_error(), self.range.cross_product_error());
+        let (ao, bo, d) = (self.origins.minus(a), self.origins.minus(b), self.directions);
+        let turned = |e: Vec3| most_of_partial_sums(e, |e| ao.triple(e, d)) + inner(e, [error; 3]);
+        let n_d = most_of_partial_sums(n, |n| d.dot(n)) + inner(n, [texel; 3]);
+        let n_ao = match self.form {
+            // The vertex program computes it, in single precision.
+            Form::OneOrigin => ao.dot(n) / self.t_max,
+            Form::AnyOrigin | Form::Float => {
+                most_of_partial_sums(n, |n| ao.dot(n)) + inner(n, [texel + 2.0 * self.range.step; 3])
+            }
+        };
+        // w is the difference of n.d and bc.aod, and has the errors of both.
+        let w = bo.triple(bc, d) + inner(bc, [error; 3]) + inner(n, [texel; 3]);
+        let sums = [n_d * self.range.of_divisors(), n_ao, turned(ac), turned(ab), turned(bc), w];
+        let components = [ab, ac, bc, n].map(largest);
+        let sum = sums.into_iter().chain(components).fold(0.0, f64::max);
+        self.range.edge_scale(sum, largest(n))
+    }
+
+    /// `c0` is the program's own; `c1` scene scale, unused, 1 / t_max; `c2` the common origin.
     pub(super) fn vertex_constants(&self) -> Vec<[u32; 4]> {
         let [x, y, z] = self.origin;
-        let c1 = [self.scale as f32, 1.0, (1.0 / self.t_max) as f32, 0.0];
+        let c1 = [self.scale as f32, 0.0, (1.0 / self.t_max) as f32, 0.0];
         [[0.0; 4], c1, [x, y, z, 0.0]].map(|c| c.map(f32::to_bits)).to_vec()
     }
 
@@ -71,49 +117,25 @@ impl Units {
         }
     }
 
-    /// t in multiples of the ray's own direction, from a depth.
-    pub(super) fn t(&self, depth: f32, ray: &Ray) -> f32 {
+    /// t in multiples of the ray's own direction, from a depth: exact.
+    pub(super) fn t(&self, depth: f32, ray: &Ray) -> f64 {
         let (_, power) = normalise_range(ray.direction());
-        (f64::from(depth) * self.t_max / self.scale * power) as f32
+        f64::from(depth) * self.t_max / self.scale * power
     }
 }
 
-/// The largest magnitudes of a scene.
-struct Reach {
-    /// Of a component of a corner.
-    position: f64,
-    /// Of a component of an origin.
-    origin: f64,
-    /// Of a component of origin minus corner.
-    offset: f64,
-    /// Of t, for directions brought into range.
-    t: f64,
+/// What corners are multiplied by for arithmetic in single precision, on the host as on a card: the scale of [`Units`]
+/// for such a card, unless rays start 2^100 times farther away than the mesh is large.
+pub(super) fn host_scale(mesh: &Mesh) -> f64 {
+    let [corners, _] = Range::of(&Format::FP32).of_float_scenes();
+    let bounds = mesh.bounds().unwrap_or_default().map(|p| p.map(f64::from));
+    in_single_precision(scale_into(largest(bounds[0]).max(largest(bounds[1])), corners))
 }
 
-impl Reach {
-    fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
-        let [low, high] = bounds.map(|p| p.map(f64::from));
-        let mut reach = Self { position: 0.0, origin: 0.0, offset: 0.0, t: 0.0 };
-        for axis in 0..3 {
-            reach.position = reach.position.max(low[axis].abs()).max(high[axis].abs());
-        }
-        for ray in rays.rays() {
-            let origin = ray.origin().map(f64::from);
-            let mut square = 0.0;
-            for axis in 0..3 {
-                reach.origin = reach.origin.max(origin[axis].abs());
-                let offset = (origin[axis] - low[axis]).abs().max((origin[axis] - high[axis]).abs());
-                reach.offset = reach.offset.max(offset);
-                square += offset * offset;
-            }
-            // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at
-            // t <= 2 r; along its own length, at t <= r / |d|.
-            let (d, _) = normalise_range(ray.direction());
-            let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-            reach.t = reach.t.max(square.sqrt() / length * ROOM);
-        }
-        reach
-    }
+/// The nearest scale that a vertex constant holds. Scenes below 2^-123, numbers with few bits left, get less than they
+/// need.
+fn in_single_precision(scale: f64) -> f64 {
+    scale.clamp(power_of_two(-149), power_of_two(127))
 }
 
 /// The textures of a program's head comment, with the samplers that they belong to.
@@ -135,7 +157,7 @@ pub(super) fn ray_textures(
     }
     let pairs = |pair: &dyn Fn(usize) -> [f64; 2]| {
         let texels = (0..directions.len()).map(pair);
-        pair_texture(kernel.signed_rays, extents(rays), texels)
+        pair_texture(kernel.signed_rays, units.range.of_texels(), extents(rays), texels)
     };
     let xy = pairs(&|i| [directions[i][0], directions[i][1]])?;
     if kernel.form == Form::OneOrigin {
@@ -163,9 +185,15 @@ fn float_texture(extents: [u32; 3], vectors: &[[f64; 3]]) -> Result<Image, Textu
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)
 }
 
-/// Two 16-bit channels, each component rounded to the nearest code.
-fn pair_texture(signed: bool, extents: [u32; 3], pairs: impl Iterator<Item = [f64; 2]>) -> Result<Image, TextureError> {
+/// Two 16-bit channels, each component rounded to the nearest code of those whose magnitude is at most `most`.
+fn pair_texture(
+    signed: bool,
+    most: f64,
+    extents: [u32; 3],
+    pairs: impl Iterator<Item = [f64; 2]>,
+) -> Result<Image, TextureError> {
     let code = |x: f64| {
+        let x = x.clamp(-most, most);
         if signed {
             ((x * 32_767.0).round() as i16).to_le_bytes()
         } else {

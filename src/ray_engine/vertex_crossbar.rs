@@ -11,10 +11,13 @@ use refsim::texture::TexelFormat;
 
 use super::card::bind;
 use super::crossbar::{Answer, EngineError, color_of_id, id_of_color};
+use super::host_test::{cross, scaled, scaled_corners, sub};
 use super::kernel::checked;
-use super::{RayBatch, kernels};
-use crate::geom::Hit;
-use crate::geom::Mesh;
+use super::range::Range;
+use super::rays::normalise_range;
+use super::units::Units;
+use super::{Form, RayBatch, kernels};
+use crate::geom::{Hit, Mesh, Ray};
 
 /// Corners of a triangle around a pixel's centre, in pixels.
 const AROUND: [[f32; 2]; 3] = [[0.0, 0.4], [0.4, -0.3], [-0.4, -0.3]];
@@ -52,16 +55,18 @@ impl VertexCrossbar {
         let (vertex, pixel) = (checked(&self.profile, kernels::VERTEX_TEST)?, checked(&self.profile, kernels::ID)?);
         let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
         let depth = machine.create_depth(DepthFormat::Unorm24, rays.width(), rays.height())?;
-        let (streams, t_max) = (Streams::new(mesh, rays), t_max(mesh, rays));
+        let units = Units::choose(Form::Float, Range::of(&self.profile.rules.vertex_format), mesh, rays);
+        let streams = Streams::new(mesh, rays, units.scale());
         let mut events = DrawEvents::default();
         for (i, ray) in rays.rays().iter().enumerate() {
             let at = |i: usize, count: u32| (2 * i + 1) as f32 / count as f32 - 1.0;
             let width = rays.width() as usize;
             let center = [at(i % width, rays.width()), -at(i / width, rays.height())];
-            let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin(), ray.direction());
+            let [ox, oy, oz] = scaled(ray.origin(), units.scale());
+            let [dx, dy, dz] = normalise_range(ray.direction()).0.map(|x| x as f32);
             let float = [
                 [0.0, 1.0, 4.0, -1.0],
-                [center[0], center[1], t_max.recip(), 1.0],
+                [center[0], center[1], (1.0 / units.t_max()) as f32, 1.0],
                 [ox, oy, oz, 0.0],
                 [dx, dy, dz, 0.0],
             ];
@@ -74,44 +79,27 @@ impl VertexCrossbar {
             call.depth_buffer = Some(depth);
             events += machine.draw(&call)?;
         }
-        let hits = read_back(machine, (ids, depth), rays.rays().len(), t_max)?;
+        let hits = read_back(machine, (ids, depth), rays, &units)?;
         Ok(Answer { hits, events, kernel: kernels::VERTEX_TEST.name, log: Vec::new() })
     }
-}
-
-/// A t that no hit exceeds: twice the scene's reach over the shortest direction, to a power of two.
-fn t_max(mesh: &Mesh, rays: &RayBatch) -> f32 {
-    let corners = mesh.bounds().unwrap_or_default();
-    let mut most = 1.0f32;
-    for ray in rays.rays() {
-        let offset = |axis: usize| corners.iter().map(|c| (c[axis] - ray.origin()[axis]).abs()).fold(0.0, f32::max);
-        let reach: f32 = (0..3).map(offset).sum();
-        let longest = ray.direction().iter().fold(0.0f32, |m, d| m.max(d.abs()));
-        most = most.max(reach / longest);
-    }
-    let mut power = 1.0;
-    while power < most && power < f32::MAX / 2.0 {
-        power *= 2.0;
-    }
-    power
 }
 
 fn read_back(
     machine: &Machine,
     (ids, depth): (TextureId, DepthId),
-    rays: usize,
-    t_max: f32,
+    rays: &RayBatch,
+    units: &Units,
 ) -> Result<Vec<Option<Hit>>, MachineError> {
     let (image, depth) = (machine.read_back(ids)?, machine.read_depth(depth)?);
     let width = depth.width() as usize;
-    let hit = |i: usize| {
+    let hit = |(i, ray): (usize, &Ray)| {
         let raw = image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32;
         (raw >> 24 != 0).then(|| {
-            let t = f32::from_bits(depth.format().to_format(depth.data()[i], Format::FP32)) * t_max;
-            Hit { triangle: id_of_color(raw), t }
+            let t = units.t(f32::from_bits(depth.format().to_format(depth.data()[i], Format::FP32)), ray);
+            Hit { triangle: id_of_color(raw), t: t as f32 }
         })
     };
-    Ok((0..rays).map(hit).collect())
+    Ok(rays.rays().iter().enumerate().map(hit).collect())
 }
 
 /// Vertex attributes: the pixel's triangle, and what the program needs of each triangle of the mesh.
@@ -121,15 +109,14 @@ struct Streams {
 }
 
 impl Streams {
-    fn new(mesh: &Mesh, rays: &RayBatch) -> Self {
+    fn new(mesh: &Mesh, rays: &RayBatch, scale: f64) -> Self {
         let pixel = [2.0 / rays.width() as f32, 2.0 / rays.height() as f32];
         let corners = AROUND.map(|[x, y]| [x * pixel[0], y * pixel[1], 0.0, 0.0].map(f32::to_bits));
         let mut triangles: [Vec<[u32; 4]>; 5] = Default::default();
         for (id, [a, b, c]) in (0..mesh.len() as u32).filter_map(|id| Some((id, mesh.corners(id)?))) {
-            let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-            let (ab, ac) = (minus(b, a), minus(c, a));
-            let normal = [ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]];
-            for (stream, [x, y, z]) in triangles.iter_mut().zip([a, normal, ab, ac]) {
+            let [a, b, c] = scaled_corners([a, b, c], scale);
+            let (ab, ac) = (sub(b, a), sub(c, a));
+            for (stream, [x, y, z]) in triangles.iter_mut().zip([a, cross(ab, ac), ab, ac]) {
                 stream.push([x, y, z, 1.0].map(f32::to_bits));
             }
             triangles[4].push(color_of_id(id));

@@ -35,6 +35,60 @@ fn fp32_and_both_executors_agree_with_exact_arithmetic_on_easy_rays() {
 }
 
 #[test]
+fn the_host_and_the_engine_cast_rays_of_a_file_too() {
+    let card = hits(&["--device", "ideal-fp32"]);
+    assert_eq!(hits(&["--caster", "host"]), card, "the host computes what a card with fp32 computes");
+    for executor in ["scalar", "batch"] {
+        assert_eq!(hits(&["--caster", "engine", "--executor", executor]), card, "{executor}");
+    }
+    let both = ["--sides", "both"];
+    assert_eq!(
+        hits(&[&both[..], &["--caster", "host"]].concat()),
+        hits(&[&both[..], &["--device", "ideal-fp32"]].concat())
+    );
+}
+
+#[test]
+fn casting_is_timed_apart_from_building() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
+    let all = ["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv", "--time"];
+    for more in [&[][..], &["--device", "r200"], &["--caster", "host"], &["--caster", "engine"]] {
+        let ran = crossbar_in(folder.path(), &[&all[..], more].concat(), "");
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        let [cast, build] = [" s to cast, ", " s to build"].map(|what| ran.stderr.contains(what));
+        assert!(cast && build && ran.stderr.starts_with("time: "), "{}", ran.stderr);
+        assert_eq!(ran.stdout.contains("engine: "), more.contains(&"engine"), "{}", ran.stdout);
+        let ran = crossbar_in(folder.path(), &[&all[..], more, &["--json"]].concat(), "");
+        let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        let seconds = |what: &str| report["time"][what].as_f64().expect("seconds");
+        assert!(seconds("cast_s") > 0.0 && seconds("build_s") >= 0.0 && seconds("rays_per_s") > 0.0, "{report}");
+        assert_eq!(report["engine"]["rays"].is_u64(), more.contains(&"engine"), "{report}");
+    }
+}
+
+#[test]
+fn casters_refuse_what_is_not_for_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
+    let cases: [(&str, &[&str]); 6] = [
+        ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
+        ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
+        ("adapter_of_the_host", &["--caster", "host", "--native"]),
+        ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
+        ("engine_without_programs", &["--caster", "engine", "--device", "nv25"]),
+        ("unknown_caster", &["--caster", "card"]),
+    ];
+    for (name, more) in cases {
+        let all = ["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
+        let ran = crossbar_in(folder.path(), &[&all[..], more].concat(), "");
+        assert_eq!(ran.code, Some(2), "{name}: {}", ran.transcript());
+        assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0, "{name} left something behind");
+        insta::assert_snapshot!(format!("intersect_{name}"), ran.stderr);
+    }
+}
+
+#[test]
 fn a_named_device_is_asked_without_an_executor() {
     let card = ["--device", "ideal-e2m1", "--sides", "both"];
     assert_eq!(hits(&card), hits(&[&card[..], &["--executor", "batch"]].concat()));

@@ -19,6 +19,7 @@ mod octree;
 mod oracle;
 mod outputs;
 mod radiosity;
+mod ranges;
 mod ray_tree;
 mod scene_files;
 mod timing;

@@ -5,20 +5,17 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
-use refsim::device::Profile;
 use refsim::num::{Format, Kind, Rounding};
 use serde_json::json;
 
 use super::scene::{Asked, camera};
 use super::{Args, Out, Problem, Verdict, view};
 use crate::cli::Progress;
-use crate::cli::executor::Decider;
+use crate::cli::caster::{self, CasterArg};
 use crate::geom::Caster;
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
-use crate::ray_engine::HostTracer;
-use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crate::ray_engine::octree::OctreeParameters;
+use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{Lens, Picture, Settings, Watch, distributed, eye, path, tone, whitted};
 use crate::report::picture::rgb8;
@@ -38,15 +35,6 @@ enum Renderer {
     Path,
     /// All light, by photon maps and final gather
     Photon,
-}
-
-/// Who finds first hits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum CasterArg {
-    /// The host's octree, in single precision
-    Host,
-    /// The Ray Engine on `--device`, by `--executor`
-    Engine,
 }
 
 #[derive(Debug, clap::Args)]
@@ -135,32 +123,13 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
-    if caster == CasterArg::Host && (args.device.is_some() || args.executor.is_some()) {
-        let help = "add `--caster engine`, or leave them out";
-        return Err(Problem::usage("`--device` and `--executor` are for the Ray Engine here", help).into());
-    }
+    let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
     let camera = camera(args, &asked.scene)?;
-    let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let sides = Sides::from(args.sides);
-    let mesh = asked.scene.mesh();
-    let (picture, engine) = match caster {
-        CasterArg::Host => {
-            let mut host = HostTracer::new(mesh, OctreeParameters::default(), sides);
-            (trace(renderer, args, &asked.scene, &camera, SINGLE, &mut host)?, None)
-        }
-        CasterArg::Engine => {
-            let decider = args.executor.unwrap_or(Decider::Batch);
-            let Some(executor) = decider.open(&args.gpu)? else {
-                let help = "name `--executor scalar`, `batch` or `wgpu`";
-                return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());
-            };
-            let rounding = unit_roundoff(profile.rules.format);
-            let parameters = EngineParameters { sides, ..EngineParameters::default() };
-            let mut engine = RayEngine::new(mesh, profile, executor, parameters)?;
-            (trace(renderer, args, &asked.scene, &camera, rounding, &mut engine)?, Some(engine.counts()))
-        }
-    };
+    let rounding = unit_roundoff(caster.format());
+    let mut caster = caster.build(asked.scene.mesh(), Sides::from(args.sides))?;
+    let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
+    let engine = caster.counts();
     view::write_folder(folder, &files(&picture, args.light.exposure)?)?;
     tell(args, &picture, engine.as_ref(), out)?;
     Ok(Verdict::Done)
@@ -268,10 +237,7 @@ fn tell(args: &Args, picture: &Picture, engine: Option<&EngineCounts>, out: &mut
     if out.json() {
         let kinds: serde_json::Map<_, _> =
             counts.kinds().into_iter().map(|(kind, n)| (kind.to_owned(), n.into())).collect();
-        let engine = engine.map(|engine| {
-            json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
-                    "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests })
-        });
+        let engine = engine.map(caster::document);
         let rays = json!({ "total": counts.rays(), "kinds": kinds, "bundles": counts.bundles });
         out.document(&json!({ "pixels": pixels, "hits": found, "not_finite": picture.not_finite, "rays": rays,
                               "engine": engine, "out": args.out }))?;
@@ -281,11 +247,7 @@ fn tell(args: &Args, picture: &Picture, engine: Option<&EngineCounts>, out: &mut
         counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{n} {kind}")).collect();
     out.line(format_args!("{} rays in {} bundles: {}", counts.rays(), counts.bundles, kinds.join(", ")))?;
     if let Some(engine) = engine {
-        let share = 100.0 * engine.share_on_card();
-        out.line(format_args!(
-            "engine: {share:.1} % of rays met the card, in {} passes with {} tests; {} tests on the host",
-            engine.passes, engine.pass_tests, engine.host_tests
-        ))?;
+        out.line(format_args!("{}", caster::sentence(engine)))?;
     }
     if picture.not_finite > 0 {
         out.line(format_args!("{} samples were not finite and count as black", picture.not_finite))?;

@@ -68,8 +68,8 @@ impl Flights {
         self.given += rays as u64;
     }
 
-    pub(super) fn start(&mut self, ticket: Ticket, ray: Ray) -> u32 {
-        let flight = Flight { ticket, ray, host: HostRay::new(&ray), best: Best::default(), on_card: false, uvw: None };
+    pub(super) fn start(&mut self, ticket: Ticket, ray: Ray, host: HostRay) -> u32 {
+        let flight = Flight { ticket, ray, host, best: Best::default(), on_card: false, uvw: None };
         if let Some(place) = self.free.pop() {
             self.places[place as usize] = flight;
             return place;

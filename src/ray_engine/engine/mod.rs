@@ -152,7 +152,7 @@ impl<'a> RayEngine<'a> {
     /// [`EngineError`] if the card refuses the work.
     pub fn trace_located(&mut self, rays: &[Ray]) -> Result<Vec<Option<LocatedHit>>, EngineError> {
         let answers = self.answers_of(rays)?;
-        let (mesh, sides, mut tests) = (self.mesh, self.parameters.sides, 0);
+        let (mesh, scale, sides, mut tests) = (self.mesh, self.tracer.scale(), self.parameters.sides, 0);
         let mut locate = |(ray, answer): (&Ray, Option<Answered>)| {
             let Answered { hit, uvw, .. } = answer?;
             let hit = hit?;
@@ -160,7 +160,7 @@ impl<'a> RayEngine<'a> {
                 Some(uvw) => uvw,
                 None => {
                     tests += 1;
-                    plane_point(mesh, hit.triangle, ray, sides)?.uvw
+                    plane_point(mesh, scale, hit.triangle, ray, sides)?.uvw
                 }
             };
             Some(LocatedHit { hit, weights: [w, u, v] })

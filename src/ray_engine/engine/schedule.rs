@@ -15,7 +15,7 @@ impl RayEngine<'_> {
     /// A ray enters the tree; buckets leave it when it is full.
     pub(super) fn take_in(&mut self, ticket: Ticket, ray: Ray) -> Result<(), EngineError> {
         let before = self.tree.counts().nodes_passed;
-        let flight = self.flights.start(ticket, ray);
+        let flight = self.flights.start(ticket, ray, self.tracer.host_ray(&ray));
         self.tree.insert(flight, &ray);
         self.note(Operation::RayTreeNode, self.tree.counts().nodes_passed - before);
         self.note(Operation::BucketInsert, 1);
@@ -151,17 +151,17 @@ impl RayEngine<'_> {
         let Some(pass) = self.passes.take() else { return false };
         self.log.extend(self.passes.take_log());
         self.note(Operation::ResultRead, pass.waiting.len() as u64);
-        let (mesh, sides, mut tests) = (self.mesh, self.parameters.sides, 0);
+        let (mesh, scale, sides, mut tests) = (self.mesh, self.tracer.scale(), self.parameters.sides, 0);
         for (ray, hit) in pass.waiting.iter().zip(pass.hits) {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
             let Some(CardHit { triangle, t, uvw }) = hit else { continue };
             // Without the t-buffer, the host finds t of the one triangle.
             tests += u64::from(t.is_none());
-            let found = || plane_point(mesh, triangle, &flight.ray, sides).map(|point| point.t);
+            let found = || plane_point(mesh, scale, triangle, &flight.ray, sides).map(|point| point.t);
             let Some(t) = t.or_else(found) else { continue };
             // Back into the ray's range, by a power of two.
-            flight.best.offer((f64::from(t) / flight.host.power) as f32, triangle);
+            flight.best.offer((t / flight.host.power) as f32, triangle);
             if let Some(uvw) = uvw.filter(|_| flight.best.hit(1.0).is_some_and(|best| best.triangle == triangle)) {
                 flight.uvw = Some((triangle, uvw));
             }

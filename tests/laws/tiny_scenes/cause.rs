@@ -38,11 +38,12 @@ macro_rules! equations {
         }
 
         impl $name {
-            pub(crate) fn new(ray: &Ray, corners: [[f32; 3]; 3]) -> Self {
+            pub(crate) fn new(ray: &Ray, corners: [[f32; 3]; 3], scale: f64) -> Self {
                 let largest = ray.direction().iter().fold(0.0f32, |m, x| m.max(x.abs()));
                 let d = ray.direction().map(|x| half_to_one(x, largest) as $real);
-                let o = ray.origin().map(|x| x as $real);
-                let [a, b, c] = corners.map(|p| p.map(|x| x as $real));
+                let scaled = |p: [f32; 3]| p.map(|x| (f64::from(x) * scale) as $real);
+                let o = scaled(ray.origin());
+                let [a, b, c] = corners.map(scaled);
                 let mut products = Vec::new();
                 let sub = |p: [$real; 3], q: [$real; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
                 let mut dot = |p: [$real; 3], q: [$real; 3]| {
@@ -79,6 +80,19 @@ macro_rules! equations {
 
 equations!(Single, f32);
 equations!(Double, f64);
+
+/// The power of two that brings the largest coordinate of a mesh into (2, 4]: the units of single-precision tests.
+pub(crate) fn scale(mesh: &Mesh) -> f64 {
+    let largest = mesh.iter_corners().flatten().flatten().fold(0.0f64, |m, x| m.max(f64::from(x).abs()));
+    let mut scale = 1.0;
+    while largest * scale > 4.0 {
+        scale /= 2.0;
+    }
+    while largest > 0.0 && largest * scale <= 2.0 {
+        scale *= 2.0;
+    }
+    scale
+}
 
 /// A component of a direction, scaled by the power of two that brings the largest into [1/2, 1).
 fn half_to_one(x: f32, largest: f32) -> f64 {
@@ -132,30 +146,33 @@ impl Double {
     }
 }
 
-/// The f32 test of one triangle, said once more: t along the ray's direction in range.
-pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides) -> bool {
-    let single = Single::new(ray, corners);
+/// The f32 test of one triangle at a scale, said once more: t along the ray's direction in range.
+pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides, scale: f64) -> bool {
+    let single = Single::new(ray, corners, scale);
     let t = single.t();
     single.faces(sides) && !single.outside() && (0.0..f32::INFINITY).contains(&t)
 }
 
 /// The cause of one disagreement of the f32 test among all pairs.
 pub(crate) fn of(mesh: &Mesh, ray: &Ray, sides: Sides, wrong: &Disagreement) -> Cause {
+    let scale = scale(mesh);
     let corners = |triangle| mesh.corners(triangle).expect("a triangle of the mesh");
+    let (single, double) =
+        (|triangle| Single::new(ray, corners(triangle), scale), |triangle| Double::new(ray, corners(triangle), scale));
     let limits = |triangle| {
-        let (single, double) = (Single::new(ray, corners(triangle)), Double::new(ray, corners(triangle)));
+        let (single, double) = (single(triangle), double(triangle));
         if single.overflows() { Some(Cause::Overflow) } else { single.underflows(&double).then_some(Cause::Underflow) }
     };
     let first = wrong.expected.as_ref().map(|truth| truth.triangles[0]);
     let found = wrong.found.map(|Hit { triangle, .. }| triangle);
-    let missed = first.filter(|&first| wrong.kind != Kind::TOff && !meets(ray, corners(first), sides));
+    let missed = first.filter(|&first| wrong.kind != Kind::TOff && !meets(ray, corners(first), sides, scale));
     if let Some(first) = missed {
-        return limits(first).unwrap_or_else(|| Single::new(ray, corners(first)).turned(sides));
+        return limits(first).unwrap_or_else(|| single(first).turned(sides));
     }
     let Some(found) = found else { return Cause::Depth };
     if let Some(limit) = limits(found) {
         return limit;
     }
     let truly = exact::intersect(ray, &corners(found), sides).is_some();
-    if truly { Cause::Depth } else { Double::new(ray, corners(found)).fails(sides) }
+    if truly { Cause::Depth } else { double(found).fails(sides) }
 }

@@ -78,10 +78,11 @@ impl Yardstick {
         differing
     }
 
-    /// The f32 test of one triangle.
+    /// The f32 test of one triangle, in a mesh as large as the scene: points have no area and are not hit.
     fn alone(&self, ray: &Ray, triangle: u32) -> Option<Hit> {
         let corners = self.scene.mesh.corners(triangle)?;
-        let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).ok()?;
+        let positions = corners.into_iter().chain(self.scene.mesh.bounds()?).collect();
+        let mesh = Mesh::new(positions, vec![[0, 1, 2], [3; 3], [4; 3]]).ok()?;
         HostTracer::new(&mesh, OCTREES[0], self.scene.sides).nearest_of_all(ray)
     }
 }
@@ -175,8 +176,9 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
                 *counts.entry((wrong.kind, cause)).or_default() += 1;
             }
             // The test's own equations are those of the tracer.
+            let scale = cause::scale(&scene.mesh);
             for (ray, hit) in scene.rays.iter().zip(&hits) {
-                let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides));
+                let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides, scale));
                 assert_eq!(any, hit.is_some(), "scene {number}, {ray:?}");
             }
             let oracle = Oracle::new(&scene.mesh, scene.sides, TOLERANCE);
@@ -185,6 +187,7 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
         })
         .collect();
     let page = include_str!("../../../docs/papers/ray_engine.md").replace('\r', "");
+    let mut missing = String::new();
     for moderate in [true, false] {
         let (mut rays, mut counts) = ([0; 2], Counts::new());
         for (_, size, found) in scenes.iter().filter(|scene| scene.0 == moderate) {
@@ -192,9 +195,9 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
             found.iter().for_each(|(&key, count)| *counts.entry(key).or_default() += count);
         }
         let table = table(rays, &counts);
-        assert!(
-            page.contains(&table),
-            "docs/papers/ray_engine.md has another table for moderate = {moderate}:\n{table}"
-        );
+        if !page.contains(&table) {
+            missing += &format!("moderate = {moderate}:\n{table}\n");
+        }
     }
+    assert!(missing.is_empty(), "docs/papers/ray_engine.md has other tables:\n{missing}");
 }

@@ -1,0 +1,117 @@
+//! `--caster`: who finds first hits where no card is asked ray by ray.
+
+use clap::ValueEnum;
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::num::Format;
+use serde_json::json;
+
+use super::executor::{Decider, DeviceExecutor, GpuArgs};
+use super::{Problem, view};
+use crate::geom::exact::Sides;
+use crate::geom::{Caster, Mesh};
+use crate::ray_engine::HostTracer;
+use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::ray_engine::octree::OctreeParameters;
+
+/// Who finds first hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum CasterArg {
+    /// The host's octree, in single precision
+    Host,
+    /// The Ray Engine on `--device`, by `--executor`
+    Engine,
+}
+
+/// A caster that was asked for, with options that fit it; nothing is built yet.
+pub(super) enum CasterChoice {
+    Host,
+    Engine { profile: Box<Profile>, executor: Executor },
+}
+
+/// A caster with its structures.
+pub(super) enum OpenCaster<'a> {
+    Host(Box<HostTracer>),
+    Engine(Box<RayEngine<'a>>),
+}
+
+impl CasterArg {
+    /// Holds the options for cards against the caster, and looks up device and executor.
+    pub(super) fn choose(
+        self,
+        device: Option<&str>,
+        executor: Option<Decider>,
+        gpu: &GpuArgs,
+    ) -> miette::Result<CasterChoice> {
+        if self == Self::Host {
+            if device.is_some() || executor.is_some() {
+                let help = "add `--caster engine`, or leave them out";
+                return Err(Problem::usage("`--device` and `--executor` are for the Ray Engine here", help).into());
+            }
+            // Batch refuses options for GPUs.
+            return DeviceExecutor::Batch.open(gpu).map(|_| CasterChoice::Host);
+        }
+        let profile = Box::new(Profile::named(device.unwrap_or(view::DEFAULT_DEVICE))?);
+        let Some(executor) = executor.unwrap_or(Decider::Batch).open(gpu)? else {
+            let help = "name `--executor scalar`, `batch` or `wgpu`";
+            return Err(Problem::usage("the Ray Engine does not run in exact arithmetic", help).into());
+        };
+        Ok(CasterChoice::Engine { profile, executor })
+    }
+}
+
+impl CasterChoice {
+    /// The number format that hits are computed in.
+    pub(super) fn format(&self) -> Format {
+        match self {
+            Self::Host => Format::FP32,
+            Self::Engine { profile, .. } => profile.rules.format,
+        }
+    }
+
+    /// Builds what the caster needs of a mesh: the octree, and for the engine its GPU cells and the card.
+    pub(super) fn build(self, mesh: &Mesh, sides: Sides) -> miette::Result<OpenCaster<'_>> {
+        Ok(match self {
+            Self::Host => OpenCaster::Host(Box::new(HostTracer::new(mesh, OctreeParameters::default(), sides))),
+            Self::Engine { profile, executor } => {
+                let parameters = EngineParameters { sides, ..EngineParameters::default() };
+                OpenCaster::Engine(Box::new(RayEngine::new(mesh, *profile, executor, parameters)?))
+            }
+        })
+    }
+}
+
+impl<'a> OpenCaster<'a> {
+    /// The caster, for rays.
+    pub(super) fn caster(&mut self) -> &mut (dyn Caster + 'a) {
+        match self {
+            Self::Host(host) => host.as_mut(),
+            Self::Engine(engine) => engine.as_mut(),
+        }
+    }
+
+    /// What the engine did, if it is one.
+    pub(super) fn counts(&self) -> Option<EngineCounts> {
+        match self {
+            Self::Host(_) => None,
+            Self::Engine(engine) => Some(engine.counts()),
+        }
+    }
+}
+
+/// What the engine did, in a sentence.
+pub(super) fn sentence(engine: &EngineCounts) -> String {
+    format!(
+        "engine: {:.1} % of rays met the card, in {} passes with {} tests; {} tests on the host",
+        100.0 * engine.share_on_card(),
+        engine.passes,
+        engine.pass_tests,
+        engine.host_tests
+    )
+}
+
+/// The same for machines.
+pub(super) fn document(engine: &EngineCounts) -> serde_json::Value {
+    json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
+            "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests })
+}

@@ -1,0 +1,145 @@
+//! What the pixel format of a card holds, and up to where the intersection programs may use it.
+//!
+//! The scene scale S and the edge scale k of a triangle are the two powers of two that keep every intermediate of
+//! every program inside the format. With card units A for offsets (origin minus corner), e for edges and D <= 1 for
+//! components of directions, the programs hold
+//!
+//! | intermediate | at most | kept in range by |
+//! |---|---|---|
+//! | o, a, ao, bo | A | S |
+//! | aod = ao x d, bod | 2 A D | S |
+//! | k ab, k ac, k bc | k e | k |
+//! | k n | 2 k e^2 | k |
+//! | k n.d, k n.ao and their partial sums | 3 \|k n\| D, 3 \|k n\| A | k |
+//! | k u, k v, k w and their partial sums | 3 k e (2 A D) | k |
+//!
+//! The bounds used are finer than this table: sums of magnitudes by component, over all rays of a batch, for each
+//! triangle by itself. They include the rounding errors of the card, so that nothing saturates, wraps or becomes
+//! infinite, in whatever order a card adds.
+
+use refsim::device::{Rules, TexdepthDenominator};
+use refsim::num::{Format, Kind};
+
+use super::rays::{ceil_power_of_two, power_of_two};
+
+/// A number format, as far as intersection programs ask.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    /// What magnitudes have to stay below. Fixed point: the end of the range, 2^I. Float: a power of two below the
+    /// largest number.
+    pub(super) end: f64,
+    /// The step of fixed point; 0 for floats, whose errors are shares.
+    pub(super) step: f64,
+    /// What n.d has to stay below.
+    divisor: f64,
+    kind: RangeKind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RangeKind {
+    /// Precision is absolute: nothing is gained by small numbers.
+    Fixed,
+    /// Fewer exponents than single precision: products of small edges leave the range downwards.
+    Narrow,
+    /// The exponents of single precision. The host's test, which is single precision, has no edge scale.
+    Wide,
+}
+
+impl Range {
+    /// The range of a pixel program: that of its format, and of the divisor of `texdepth`.
+    pub(super) fn of_pixels(rules: &Rules) -> Self {
+        let range = Self::of(&rules.format);
+        match rules.texdepth_denominator {
+            TexdepthDenominator::Min1 if rules.format.is_fixed() => Self { divisor: range.end.min(1.0), ..range },
+            _ => range,
+        }
+    }
+
+    /// The range of a format.
+    pub(super) fn of(format: &Format) -> Self {
+        let (end, step, kind) = match format.kind {
+            Kind::Fixed { int_bits, frac_bits } => {
+                (power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)), RangeKind::Fixed)
+            }
+            Kind::Float { exp_bits, .. } => {
+                // The largest number is nearly 2^(bias + 1).
+                let bias = (1 << (i32::from(exp_bits) - 1)) - 1;
+                match exp_bits {
+                    0..8 => (power_of_two(bias - 1), 0.0, RangeKind::Narrow),
+                    // Without an edge scale |n.ao| is up to 384 A and |u| up to 48 A, for corners in [-4, 4].
+                    _ => (power_of_two(bias - 10), 0.0, RangeKind::Wide),
+                }
+            }
+        };
+        Self { end, step, divisor: end, kind }
+    }
+
+    /// Up to where numbers may go that the card rounds once or twice: coordinates, offsets, edges, normals.
+    pub(super) fn of_vectors(&self) -> f64 {
+        self.room(4.0 * self.step)
+    }
+
+    /// Up to where ao x d may go, before rounding.
+    pub(super) fn of_cross_products(&self) -> f64 {
+        self.room(self.cross_product_error())
+    }
+
+    /// Up to where sums of three products with an edge or a normal may go, each factor with its error.
+    pub(super) fn of_sums(&self) -> f64 {
+        self.room(self.step * (3.0 * self.end + 24.0))
+    }
+
+    /// Up to where numbers in ray textures may go: 1, or a little less where registers end there.
+    pub(super) fn of_texels(&self) -> f64 {
+        (self.end - 2.0 * self.step).min(1.0)
+    }
+
+    /// Corners and offsets of a scene on a float card: where the squares of its lengths are in the middle of the
+    /// exponents.
+    pub(super) fn of_float_scenes(&self) -> [f64; 2] {
+        let offsets = self.end / 4.0;
+        [offsets.min(4.0), offsets]
+    }
+
+    /// The error of a component that comes from a ray texture: half a 16-bit code, the register's rounding, doubled by
+    /// `_bx2`.
+    pub(super) fn texel_error(&self) -> f64 {
+        if self.step == 0.0 { 0.0 } else { power_of_two(-15) + 2.0 * self.step }
+    }
+
+    /// The error of a component of ao x d: that of d times ao, twice, and of ao and the roundings.
+    pub(super) fn cross_product_error(&self) -> f64 {
+        2.0 * self.end * self.texel_error() + 8.0 * self.step
+    }
+
+    /// What a sum that becomes the divisor of `texdepth` counts for among the others.
+    pub(super) fn of_divisors(&self) -> f64 {
+        self.end / self.divisor
+    }
+
+    /// The edge scale of a triangle whose largest sum is `sum` at k = 1, and whose normal's largest component is
+    /// `normal`.
+    ///
+    /// Fixed point: 1, as in the paper, or less where that does not fit. Floats of few exponents: enough to bring the
+    /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two changes
+    /// nothing else.
+    pub(super) fn edge_scale(&self, sum: f64, normal: f64) -> f64 {
+        // A vertex constant is single precision.
+        let fits = (1.0 / ceil_power_of_two(sum / self.of_sums())).min(power_of_two(64));
+        match self.kind {
+            RangeKind::Wide => 1.0,
+            RangeKind::Fixed => fits.min(1.0),
+            RangeKind::Narrow => fits.min((1.0 / ceil_power_of_two(normal)).max(1.0)),
+        }
+    }
+
+    /// Whether magnitudes have to be looked at triangle by triangle.
+    pub(super) fn has_edge_scale(&self) -> bool {
+        self.kind != RangeKind::Wide
+    }
+
+    /// The end less what errors take; formats of very few bits keep half of it.
+    fn room(&self, errors: f64) -> f64 {
+        (self.end - errors).max(self.end / 2.0)
+    }
+}

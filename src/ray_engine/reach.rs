@@ -1,0 +1,153 @@
+//! How large the numbers of a batch can become: intervals over all its rays, in f64.
+
+use super::RayBatch;
+use super::rays::normalise_range;
+use super::reference::{Vec3, sub};
+
+/// Depth 1 means no hit, so that the largest t must stay below it, rounded as it may be.
+const ROOM: f64 = 1.0 + 1.0 / 32.0;
+
+/// Vectors between two corners of a box: the lowest and the highest components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span([Vec3; 2]);
+
+impl Span {
+    /// All times a positive number.
+    pub(super) fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|v| v.map(|x| x * factor)))
+    }
+
+    /// All minus a point.
+    pub(super) fn minus(self, p: Vec3) -> Self {
+        Self(self.0.map(|v| sub(v, p)))
+    }
+
+    fn include(&mut self, v: Vec3) {
+        for axis in 0..3 {
+            self.0[0][axis] = self.0[0][axis].min(v[axis]);
+            self.0[1][axis] = self.0[1][axis].max(v[axis]);
+        }
+    }
+
+    /// One component: from, to.
+    fn axis(&self, axis: usize) -> [f64; 2] {
+        [self.0[0][axis], self.0[1][axis]]
+    }
+
+    /// The largest magnitude of the inner product with a vector.
+    pub(super) fn dot(&self, v: Vec3) -> f64 {
+        let terms = [0, 1, 2].map(|axis| scaled(v[axis], self.axis(axis)));
+        magnitude(added(added(terms[0], terms[1]), terms[2]))
+    }
+
+    /// The largest magnitude of e . (v x d) = d . (e x v), for v of this box and d of another.
+    pub(super) fn triple(&self, e: Vec3, d: Self) -> f64 {
+        let term = |q: usize| {
+            let (j, k) = ((q + 1) % 3, (q + 2) % 3);
+            product(added(scaled(e[j], self.axis(k)), scaled(-e[k], self.axis(j))), d.axis(q))
+        };
+        magnitude(added(added(term(0), term(1)), term(2)))
+    }
+}
+
+/// An interval times a number.
+fn scaled(by: f64, [low, high]: [f64; 2]) -> [f64; 2] {
+    if by < 0.0 { [by * high, by * low] } else { [by * low, by * high] }
+}
+
+fn added(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    let (first, second) = (scaled(a[0], b), scaled(a[1], b));
+    [first[0].min(second[0]), first[1].max(second[1])]
+}
+
+fn magnitude([low, high]: [f64; 2]) -> f64 {
+    low.abs().max(high.abs())
+}
+
+/// The largest of an inner product with a vector and of the sums on the way to it: each term, the first two, all three.
+pub(super) fn most_of_partial_sums(v: Vec3, most: impl Fn(Vec3) -> f64) -> f64 {
+    let [x, y, z] = v;
+    let sums = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z], [x, y, 0.0], v];
+    sums.into_iter().map(most).fold(0.0, f64::max)
+}
+
+/// The components of a cross product of vectors with these magnitudes, at most.
+pub(super) fn mixed(a: Vec3, d: Vec3) -> Vec3 {
+    [a[1] * d[2] + a[2] * d[1], a[2] * d[0] + a[0] * d[2], a[0] * d[1] + a[1] * d[0]]
+}
+
+/// The largest magnitude of a component.
+pub(super) fn largest(v: Vec3) -> f64 {
+    v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+/// The sum of the magnitudes of an inner product's terms.
+pub(super) fn inner(v: Vec3, most: Vec3) -> f64 {
+    v[0].abs() * most[0] + v[1].abs() * most[1] + v[2].abs() * most[2]
+}
+
+/// The largest magnitudes of a scene.
+pub(super) struct Reach {
+    /// Of a component of a corner.
+    pub(super) position: f64,
+    /// Of a component of an origin.
+    pub(super) origin: f64,
+    /// Of a component of origin minus corner.
+    pub(super) offset: f64,
+    /// Of a component of that times the direction in range, and of the two products in it.
+    pub(super) cross: f64,
+    /// Of t, for directions brought into range, with room below depth 1.
+    pub(super) t: f64,
+    /// The origins.
+    pub(super) origins: Span,
+    /// The directions in range.
+    pub(super) directions: Span,
+}
+
+impl Reach {
+    /// Of rays and a mesh of which these are the lowest and the highest coordinates.
+    pub(super) fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
+        let [low, high] = bounds.map(|p| p.map(f64::from));
+        let mut all =
+            rays.rays().iter().map(|r| (r.origin().map(f64::from), normalise_range(r.direction()).0)).peekable();
+        let first = all.peek().copied().unwrap_or_default();
+        let mut reach = Self {
+            position: largest(low).max(largest(high)),
+            origin: 0.0,
+            offset: 0.0,
+            cross: 0.0,
+            t: 0.0,
+            origins: Span([first.0; 2]),
+            directions: Span([first.1; 2]),
+        };
+        for (origin, d) in all {
+            reach.origins.include(origin);
+            reach.directions.include(d);
+            let [p, q] = [sub(origin, low), sub(origin, high)];
+            let farthest = [0, 1, 2].map(|axis| p[axis].abs().max(q[axis].abs()));
+            let mut offsets = Span([p; 2]);
+            offsets.include(q);
+            let d_alone = Span([d; 2]);
+            let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let components = units.map(|unit| offsets.triple(unit, d_alone));
+            let products = [1, 2].map(|by| inner_most(farthest, [d[by % 3], d[(by + 1) % 3], d[(by + 2) % 3]]));
+            reach.origin = reach.origin.max(largest(origin));
+            reach.offset = reach.offset.max(largest(farthest));
+            reach.cross = reach.cross.max(largest(components)).max(products[0]).max(products[1]);
+            // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at
+            // t <= 2 r; along its own length, at t <= r / |d|.
+            let length = |v: Vec3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+            reach.t = reach.t.max(length(farthest) / length(d) * ROOM);
+        }
+        reach
+    }
+}
+
+/// The largest product of components of the same place.
+fn inner_most(a: Vec3, b: Vec3) -> f64 {
+    largest([0, 1, 2].map(|i| a[i] * b[i]))
+}

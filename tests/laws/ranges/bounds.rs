@@ -1,0 +1,326 @@
+//! How far a card's rounding can move u, v, w, n.d, n.ao and t: forward error analysis of the programs, operation by
+//! operation, for formats whose range is never left. Every operation is charged a whole step, so that every rounding
+//! is covered.
+//!
+//! What the host multiplies the scene and the edges by is not read from the program under test. Fixed-point errors are
+//! taken at the worst of the scales that the rule "as large as fits" leaves open: S within a factor of eight, k at
+//! least half of what coarse magnitudes allow.
+
+use crossbar::geom::exact::Sides;
+use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::RayBatch;
+use crossbar::ray_engine::reference::{Vec3, cross, dot, sub};
+use refsim::device::{Rules, TexdepthDenominator};
+use refsim::num::Kind;
+
+use super::power_of_two;
+
+/// Rounding errors of single precision in a few operations: the vertex programs.
+const SINGLE: f64 = 1.0 / (1 << 20) as f64;
+/// Below this share of the largest depth a hit is safe from the far end.
+const LAST_DEPTH: f64 = 0.02;
+
+/// What a ray hits first, if that is beyond doubt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum First {
+    Hit { triangle: u32, t: f64, error: f64 },
+    Miss,
+    Unclear,
+}
+
+/// One triangle under one ray.
+enum Judgement {
+    Hit {
+        t: f64,
+        error: f64,
+    },
+    Miss,
+    /// Perhaps a hit, but none before this t.
+    Unclear {
+        from: f64,
+    },
+}
+
+/// The bounds of a batch.
+pub(crate) struct Bounds {
+    format: Kind,
+    /// Whether n.d is a divisor up to 1 only.
+    min1: bool,
+    one_origin: bool,
+    /// The largest components of offsets, origins and corners.
+    offset: f64,
+    origin: f64,
+    corner: f64,
+    /// The largest t for directions in range.
+    t: f64,
+}
+
+/// Exact values for a ray whose direction is in range, but for the rounding of f64.
+struct Exact {
+    edges: [Vec3; 3],
+    offsets: [Vec3; 2],
+    d: Vec3,
+    n: Vec3,
+    /// u, v and w.
+    inside: [f64; 3],
+    n_d: f64,
+    n_ao: f64,
+}
+
+/// The errors of the same, and of t; and the smallest n.ao that still has its sign.
+#[derive(Clone, Copy)]
+struct Errors {
+    inside: [f64; 3],
+    n_d: f64,
+    n_ao: f64,
+    t: f64,
+    /// The error of the depth as a share of its range.
+    depth: f64,
+}
+
+fn largest(v: Vec3) -> f64 {
+    v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+fn sum(v: Vec3) -> f64 {
+    v[0].abs() + v[1].abs() + v[2].abs()
+}
+
+/// The sum of the magnitudes of an inner product's terms.
+fn inner(a: Vec3, b: Vec3) -> f64 {
+    (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs()
+}
+
+/// The magnitudes of a cross product's terms.
+fn mixed(a: Vec3, b: Vec3) -> Vec3 {
+    [[1, 2], [2, 0], [0, 1]].map(|[j, k]: [usize; 2]| (a[j] * b[k]).abs() + (a[k] * b[j]).abs())
+}
+
+/// The largest power of two not above a positive number.
+fn power_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+/// A direction in range, and the power that brought it there.
+fn in_range(ray: &Ray) -> (Vec3, f64) {
+    let d = ray.direction().map(f64::from);
+    let power = 0.5 / power_below(largest(d));
+    (d.map(|x| x * power), power)
+}
+
+impl Exact {
+    fn new(o: Vec3, d: Vec3, corners: [Vec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
+        let (ao, bo, n) = (sub(o, a), sub(o, b), cross(ab, ac));
+        let (aod, bod) = (cross(ao, d), cross(bo, d));
+        let inside = [dot(ac, aod), -dot(ab, aod), -dot(bc, bod)];
+        Self { edges: [ac, ab, bc], offsets: [ao, bo], d, n, inside, n_d: dot(n, d), n_ao: dot(n, ao) }
+    }
+}
+
+impl Bounds {
+    pub(crate) fn new(rules: &Rules, mesh: &Mesh, rays: &RayBatch) -> Self {
+        let bounds = mesh.bounds().expect("triangles").map(|p| p.map(f64::from));
+        let mut out = Self {
+            format: rules.format.kind,
+            min1: rules.texdepth_denominator == TexdepthDenominator::Min1,
+            one_origin: rays.common_origin().is_some(),
+            offset: 0.0,
+            origin: 0.0,
+            corner: largest(bounds[0]).max(largest(bounds[1])),
+            t: 0.0,
+        };
+        for ray in rays.rays() {
+            let o = ray.origin().map(f64::from);
+            let far = [0, 1, 2].map(|i| (o[i] - bounds[0][i]).abs().max((o[i] - bounds[1][i]).abs()));
+            let (d, _) = in_range(ray);
+            out.origin = out.origin.max(largest(o));
+            out.offset = out.offset.max(largest(far));
+            out.t = out.t.max((dot(far, far) / dot(d, d)).sqrt());
+        }
+        out
+    }
+
+    pub(crate) fn first(&self, mesh: &Mesh, ray: &Ray, sides: Sides) -> First {
+        let mut first = First::Miss;
+        let mut others = f64::INFINITY;
+        for (triangle, corners) in (0..).zip(mesh.iter_corners()) {
+            match self.judge(ray, corners, sides) {
+                Judgement::Unclear { from } => others = others.min(from),
+                Judgement::Miss => {}
+                Judgement::Hit { t, error } => {
+                    let nearer = match first {
+                        First::Hit { t: best, error: best_error, .. } => {
+                            let nearer = t < best;
+                            others = others.min(if nearer { best - best_error } else { t - error });
+                            nearer
+                        }
+                        _ => true,
+                    };
+                    if nearer {
+                        first = First::Hit { triangle, t, error };
+                    }
+                }
+            }
+        }
+        match first {
+            First::Hit { t, error, .. } if t + error >= others => First::Unclear,
+            First::Miss if others < f64::INFINITY => First::Unclear,
+            first => first,
+        }
+    }
+
+    fn judge(&self, ray: &Ray, corners: [[f32; 3]; 3], sides: Sides) -> Judgement {
+        let (d, power) = in_range(ray);
+        let (o, corners) = (ray.origin().map(f64::from), corners.map(|p| p.map(f64::from)));
+        let exact = Exact::new(o, d, corners);
+        let errors = match self.format {
+            Kind::Fixed { int_bits, frac_bits } => {
+                self.fixed(&exact, power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)))
+            }
+            Kind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
+        };
+        let passes = |sign: f64| {
+            // Some number has the wrong sign for sure, or all have the right one.
+            let margins = [
+                sign * exact.inside[0] / errors.inside[0],
+                sign * exact.inside[1] / errors.inside[1],
+                sign * exact.inside[2] / errors.inside[2],
+                -sign * exact.n_d / (4.0 * errors.n_d),
+                sign * exact.n_ao / errors.n_ao,
+            ];
+            if margins.iter().any(|&m| m < -1.0) {
+                Some(false)
+            } else if margins.iter().all(|&m| m > 1.0) && errors.depth < LAST_DEPTH {
+                Some(true)
+            } else {
+                None
+            }
+        };
+        let verdict = match (passes(1.0), sides) {
+            (Some(true), _) => Some(true),
+            (front, Sides::Front) => front,
+            (front, Sides::Both) => match (front, passes(-1.0)) {
+                (_, Some(true)) => Some(true),
+                (Some(false), Some(false)) => Some(false),
+                _ => None,
+            },
+        };
+        match verdict {
+            Some(true) => Judgement::Hit { t: -exact.n_ao / exact.n_d * power, error: errors.t * power },
+            Some(false) => Judgement::Miss,
+            // In the plane or nearly so, t may be anything.
+            None if exact.n_d.abs() > 4.0 * errors.n_d && errors.depth < LAST_DEPTH => {
+                Judgement::Unclear { from: (-exact.n_ao / exact.n_d - errors.t) * power }
+            }
+            None => Judgement::Unclear { from: f64::NEG_INFINITY },
+        }
+    }
+
+    /// At the worst of the scales that come into question.
+    fn fixed(&self, exact: &Exact, end: f64, step: f64) -> Errors {
+        let mut least = end / (4.0 * self.offset);
+        if !self.one_origin {
+            least = least.min(0.5 * end.min(1.0) / self.origin).min(0.5 * end / self.corner).min(2.0 / self.t);
+        }
+        let least = power_below(least);
+        let at = |i: i32| self.fixed_at(exact, end, step, least * power_of_two(i));
+        (1..4).map(at).fold(at(0), |a, b| Errors {
+            inside: [0, 1, 2].map(|i| a.inside[i].max(b.inside[i])),
+            n_d: a.n_d.max(b.n_d),
+            n_ao: a.n_ao.max(b.n_ao),
+            t: a.t.max(b.t),
+            depth: a.depth.max(b.depth),
+        })
+    }
+
+    /// With the scene at a scale: card units in a scene unit.
+    fn fixed_at(&self, exact: &Exact, end: f64, step: f64, scale: f64) -> Errors {
+        let offset = (self.offset * scale).min(end);
+        let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max) * scale;
+        let normal = largest(exact.n) * scale * scale;
+        let t_max = if self.one_origin { 2.2 * self.t * scale } else { 4.0 };
+        // Half a 16-bit code and the register's step, doubled by _bx2.
+        let texel = power_of_two(-15) + 2.0 * step;
+        let ao = if self.one_origin { step } else { texel + 2.0 * step } + SINGLE * offset;
+        let aod = 2.0 * offset * texel + 2.1 * ao + 4.0 * step;
+        let n_ao_sum = 3.0 * normal * offset / if self.one_origin { t_max / 2.2 } else { 1.0 };
+        let n_d_sum = 3.3 * normal * if self.min1 { end } else { 1.0 };
+        let sums = [6.0 * edge * (offset + aod) + normal * texel, n_d_sum, 1.1 * n_ao_sum, edge];
+        let k = power_below((0.5 * end / sums.into_iter().fold(0.0, f64::max)).min(1.0));
+        let stored = step + SINGLE * k * edge;
+        let stored_normal = step + SINGLE * k * edge * edge;
+        let along = |e: Vec3| k * scale * sum(e) * aod + 3.0 * stored * (2.0 * offset + aod) + 6.0 * step;
+        let n = k * scale * scale * sum(exact.n);
+        let n_d = n * texel + 3.1 * stored_normal + 6.0 * step;
+        let n_ao = if self.one_origin {
+            (3.0 * offset * SINGLE * k * (edge * edge + normal)) / (t_max / 2.2) + step
+        } else {
+            (n * ao + 3.0 * stored_normal * (offset + ao) + 6.0 * step) / 4.0 + step
+        };
+        let area = k * scale * scale;
+        let depth = (exact.n_ao / exact.n_d).abs() * scale / t_max;
+        let quotient =
+            (n_ao + depth * n_d) / ((exact.n_d * area).abs() - n_d).max(1e-300) + 2.0 * step + power_of_two(-23);
+        let n_ao_unit = area * scale / if self.one_origin { t_max / 2.2 } else { 4.0 };
+        Errors {
+            inside: [
+                along(exact.edges[0]) / area,
+                along(exact.edges[1]) / area,
+                (along(exact.edges[2]) + n_d + step) / area,
+            ],
+            n_d: n_d / area,
+            n_ao: n_ao / n_ao_unit,
+            t: quotient * t_max / scale,
+            depth: quotient,
+        }
+    }
+
+    fn float(&self, exact: &Exact, (o, [a, b, _]): (Vec3, [Vec3; 3]), exp_bits: u8, man_bits: u8) -> Errors {
+        let share = power_of_two(-i32::from(man_bits));
+        let bias = (1 << (exp_bits - 1)) - 1;
+        // Below the smallest normal number errors are no shares; half the smallest scale is on the safe side.
+        let (tiny, end) = (power_of_two(1 - bias), power_of_two(bias - 1));
+        let most = end / 4.0;
+        let scale = 0.5 * power_below((most.min(4.0) / self.corner).min(most / self.offset.max(self.origin)));
+        let normal = largest(exact.n);
+        let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max);
+        // What the card multiplies areas by: so much that the normal is near 1, unless the sums then grow too large.
+        let sums = (6.0 * edge * self.offset)
+            .max(3.3 * normal)
+            .max(3.0 * normal * self.offset * scale * 4.0)
+            .max(edge / scale);
+        let area = if exp_bits < 8 { (0.5 / normal).min(0.25 * end / sums) } else { scale * scale };
+        let lost = 16.0 * tiny / area;
+        let point =
+            |p: Vec3| [0, 1, 2].map(|i| share * (o[i].abs() + p[i].abs() + (o[i] - p[i]).abs()) + 4.0 * tiny / scale);
+        let along = |e: Vec3, p: Vec3, offset: Vec3| {
+            let (error, terms) = (point(p), mixed(offset, exact.d));
+            let moved = mixed(error, exact.d);
+            let errors = [0, 1, 2].map(|i| moved[i] + 6.0 * share * terms[i] + 4.0 * tiny / scale);
+            let all = [0, 1, 2].map(|i| terms[i] + errors[i]);
+            inner(e, errors) + 10.0 * share * inner(e, all) + lost
+        };
+        let [ao, bo] = exact.offsets;
+        let stored = exact.n.map(|x| share * x.abs() + SINGLE * edge * edge);
+        let n_d = inner(stored, exact.d) + 8.0 * share * inner(exact.n, exact.d) + lost;
+        let moved = point(a);
+        let offsets = [0, 1, 2].map(|i| ao[i].abs() + moved[i]);
+        let n_ao = inner(stored, offsets)
+            + inner(exact.n, moved)
+            + 8.0 * share * inner(exact.n, offsets)
+            + lost * (1.0 / scale + largest(offsets));
+        let t = (exact.n_ao / exact.n_d).abs();
+        let relative = n_ao / exact.n_ao.abs() + n_d / (exact.n_d.abs() - n_d).max(1e-300) + 12.0 * share;
+        let range = 2.2 * self.t;
+        let [edge_u, edge_v, edge_w] = exact.edges;
+        Errors {
+            inside: [along(edge_u, a, ao), along(edge_v, a, ao), along(edge_w, b, bo)],
+            n_d,
+            n_ao,
+            t: t * relative + range * (power_of_two(-22) + 4.0 * tiny),
+            depth: t * relative / range,
+        }
+    }
+}
