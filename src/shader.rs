@@ -2,7 +2,7 @@
 
 use std::{io, path::Path, sync::Arc};
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
 use refsim::{
     asm::{self, SyntaxError},
     check::{self, Checked, SlotCount, Violation, Warning},
@@ -12,6 +12,7 @@ use refsim::{
 use serde::Serialize;
 
 use crate::io::read_limited;
+use crate::report::{SourceText, quoted_line};
 
 /// The longest shader file that is read, in bytes: the assembler takes no more.
 const LONGEST: u64 = asm::MAX_TEXT as u64;
@@ -19,8 +20,7 @@ const LONGEST: u64 = asm::MAX_TEXT as u64;
 /// A shader's text and what to call it in messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShaderText {
-    name: String,
-    text: String,
+    source: Arc<SourceText>,
 }
 
 /// A line of a shader, to be quoted.
@@ -32,7 +32,7 @@ pub struct SourceLine {
     pub line: usize,
     /// The column of the piece that was asked for, from 1.
     pub column: usize,
-    /// The line without space around it.
+    /// The line without space around it; a long one is cut around the piece.
     pub text: String,
 }
 
@@ -74,7 +74,7 @@ pub enum ShaderError {
         name: String,
         /// Its text.
         #[source_code]
-        source_code: Arc<NamedSource<String>>,
+        source_code: Arc<SourceText>,
         /// Every error, in the order of the text; at least one.
         #[related]
         errors: Vec<SyntaxError>,
@@ -91,7 +91,7 @@ pub enum ShaderError {
         device: String,
         /// Its text.
         #[source_code]
-        source_code: Arc<NamedSource<String>>,
+        source_code: Arc<SourceText>,
         /// Every violation, in the order of the text; at least one.
         #[related]
         violations: Vec<Violation>,
@@ -109,7 +109,7 @@ pub struct ShaderWarning {
     message: String,
     help: &'static str,
     #[source_code]
-    source_code: Arc<NamedSource<String>>,
+    source_code: Arc<SourceText>,
     #[label("here")]
     span: SourceSpan,
 }
@@ -121,7 +121,7 @@ fn count(number: usize, noun: &str) -> String {
 impl ShaderText {
     /// A shader that was written somewhere else than in a file of its own.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
-        Self { name: name.into(), text: text.into() }
+        Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
     /// Reads a shader file.
@@ -144,7 +144,7 @@ impl ShaderText {
     /// If they are no text.
     pub fn from_bytes(name: String, bytes: Vec<u8>) -> Result<Self, ShaderError> {
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { name, text }),
+            Ok(text) => Ok(Self::new(name, text)),
             Err(error) => {
                 let offset = error.utf8_error().valid_up_to();
                 let byte = error.as_bytes().get(offset).copied().unwrap_or_default();
@@ -155,26 +155,26 @@ impl ShaderText {
 
     /// What the shader is called in messages.
     pub fn name(&self) -> &str {
-        &self.name
+        self.source.name()
     }
 
     /// The line on which a piece of the text starts.
     pub fn line(&self, span: Span) -> SourceLine {
-        let start = self.text.floor_char_boundary(span.start as usize);
-        let (before, after) = self.text.split_at(start);
-        let first = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let rest = after.find(['\n', '\r']).map_or(self.text.len(), |end| start + end);
+        let start = span.start as usize;
+        let line = self.source.line_of(start);
+        let range = self.source.line_range(line);
+        let text = self.source.text().get(range.clone()).unwrap_or_default();
         SourceLine {
-            file: self.name.clone(),
-            line: 1 + before.matches('\n').count(),
-            column: 1 + before[first..].chars().count(),
-            text: self.text[first..rest].trim().to_owned(),
+            file: self.name().to_owned(),
+            line: 1 + line,
+            column: 1 + self.source.column_of(start),
+            text: quoted_line(text.trim_end_matches(['\n', '\r']), start - range.start),
         }
     }
 
     /// The text with its name, as errors show it.
-    pub fn named_source(&self) -> Arc<NamedSource<String>> {
-        self.source_code()
+    pub fn named_source(&self) -> Arc<SourceText> {
+        self.source.clone()
     }
 
     /// Assembles the text.
@@ -182,9 +182,9 @@ impl ShaderText {
     /// # Errors
     /// Every syntax error at once.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
-        asm::assemble(&self.text).map_err(|found| ShaderError::Syntax {
-            name: self.name.clone(),
-            source_code: self.source_code(),
+        asm::assemble(self.source.text()).map_err(|found| ShaderError::Syntax {
+            name: self.name().to_owned(),
+            source_code: self.named_source(),
             errors: found.errors,
         })
     }
@@ -195,10 +195,10 @@ impl ShaderText {
     /// Every violation at once.
     pub fn check(&self, program: Program, profile: &Profile) -> Result<Checked<Program>, ShaderError> {
         check::check(program, profile).map_err(|report| ShaderError::Illegal {
-            name: self.name.clone(),
+            name: self.name().to_owned(),
             version: report.version,
             device: report.device,
-            source_code: self.source_code(),
+            source_code: self.named_source(),
             violations: report.violations,
             warnings: report.warnings,
         })
@@ -212,14 +212,10 @@ impl ShaderText {
                 code: warning.code,
                 message: warning.message.clone(),
                 help: warning.help,
-                source_code: self.source_code(),
+                source_code: self.named_source(),
                 span: (start, end.saturating_sub(start)).into(),
             }
         })
-    }
-
-    fn source_code(&self) -> Arc<NamedSource<String>> {
-        Arc::new(NamedSource::new(&self.name, self.text.clone()))
     }
 }
 

@@ -35,7 +35,7 @@ const CROSSBAR: Law = (
         ("io", &["geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
         ("report", &[]),
-        ("shader", &["io"]),
+        ("shader", &["io", "report"]),
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),

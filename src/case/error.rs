@@ -2,17 +2,17 @@
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
 
 use refsim::{device::DeviceError, machine::MachineError};
 
 use crate::{
-    report::ReportError,
+    report::{ReportError, SourceText},
     shader::{ShaderError, ShaderWarning},
 };
 
 /// The text of a case with its name, cheap to hand to every error.
-pub(super) type Source = Arc<NamedSource<Arc<str>>>;
+pub(super) type Source = Arc<SourceText>;
 
 /// Why a case cannot be run.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -77,7 +77,7 @@ pub enum CaseError {
         help: String,
         /// The program's text.
         #[source_code]
-        source_code: Arc<NamedSource<String>>,
+        source_code: Source,
         /// The instruction that was one too many.
         #[label("one step too many")]
         span: SourceSpan,
@@ -134,7 +134,7 @@ pub(super) struct Place {
 
 impl Place {
     pub(super) fn new(name: &str, text: &str) -> Self {
-        Self { source: Arc::new(NamedSource::new(name, Arc::from(text)).with_language("toml")) }
+        Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
     /// The error of the TOML reader: its message is ours to pass on, its span too.
@@ -169,7 +169,7 @@ impl Place {
 
     /// A span that the renderer can show: inside the text, whatever the reader said.
     fn clamp(&self, span: Range<usize>) -> SourceSpan {
-        let length = self.source.inner().len();
+        let length = self.source.text().len();
         let start = span.start.min(length);
         (start, span.end.clamp(start, length) - start).into()
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use refsim::check::{Violation, Warning};
 use serde_json::{Value, json};
 
-use super::{Out, Verdict, error};
+use super::{Out, Verdict};
 use crate::shader::{ShaderError, ShaderText, slots};
 
 const EXAMPLES: &str = "\
@@ -19,7 +19,7 @@ Exit codes: 0 the program is legal (warnings say what runs otherwise than it is 
 
 /// Assemble a shader and report every rule and device limit that it breaks
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The shader, a text file that starts with a version such as ps_1_4
     shader: PathBuf,
@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
                 profile.name
             ))?;
             for warning in text.warnings(&program) {
-                out.line(error::render_finding(warning))?;
+                out.finding(&warning)?;
             }
             Ok(Verdict::Done)
         }
@@ -77,7 +77,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
             Ok(Verdict::Failed)
         }
         Err(illegal @ ShaderError::Illegal { .. }) => {
-            out.line(error::render_finding(illegal))?;
+            out.finding(&illegal)?;
             Ok(Verdict::Failed)
         }
         Err(other) => Err(other.into()),

@@ -1,12 +1,18 @@
 //! How errors look on the terminal, in a log and to a machine.
 
+use std::ffi::OsString;
 use std::io::{self, IsTerminal as _, Write as _};
 
+use bytesize::ByteSize;
+use clap::Parser as _;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
+use super::shown::{MOST_SHOWN, Shown};
+use super::{BAD_INPUT, Cli, LimitSource};
 use crate::io::atomic::WriteError;
+use crate::report::visible::{visible, visible_json, visible_line};
 
 /// Columns of an error that goes to a file or pipe, so that its text does not depend on a terminal.
 const PLAIN_WIDTH: usize = 100;
@@ -24,6 +30,21 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
+    /// Work that needs more memory than there is.
+    #[error("{what} takes up to {need} of memory, but {limit} are {from}")]
+    #[diagnostic(code(crossbar::memory), help("{help}"))]
+    Memory {
+        /// The work.
+        what: String,
+        /// What it needs at most.
+        need: ByteSize,
+        /// What there is.
+        limit: ByteSize,
+        /// Who says so.
+        from: LimitSource,
+        /// How to ask for less.
+        help: String,
+    },
     /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
@@ -52,49 +73,69 @@ fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     }
 }
 
-/// Chooses how errors look on standard error.
-pub(super) fn install_renderer() {
-    let terminal = io::stderr().is_terminal();
-    // Fails only if a hook is there already.
-    miette::set_hook(Box::new(move |_| handler(terminal))).ok();
-}
-
-/// What a check found, as text for standard output.
-pub(super) fn render_finding(finding: impl Diagnostic) -> String {
-    struct Shown<D>(D, Box<dyn ReportHandler>);
-    impl<D: Diagnostic> std::fmt::Display for Shown<D> {
+/// A diagnostic as text for a terminal or a log: of each list of errors the first few, or all.
+fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
+    struct Rendered(Shown, Box<dyn ReportHandler>);
+    impl std::fmt::Display for Rendered {
         fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
             self.1.debug(&self.0, f)
         }
     }
-    Shown(finding, handler(io::stdout().is_terminal())).to_string().trim_end().to_owned()
+    let shown = Shown::new(diagnostic, if all { usize::MAX } else { MOST_SHOWN });
+    let more = shown.left_out();
+    let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
+    if more > 0 {
+        text.push_str(&format!("\n\n... and {more} more: `--all-errors` shows every one"));
+    }
+    text
 }
 
-/// Writes the error to standard error: there is nowhere to complain if that fails.
-pub(super) fn print(report: &Report, json: bool) {
-    let mut text = String::new();
-    if json {
+/// What a check found, as text for standard output.
+pub(super) fn render_finding(finding: &dyn Diagnostic, all: bool) -> String {
+    render(finding, io::stdout().is_terminal(), all)
+}
+
+/// Writes the error to standard error.
+pub(super) fn print(report: &Report, json: bool, all: bool) {
+    write_report("Error", report, json, all);
+}
+
+/// Writes a report to standard error: there is nowhere to complain if that fails.
+fn write_report(severity: &str, report: &Report, json: bool, all: bool) {
+    let text = if json {
+        let mut text = String::new();
         // Writing to a string cannot fail.
         JSONReportHandler::new().render_report(&mut text, report.as_ref()).ok();
+        visible_json(&text).into_owned()
     } else {
-        text = format!("Error: {report:?}");
-    }
+        format!("{severity}: {}", render(report.as_ref(), io::stderr().is_terminal(), all))
+    };
     writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
 }
 
 /// Writes warnings to standard error, each once.
 pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warnings: &[W], json: bool) {
     for warning in warnings {
-        let report = Report::new(warning.clone());
-        let mut text = String::new();
-        if json {
-            // Writing to a string cannot fail.
-            JSONReportHandler::new().render_report(&mut text, report.as_ref()).ok();
-        } else {
-            text = format!("Warning: {report:?}");
-        }
-        writeln!(io::stderr().lock(), "{}", text.trim_end()).ok();
+        write_report("Warning", &Report::new(warning.clone()), json, false);
     }
+}
+
+/// Writes what is wrong with the arguments, or the help that was asked for, and returns the exit code.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
+    // Help and `--version` come this way too, with code 0. A closed pipe is no reason to complain.
+    let code = u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT);
+    let safe: Vec<String> =
+        arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
+    if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
+        error.print().ok();
+        return code;
+    }
+    // The message quotes the arguments: it is made again, of arguments that are safe to show. Should these be fine, it is shown plain.
+    match Cli::try_parse_from(safe) {
+        Err(same) => same.print().ok(),
+        Ok(_) => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
+    };
+    code
 }
 
 /// Whether the error is only that nobody reads the output any more.

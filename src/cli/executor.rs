@@ -33,7 +33,7 @@ pub(super) struct GpuArgs {
 
 impl GpuArgs {
     /// Whether they say anything.
-    fn is_given(&self) -> bool {
+    pub(super) fn is_given(&self) -> bool {
         self.adapter.is_some() || self.native
     }
 

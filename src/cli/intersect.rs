@@ -1,7 +1,8 @@
 //! `crossbar intersect`: first hits of your own rays on your own mesh.
 
-use std::io::Write as _;
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
@@ -11,7 +12,7 @@ use serde_json::json;
 
 use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
-use super::{Out, Problem, Verdict, view};
+use super::{Out, Problem, Verdict, memory, view};
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
@@ -38,7 +39,7 @@ the ray's direction, written so that it reads back to the same f32.";
 
 /// First hits of the rays of a CSV file on the triangles of an OBJ file
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The mesh, a Wavefront OBJ file
     #[arg(long, value_name = "M.obj")]
@@ -97,7 +98,9 @@ const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
+    view::require_mesh(&args.mesh)?;
     let mesh = load_obj(&args.mesh)?;
+    require_rays(&args.rays)?;
     let rays = load_rays(&args.rays)?;
     let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;
     write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
@@ -124,9 +127,9 @@ impl Way {
             Self::Exact => {
                 let tracer = Tracer::new(mesh);
                 let built = Instant::now();
-                let candidate = |h: crate::geom::NearestHit| Candidate { triangle: Some(h.triangle), t: h.t.to_f32() };
-                let hits = tracer.nearest_all(rays, sides).into_iter().map(|h| h.map_or(NONE, candidate)).collect();
-                (hits, None, built)
+                let candidate = |(triangle, t)| Candidate { triangle: Some(triangle), t };
+                let hits = view::exact_hits(&tracer, rays, sides).into_iter();
+                (hits.map(|h| h.map_or(NONE, candidate)).collect(), None, built)
             }
             Self::Card(profile, executor) => {
                 let crossbar = Crossbar::new(*profile, executor);
@@ -171,4 +174,23 @@ fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
     }
     out.line(format_args!("{found} of {rays} rays hit; written to {}", args.out.display()))?;
     Ok(())
+}
+
+/// What the rays of a file and their hits take. A pipe cannot be asked how many it holds.
+fn require_rays(path: &Path) -> Result<(), Problem> {
+    const PER_RAY: u64 = 90;
+    let Ok(file) = File::open(path) else { return Ok(()) };
+    if !file.metadata().is_ok_and(|kind| kind.is_file()) {
+        return Ok(());
+    }
+    let mut lines = 0_u64;
+    let mut text = BufReader::with_capacity(1 << 16, file);
+    while let Ok(some) = text.fill_buf()
+        && !some.is_empty()
+    {
+        let length = some.len();
+        lines += some.iter().filter(|&&byte| byte == b'\n').count() as u64;
+        text.consume(length);
+    }
+    memory::require(format_args!("{lines} rays"), lines.saturating_mul(PER_RAY), "share the rays out to several files")
 }

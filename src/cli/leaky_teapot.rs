@@ -7,7 +7,7 @@ use refsim::num::Format;
 
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::size::Size;
-use super::{Out, Problem, Progress, Verdict, view};
+use super::{Out, Problem, Progress, Verdict, memory, view};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::io::atomic::FileSet;
@@ -32,10 +32,10 @@ edges.csv, study.json, and a row NAME: NAME.png (shaded), NAME-map.png (what is 
 
 /// Trace the teapot in each number format, against exact arithmetic
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// Pixels of the pictures
-    #[arg(long, value_name = "WxH", default_value = "512x512")]
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
     /// Quads along each side of each of the 32 Bezier patches
@@ -80,6 +80,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let configurations = configurations(args)?;
+    require_memory(args, configurations.len() as u64)?;
     let mesh = teapot(args.tessellation).into_diagnostic()?;
     let Size { width, height } = args.size;
     let camera = Camera::teapot(width, height).into_diagnostic()?;
@@ -119,6 +120,21 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     out.line("")?;
     out.line(format_args!("pictures and tables: {}", args.out.join("index.html").display()))?;
     Ok(Verdict::Done)
+}
+
+/// What the rays, the truth about them and the files of every row take.
+fn require_memory(args: &Args, rows: u64) -> Result<(), Problem> {
+    const PER_PIXEL: u64 = 350;
+    const PER_PIXEL_AND_ROW: u64 = 50;
+    const PER_TRIANGLE: u64 = 450;
+    const PER_AIMED_RAY: u64 = 350;
+    let triangles = 64 * u64::from(args.tessellation).pow(2);
+    // Two triangles share an edge, and as many rays as three edges have go to corners at most.
+    let aimed = (triangles * 3 / 2).saturating_mul(u64::from(args.rays_per_edge) + 1) * PER_AIMED_RAY;
+    let fixed = triangles * PER_TRIANGLE + aimed;
+    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL + rows * PER_PIXEL_AND_ROW, fixed);
+    let help = "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows";
+    memory::require(format_args!("a study of {} pixels in {rows} rows", args.size), need, help)
 }
 
 fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {

@@ -11,8 +11,11 @@ mod compare;
 mod devices;
 mod error;
 mod executor;
+mod interrupt;
 mod intersect;
 mod leaky_teapot;
+mod memory;
+mod number;
 mod out;
 mod pixel;
 mod progress;
@@ -22,6 +25,7 @@ mod reproduce;
 mod run;
 mod scene;
 mod scene_name;
+mod shown;
 mod size;
 mod switch;
 mod timeline;
@@ -30,9 +34,11 @@ mod words;
 
 use std::{io::Write as _, process::ExitCode};
 
+use bytesize::ByteSize;
 use clap::{Parser, Subcommand};
 
 pub use error::{OutputError, Problem};
+pub use memory::LimitSource;
 pub use out::Out;
 pub use progress::Progress;
 pub use size::{BadSize, Size};
@@ -75,6 +81,14 @@ struct Cli {
     #[arg(long, global = true, value_name = "N", display_order = 901,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+
+    /// Show every error of a text, not just the first 20
+    #[arg(long, global = true, display_order = 902)]
+    all_errors: bool,
+
+    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or `ulimit -v` leaves]
+    #[arg(long, global = true, value_name = "BYTES", display_order = 903)]
+    memory_limit: Option<ByteSize>,
 }
 
 const EXAMPLES: &str = "\
@@ -104,21 +118,22 @@ enum Command {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let arguments: Vec<_> = std::env::args_os().collect();
+    let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => {
-            // Help and `--version` come this way too, with code 0. A closed pipe is no reason to complain.
-            let code = u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT);
-            error.print().ok();
-            return ExitCode::from(code);
-        }
+        Err(error) => return ExitCode::from(error::print_usage(&error, &arguments)),
     };
-    error::install_renderer();
     if let Some(threads) = cli.threads {
         // Fails only if a pool is there already, and none is this early.
         rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
     }
-    let mut out = Out::new(cli.json);
+    memory::limit_to(cli.memory_limit);
+    if let Err(problem) = memory::require_to_start() {
+        error::print(&problem.into(), cli.json, false);
+        return ExitCode::from(BAD_INPUT);
+    }
+    interrupt::clean_up_on_signals();
+    let mut out = Out::new(cli.json, cli.all_errors);
     let result = obey(cli.command, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
         Ok(verdict)
@@ -130,7 +145,7 @@ pub fn main() -> ExitCode {
         Err(report) => {
             // What was found before the error comes first.
             out.flush().ok();
-            error::print(&report, cli.json);
+            error::print(&report, cli.json, cli.all_errors);
             ExitCode::from(BAD_INPUT)
         }
     }

@@ -2,24 +2,28 @@
 
 use std::io::{self, BufWriter, Stdout, Write};
 
+use miette::Diagnostic;
 use serde::Serialize;
 
-use super::OutputError;
+use super::{OutputError, error};
+use crate::report::visible::{visible, visible_json};
 
 /// Where a command writes what it found.
 #[derive(Debug)]
 pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
+    all_errors: bool,
     /// Nobody reads any more, but the command goes on, because its exit code still says something.
     deaf: bool,
     outlive_reader: bool,
 }
 
 impl Out {
-    /// Standard output; `json` is what `--json` said.
-    pub(super) fn new(json: bool) -> Self {
-        Self { stdout: BufWriter::with_capacity(1 << 16, io::stdout()), json, deaf: false, outlive_reader: false }
+    /// Standard output; `json` is what `--json` said, `all_errors` what `--all-errors`.
+    pub(super) fn new(json: bool, all_errors: bool) -> Self {
+        let stdout = BufWriter::with_capacity(1 << 16, io::stdout());
+        Self { stdout, json, all_errors, deaf: false, outlive_reader: false }
     }
 
     /// Whether machines read this.
@@ -37,11 +41,20 @@ impl Out {
         self.outlive_reader = true;
     }
 
-    /// Writes one line.
+    /// Writes text and ends its line; hidden characters in it are escaped, line ends stay.
     ///
     /// # Errors
     /// If standard output cannot be written.
     pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
+        Ok(writeln!(self, "{}", visible(&text.to_string()))?)
+    }
+
+    /// Writes what a check found, in the form of an error.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
+        let text = error::render_finding(finding, self.all_errors);
         Ok(writeln!(self, "{text}")?)
     }
 
@@ -50,8 +63,8 @@ impl Out {
     /// # Errors
     /// If standard output cannot be written.
     pub fn document(&mut self, value: &impl Serialize) -> Result<(), OutputError> {
-        serde_json::to_writer_pretty(&mut *self, value).map_err(io::Error::from)?;
-        Ok(writeln!(self)?)
+        let text = serde_json::to_string_pretty(value).map_err(io::Error::from)?;
+        Ok(writeln!(self, "{}", visible_json(&text))?)
     }
 
     fn forgive(&mut self, error: io::Error, done: usize) -> io::Result<usize> {

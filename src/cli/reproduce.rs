@@ -22,7 +22,7 @@ Ends with 1 if a figure is neither met nor its miss explained.";
 
 /// Reproduce printed tables and figures: the papers' values beside both timing models'
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// What to reproduce [default: everything]
     #[arg(value_name = "ID")]

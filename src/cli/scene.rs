@@ -21,7 +21,7 @@ Examples:
 
 /// List the scenes that the program builds itself, count what is in one, write its files
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The scene [default: list all]
     #[arg(value_name = "NAME")]

@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::IntoDiagnostic as _;
 
 use super::size::Size;
-use super::{Problem, view};
+use super::{Problem, number, view};
 use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::scene::{Camera, Scene, built};
@@ -37,19 +37,19 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(super) struct EyeArgs {
     /// Where the rays start [default: far enough to see all of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) eye: Option<[f32; 3]>,
 
     /// The middle of the picture [default: the middle of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = view::parse_point, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) target: Option<[f32; 3]>,
 
     /// The direction that points up in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = view::parse_point, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) up: [f32; 3],
 
     /// Tangent of half the vertical field of view, where no view of the scene says it
-    #[arg(long, value_name = "TAN", default_value_t = 0.375)]
+    #[arg(long, value_name = "TAN", default_value_t = 0.375, value_parser = number::single)]
     pub(super) tan_half_height: f32,
 }
 

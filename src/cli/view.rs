@@ -6,10 +6,10 @@ use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
-use super::Problem;
 use super::size::Size;
-use crate::geom::Mesh;
-use crate::geom::exact::Sides;
+use super::{Problem, memory};
+use crate::geom::exact::{Sides, Tracer};
+use crate::geom::{Mesh, Ray};
 use crate::io::atomic::FileSet;
 use crate::scene::Camera;
 
@@ -42,16 +42,6 @@ impl std::fmt::Display for SidesArg {
 
 /// The card where none is named.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
-
-/// `1,2.5,-3` as a point.
-pub(super) fn parse_point(text: &str) -> Result<[f32; 3], String> {
-    let wrong = || format!("expected three numbers X,Y,Z; found `{text}`");
-    let parts: Vec<f32> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f32>().ok().filter(|x| x.is_finite()).ok_or_else(wrong))
-        .collect::<Result<_, _>>()?;
-    parts.try_into().map_err(|_| wrong())
-}
 
 /// For `map_err` on parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
@@ -86,7 +76,33 @@ pub(super) fn framing(
     Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic()
 }
 
-/// Writes all files of a result, or none.
+/// First hits by exact arithmetic, triangle and t; the exact numbers behind them are dropped some rays at a time.
+pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec<Option<(u32, f32)>> {
+    /// Rays whose exact numbers are in memory at once.
+    const AT_ONCE: usize = 1 << 16;
+    let mut hits = Vec::with_capacity(rays.len());
+    for some in rays.chunks(AT_ONCE) {
+        hits.extend(
+            tracer.nearest_all(some, sides).into_iter().map(|hit| Some((hit.as_ref()?.triangle, hit?.t.to_f32()))),
+        );
+    }
+    hits
+}
+
+/// Refuses a mesh, a Wavefront OBJ file, whose text would take more memory than there is.
+pub(super) fn require_mesh(path: &Path) -> Result<(), Problem> {
+    /// Bytes that reading and holding a mesh takes at most, per byte of its text.
+    const PER_BYTE: u64 = 12;
+    // What is no file takes what it takes: it cannot be asked for its size.
+    let length = std::fs::metadata(path).map_or(0, |file| file.len());
+    memory::require(
+        format_args!("reading `{}`", path.display()),
+        length.saturating_mul(PER_BYTE),
+        "name a smaller mesh",
+    )
+}
+
+/// Writes all files of a result together.
 pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
     for (name, bytes) in files {
         set.write(Path::new(name), |out| out.write_all(bytes)).map_err(Problem::from)?;

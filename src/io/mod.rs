@@ -1,12 +1,14 @@
 //! Files in and out: models, scenes, rays and hits, and the writing that never leaves half a file.
 
 pub mod atomic;
+mod number;
 pub mod obj;
 pub mod rays;
 pub mod scene_file;
 pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
+pub use number::{NumberError, parse_f32, to_f32};
 pub use obj::{ObjError, load_obj, parse_obj, write_obj};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{quoted, read_limited};
+use super::{NumberError, parse_f32, quoted, read_limited};
 use crate::geom::{Mesh, MeshError};
 
 /// Longest file that is read, in bytes (256 MiB).
@@ -66,21 +66,26 @@ pub enum ObjError {
         path: PathBuf,
     },
     /// tobj refuses what our pass has accepted.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Loader {
         /// The file.
         path: PathBuf,
         /// What tobj says.
-        source: tobj::LoadError,
+        reason: tobj::LoadError,
     },
     /// The parts do not make a mesh.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Mesh {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        source: MeshError,
+        reason: MeshError,
     },
+}
+
+/// A number of single precision in a line of a file.
+pub(super) fn single(word: &[u8]) -> Result<f32, NumberError> {
+    std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f32)
 }
 
 /// Reads a mesh from a file.
@@ -113,12 +118,12 @@ fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
     let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)
-        .map_err(|source| ObjError::Loader { path: name.into(), source })?;
+        .map_err(|reason| ObjError::Loader { path: name.into(), reason })?;
     // Without group lines there is one model.
     let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
     let positions = mesh.positions.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
     let triangles = mesh.indices.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
-    Mesh::new(positions, triangles).map_err(|source| ObjError::Mesh { path: name.into(), source })
+    Mesh::new(positions, triangles).map_err(|reason| ObjError::Mesh { path: name.into(), reason })
 }
 
 /// Writes a mesh so that it reads back with the same bits in every corner.
@@ -196,19 +201,19 @@ impl<'a> Pass<'a> {
         }
         self.clean.push('v');
         for (place, word) in numbers.iter().take(4.min(numbers.len())).enumerate() {
-            let value = std::str::from_utf8(word).ok().and_then(|word| Some((word, word.parse::<f32>().ok()?)));
-            match value {
-                Some((_, weight)) if place == 3 && numbers.len() == 4 => {
+            match single(word) {
+                Ok(weight) if place == 3 && numbers.len() == 4 => {
                     if weight != 1.0 {
                         return Err(self.syntax(line, "a vertex without a weight other than 1", word));
                     }
                 }
                 _ if place == 3 => {}
-                Some((word, value)) if value.is_finite() => {
+                Ok(_) => {
                     self.clean.push(' ');
-                    self.clean.push_str(word);
+                    // A number is ASCII.
+                    self.clean.push_str(&String::from_utf8_lossy(word));
                 }
-                _ => return Err(self.syntax(line, "a finite number within the range of f32", word)),
+                Err(fault) => return Err(self.syntax(line, fault.expected(), word)),
             }
         }
         self.clean.push('\n');
@@ -305,11 +310,9 @@ mod tests {
     fn errors_say_where_and_what() {
         let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         assert_eq!(message("v 0 0 0"), "m.obj: expected at least one face (a line `f 1 2 3`), found none");
-        assert_eq!(
-            message("v 0 nan 0\nf 1 1 1"),
-            "m.obj:1: expected a finite number within the range of f32, found `nan`"
-        );
-        assert_eq!(message("\nv 0 1e39 0"), "m.obj:2: expected a finite number within the range of f32, found `1e39`");
+        assert_eq!(message("v 0 nan 0\nf 1 1 1"), "m.obj:1: expected a finite number, found `nan`");
+        let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
+        assert_eq!(message("\nv 0 1e39 0"), format!("m.obj:2: expected {large}, found `1e39`"));
         assert_eq!(message("v 0 0"), "m.obj:1: expected a vertex `v x y z`, found `v 0 0`");
         assert_eq!(message("v 0 0 0 2"), "m.obj:1: expected a vertex without a weight other than 1, found `2`");
         assert_eq!(

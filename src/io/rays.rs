@@ -6,12 +6,13 @@
 //! Hits: the header `ray,triangle,t`, then a line a ray in the order of the rays. `triangle` counts from 0 in the order of the mesh
 //! file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the same f32.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{quoted, read_limited};
+use super::{NumberError, parse_f32, quoted};
 use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
 
@@ -56,8 +57,8 @@ pub enum RaysError {
         /// How many there are.
         found: usize,
     },
-    /// A field is not a number.
-    #[error("{}:{line}: expected a number for {column}, found {found}", path.display())]
+    /// A field is not a number of single precision.
+    #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
     Number {
         /// The file.
         path: PathBuf,
@@ -65,26 +66,36 @@ pub enum RaysError {
         line: u64,
         /// The column's name.
         column: &'static str,
+        /// What is wrong with it.
+        reason: NumberError,
         /// What stands there.
         found: String,
     },
     /// The six numbers are no ray.
-    #[error("{}:{line}: {source}", path.display())]
+    #[error("{}:{line}: {reason}", path.display())]
     Ray {
         /// The file.
         path: PathBuf,
         /// The line.
         line: u64,
         /// Why not.
-        source: RayError,
+        reason: RayError,
     },
     /// The table's syntax is broken.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: the table cannot be read: {reason}", path.display())]
     Table {
         /// The file.
         path: PathBuf,
-        /// What the csv reader says, with the line.
-        source: csv::Error,
+        /// What the csv reader says.
+        reason: String,
+    },
+    /// No memory for more rays.
+    #[error("{}: no memory for more than {rays} rays", path.display())]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// Rays that were read.
+        rays: usize,
     },
 }
 
@@ -93,9 +104,11 @@ pub enum RaysError {
 /// # Errors
 /// [`RaysError`], with the path, and the line where there is one.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
-    let read = read_limited(path, MAX_BYTES).map_err(|source| RaysError::Read { path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| RaysError::TooLong { path: path.into() })?;
-    parse_rays(&bytes, path)
+    let file = File::open(path).map_err(|source| RaysError::Read { path: path.into(), source })?;
+    let mut limited = file.take(MAX_BYTES + 1);
+    let rays = read_rays(&mut limited, path);
+    // A table that was cut may be broken where it was cut.
+    if limited.limit() == 0 { Err(RaysError::TooLong { path: path.into() }) } else { rays }
 }
 
 /// Reads rays from bytes; `name` stands for the file in messages. A table without rays is fine.
@@ -103,16 +116,28 @@ pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
 /// # Errors
 /// [`RaysError`], with the line where there is one.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
+    read_rays(bytes, name)
+}
+
+fn read_rays(input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
     let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
-    let mut records = reader.byte_records();
-    let broken = |source| RaysError::Table { path: name.into(), source };
-    let header = records.next().transpose().map_err(broken)?.unwrap_or_default();
-    if !header.iter().eq(HEADER.map(str::as_bytes)) {
-        let found = header.iter().collect::<Vec<_>>().join(&b',');
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(input);
+    let broken = |reason: csv::Error| match reason.into_kind() {
+        csv::ErrorKind::Io(source) => RaysError::Read { path: name.into(), source },
+        other => RaysError::Table { path: name.into(), reason: format!("{other:?}") },
+    };
+    let mut record = csv::ByteRecord::new();
+    reader.read_byte_record(&mut record).map_err(broken)?;
+    if !record.iter().eq(HEADER.map(str::as_bytes)) {
+        let found = record.iter().collect::<Vec<_>>().join(&b',');
         return Err(RaysError::Header { path: name.into(), found: quoted(&found) });
     }
-    records.map(|record| ray(&record.map_err(broken)?, name)).collect()
+    let mut rays: Vec<Ray> = Vec::new();
+    while reader.read_byte_record(&mut record).map_err(broken)? {
+        rays.try_reserve(1).map_err(|_| RaysError::Memory { path: name.into(), rays: rays.len() })?;
+        rays.push(ray(&record, name)?);
+    }
+    Ok(rays)
 }
 
 fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
@@ -122,11 +147,12 @@ fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
     }
     let mut numbers = [0.0_f32; 6];
     for ((number, field), column) in numbers.iter_mut().zip(record).zip(HEADER) {
-        let parsed = std::str::from_utf8(field).ok().and_then(|text| text.parse().ok());
-        *number = parsed.ok_or_else(|| RaysError::Number { path: name.into(), line, column, found: quoted(field) })?;
+        let parsed = std::str::from_utf8(field).map_err(|_| NumberError::NoNumber).and_then(parse_f32);
+        let wrong = |reason| RaysError::Number { path: name.into(), line, column, reason, found: quoted(field) };
+        *number = parsed.map_err(wrong)?;
     }
     let [ox, oy, oz, dx, dy, dz] = numbers;
-    Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|source| RaysError::Ray { path: name.into(), line, source })
+    Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| RaysError::Ray { path: name.into(), line, reason })
 }
 
 /// Writes rays in the form that [`parse_rays`] reads back bit for bit.
@@ -186,8 +212,9 @@ mod tests {
         assert_eq!(with("1,2,3"), "r.csv:3: expected 6 numbers (ox,oy,oz,dx,dy,dz), found 3 fields");
         assert_eq!(with("1,2,3,4,five,6"), "r.csv:3: expected a number for dy, found `five`");
         assert_eq!(with("1,2,3,0,0,0"), "r.csv:3: expected a direction, found (0, 0, 0)");
-        assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected six finite numbers, found origin y not finite");
-        assert_eq!(with("1,2,3,0,0,1e39"), "r.csv:3: expected six finite numbers, found direction z not finite");
+        assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected a finite number for oy, found `nan`");
+        let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
+        assert_eq!(with("1,2,3,0,0,1e39"), format!("r.csv:3: expected {large} for dz, found `1e39`"));
         assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().eq("cannot read the rays /no/such.csv"));
     }
 

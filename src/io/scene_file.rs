@@ -23,6 +23,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
+use super::number::Single;
 use super::read_limited;
 use super::scene_obj::{SceneObjError, load_scene, write_mtl, write_scene};
 use crate::scene::{CameraError, PointLight, Scene, View};
@@ -58,14 +59,14 @@ pub enum SceneFileError {
         message: String,
     },
     /// A view makes no picture.
-    #[error("{}: view {view:?}: {source}", path.display())]
+    #[error("{}: view {view:?}: {reason}", path.display())]
     View {
         /// The file.
         path: PathBuf,
         /// The view.
         view: String,
         /// Why.
-        source: CameraError,
+        reason: CameraError,
     },
     /// Two views of one name.
     #[error("{}: expected views of different names, found {view:?} twice", path.display())]
@@ -106,17 +107,21 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct ViewEntry {
     name: String,
-    eye: [f32; 3],
-    target: [f32; 3],
-    up: [f32; 3],
-    tan_half_height: f32,
+    eye: [Single; 3],
+    target: [Single; 3],
+    up: [Single; 3],
+    tan_half_height: Single,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LightEntry {
-    position: [f32; 3],
-    intensity: [f32; 3],
+    position: [Single; 3],
+    intensity: [Single; 3],
+}
+
+fn plain(numbers: [Single; 3]) -> [f32; 3] {
+    numbers.map(|number| number.0)
 }
 
 /// Reads a scene: a scene file, or an OBJ (by the name's ending).
@@ -152,14 +157,17 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
         if views.iter().any(|known| known.name == view) {
             return Err(SceneFileError::SameName { path: name.into(), view });
         }
-        let view = View { name: view, eye, target, up, tan_half_height };
-        if let Err(source) = view.camera(1, 1) {
-            return Err(SceneFileError::View { path: name.into(), view: view.name, source });
+        let [eye, target, up] = [eye, target, up].map(plain);
+        let view = View { name: view, eye, target, up, tan_half_height: tan_half_height.0 };
+        if let Err(reason) = view.camera(1, 1) {
+            return Err(SceneFileError::View { path: name.into(), view: view.name, reason });
         }
         views.push(view);
     }
-    let lights =
-        file.point_light.iter().map(|light| PointLight { position: light.position, intensity: light.intensity });
+    let lights = file
+        .point_light
+        .iter()
+        .map(|light| PointLight { position: plain(light.position), intensity: plain(light.intensity) });
     let lights: Vec<PointLight> = lights.collect();
     let sound = |light: &PointLight| {
         light.position.iter().all(|value| value.is_finite())

@@ -3,6 +3,7 @@
 use plotters::prelude::*;
 
 use super::ReportError;
+use super::visible::visible;
 
 /// Pixels of a chart.
 const SIZE: (u32, u32) = (720, 440);
@@ -75,7 +76,7 @@ impl Chart {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
         self.draw(&area, &shown, right, [low, high]).map_err(|e| fail(e.to_string()))?;
         drop(area);
-        Ok(text)
+        Ok(visible(&text).into_owned())
     }
 
     /// Points as they are drawn: on a logarithmic axis by the logarithms.

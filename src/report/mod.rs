@@ -5,17 +5,22 @@
 //! files at a time, through `io::atomic`.
 
 mod chart;
+mod excerpt;
 mod exr;
 mod page;
 pub mod picture;
 mod provenance;
+mod source_text;
 mod table;
 pub mod trace;
+pub mod visible;
 
 pub use self::chart::{Chart, Line, Scale};
+pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::exr::{Channel, exr};
 pub use page::{Figure, Page};
 pub use provenance::Provenance;
+pub use source_text::SourceText;
 pub use table::{Cell, Table};
 
 /// A picture or table that cannot be encoded.

@@ -3,6 +3,7 @@
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::visible::visible;
 use super::{Provenance, Table};
 
 /// A picture with a caption.
@@ -102,7 +103,8 @@ impl Page {
                 }
             }
         };
-        page.into_string()
+        // Tags, styles and drawings have nothing hidden in them: what is escaped is text from outside.
+        visible(&page.into_string()).into_owned()
     }
 }
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::ReportError;
+use super::visible::visible_line;
 
 /// One entry of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -130,7 +131,7 @@ impl Table {
         for row in &self.rows {
             table.add_row(row.iter().map(|cell| {
                 let alignment = if cell.is_number() { CellAlignment::Right } else { CellAlignment::Left };
-                comfy_table::Cell::new(cell.text()).set_alignment(alignment)
+                comfy_table::Cell::new(visible_line(&cell.text())).set_alignment(alignment)
             }));
         }
         table.trim_fmt()

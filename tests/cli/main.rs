@@ -7,10 +7,14 @@ mod check;
 mod compare;
 mod devices;
 mod help;
+mod hostile;
+mod interrupted;
+mod memory;
 mod radiosity;
 mod render;
 mod reproduce;
 mod scene;
+mod shown;
 mod timeline;
 mod trace_format;
 mod tracing;
@@ -22,7 +26,7 @@ use std::{
 };
 
 /// What a run left behind.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 struct Ran {
     code: Option<i32>,
     stdout: String,
@@ -59,6 +63,13 @@ fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Ran {
     writer.join().expect("writing does not panic");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");
     Ran { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+/// Runs the program with nobody reading, and says what it used.
+fn used_by(folder: &Path, arguments: &[&str]) -> wait4::ResUse {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().and_then(wait4::Wait4::wait4).expect("the program that this test was built with")
 }
 
 /// Runs the program in the project's folder.

@@ -13,6 +13,7 @@ mod geometry;
 mod ground_truth;
 mod light;
 mod logs;
+mod messages;
 mod models;
 mod mutation;
 mod octree;

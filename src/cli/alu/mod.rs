@@ -38,7 +38,7 @@ folded.";
 
 /// Apply an operation to bit patterns from standard input, or check given results, or digest all of them
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The operation
     #[arg(value_enum, ignore_case = true)]

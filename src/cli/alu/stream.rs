@@ -26,6 +26,12 @@ const TASK_LINES: usize = 4096;
 #[diagnostic(code(crossbar::alu::input))]
 struct InputError(#[from] io::Error);
 
+/// A check that checked nothing must not pass: the generator of the lines may have failed.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("expected at least one line to verify, found none")]
+#[diagnostic(code(crossbar::alu::empty), help("pipe lines in, as from `testfloat_gen f16_add`"))]
+struct NothingToVerify;
+
 /// What became of some consecutive lines: text for the output, and the first error, after which nothing was read.
 #[derive(Default)]
 struct Part {
@@ -160,6 +166,9 @@ pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) 
         failed += part.failed;
         Ok(())
     })?;
+    if passed + failed == 0 {
+        return Err(NothingToVerify.into());
+    }
     if json {
         // Every mismatch begins with a comma.
         let list = String::from_utf8_lossy(mismatches.get(1..).unwrap_or_default());

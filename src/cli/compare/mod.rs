@@ -11,6 +11,7 @@ use super::{
     Out, Problem, Verdict,
     executor::{DeviceExecutor, GpuArgs},
     pixel,
+    run::setup_memory,
     view::bad_format,
 };
 use crate::case::{self, Overrides, Scope, Setup, Side};
@@ -32,7 +33,7 @@ Exit codes: 0 the sides are equal, 1 they differ, 2 the case cannot be run.";
 
 /// Run a case on two executors, formats or devices and name the first difference, down to the instruction
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
     /// The case, a TOML file: see `crossbar run`
     case: PathBuf,
@@ -78,7 +79,7 @@ pub(in crate::cli) struct Args {
     step_budget: Option<u32>,
 
     /// Compare what every instruction writes at one pixel, whether or not the targets differ there
-    #[arg(long, value_name = "X,Y", value_parser = pixel::parse, conflicts_with = "registers")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true, conflicts_with = "registers")]
     pixel: Option<[u32; 2]>,
 
     /// Compare what every instruction writes at every pixel
@@ -109,6 +110,10 @@ impl Args {
         }
         // The options for GPUs hold for the sides that run on one.
         let on_gpu = |executor| executor == DeviceExecutor::Wgpu;
+        if self.gpu.is_given() && !on_gpu(left_executor) && !on_gpu(right_executor) {
+            let help = "add `--left wgpu` or `--right wgpu`, or leave them out";
+            return Err(Problem::usage("`--adapter` and `--native` are for the wgpu executor", help).into());
+        }
         let open = |executor| match on_gpu(left_executor) || on_gpu(right_executor) {
             true if !on_gpu(executor) => executor.open(&GpuArgs::default()),
             _ => executor.open(&self.gpu),
@@ -159,6 +164,9 @@ pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict>
             .wrap_err_with(|| format!("the case cannot be set up on the {} side", wanted.name))
     };
     let setups = [read(&left)?, read(&right)?];
+    for setup in &setups {
+        setup_memory(setup)?;
+    }
     let sides = [
         Side { setup: &setups[0], executor: left.executor.clone() },
         Side { setup: &setups[1], executor: right.executor.clone() },

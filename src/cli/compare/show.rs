@@ -2,17 +2,17 @@
 
 use std::{path::Path, sync::Arc};
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
 use serde_json::{Value, json};
 
 use super::super::{
-    Out, error,
+    Out,
     words::{executor, fate, letters},
 };
 use crate::{
     case::{Comparison, First, Setup, Side},
     compare::{Compared, Difference, Operand, Pass, Stage, SurfaceDifference},
-    report::{Cell, Table},
+    report::{Cell, SourceText, Table, visible::visible_line},
 };
 
 /// What is shown.
@@ -29,7 +29,7 @@ pub(super) struct Shown<'a> {
 struct Quote {
     message: String,
     #[source_code]
-    source_code: Arc<NamedSource<String>>,
+    source_code: Arc<SourceText>,
     #[label("{label}")]
     span: SourceSpan,
     label: String,
@@ -94,7 +94,7 @@ impl Shown<'_> {
 
     pub(super) fn print(&self, out: &mut Out) -> miette::Result<()> {
         if let Some(title) = &self.setup().title {
-            out.line(title)?;
+            out.line(visible_line(title))?;
         }
         for (name, side) in ["left ", "right"].into_iter().zip(self.sides) {
             let profile = &side.setup.profile;
@@ -177,7 +177,7 @@ impl Shown<'_> {
     fn print_difference(&self, difference: &Difference, out: &mut Out) -> miette::Result<()> {
         let (text, instruction) = self.stage(difference);
         match instruction.and_then(|index| self.quote(index, text.clone())) {
-            Some(quote) => out.line(error::render_finding(quote))?,
+            Some(quote) => out.finding(&quote)?,
             None => out.line(text)?,
         }
         if !difference.values.is_empty() {

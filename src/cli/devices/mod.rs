@@ -30,7 +30,7 @@ Examples:
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A device, or ideal-FORMAT; all devices if left out
     name: Option<String>,

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 
 use super::{Args, FactorsArg, Law};
-use crate::cli::Problem;
+use crate::cli::{Problem, number};
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
@@ -60,18 +60,6 @@ pub(super) struct Colour {
     rgb: Color,
 }
 
-fn number(text: &str) -> Option<f64> {
-    text.trim().parse::<f64>().ok().filter(|x| x.is_finite())
-}
-
-pub(super) fn tolerance(text: &str) -> Result<f64, String> {
-    number(text).filter(|&x| x >= 0.0).ok_or_else(|| format!("expected a number not below 0, found `{text}`"))
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    number(text).filter(|&x| x > 0.0).ok_or_else(|| format!("expected a number above 0, found `{text}`"))
-}
-
 /// `light=17,12,4`
 pub(super) fn light_of(text: &str) -> Result<Colour, String> {
     let colour = colour_of(text)?;
@@ -89,9 +77,8 @@ pub(super) fn paint_of(text: &str) -> Result<Colour, String> {
 fn colour_of(text: &str) -> Result<Colour, String> {
     let wrong = || format!("expected MATERIAL=R,G,B as in light=17,12,4; found `{text}`");
     let (material, channels) = text.split_once('=').ok_or_else(wrong)?;
-    let channels: Vec<f32> =
-        channels.split(',').map(|c| number(c).map(|c| c as f32).ok_or_else(wrong)).collect::<Result<_, _>>()?;
-    Ok(Colour { material: material.to_owned(), rgb: channels.try_into().map_err(|_| wrong())? })
+    let rgb = number::three(channels, "R,G,B")?;
+    Ok(Colour { material: material.to_owned(), rgb })
 }
 
 pub(super) fn subdivision(args: &Args) -> Subdivision {

@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::scene_name::{self, EyeArgs, Stand};
 use super::size::Size;
-use super::{Out, Problem, Progress, Verdict, view};
+use super::{Out, Problem, Progress, Verdict, memory, number, view};
 use crate::io::atomic::FileSet;
 use crate::radiosity::solve::Options;
 use crate::report::Provenance;
@@ -66,7 +66,7 @@ pub(super) struct Args {
     seed: u64,
 
     /// End with an error unless all form factors of a patch sum to 1 within this
-    #[arg(long, value_name = "X", value_parser = ask::tolerance)]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
     require_closed: Option<f64>,
 
     /// Make form factors obey what form factors obey; `closure` makes them reciprocal too
@@ -102,7 +102,7 @@ pub(super) struct Args {
     gpu: GpuArgs,
 
     /// Stop when the residual's length is this share of the emittance's [default: 1e-4; 0 with --iterations]
-    #[arg(long, value_name = "X", value_parser = ask::tolerance)]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,
 
     /// The most iterations [default: 1000]
@@ -118,7 +118,7 @@ pub(super) struct Args {
     paint: Vec<ask::Colour>,
 
     /// Pictures of the first way on the card after so many iterations
-    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     frames: Vec<u32>,
 
     /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned
@@ -126,7 +126,7 @@ pub(super) struct Args {
     sweep: Vec<u32>,
 
     /// Pixels of the pictures
-    #[arg(long, value_name = "WxH", default_value = "256x256")]
+    #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
     size: Size,
 
     /// A view of the scene, by its name [default: its first]
@@ -137,7 +137,7 @@ pub(super) struct Args {
     eye: EyeArgs,
 
     /// What radiance is multiplied by in pictures; 1 is white [default: so that what does not shine is grey in the mean]
-    #[arg(long, value_name = "X", value_parser = ask::positive)]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
 
     /// Where to write pictures, tables and the page
@@ -168,6 +168,7 @@ enum Law {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let ways = ask::ways(args)?;
     let scene = scene_name::scene(&args.scene)?;
+    require_memory(args, ways.len() as u64)?;
     let stand = Stand { size: args.size, view: args.view.as_deref(), eye: args.eye };
     let parameters = Parameters {
         camera: stand.camera(&scene)?,
@@ -208,6 +209,23 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
     out.line(format_args!("pictures and tables: {}", args.out.join("index.html").display()))?;
     Ok(Verdict::Done)
+}
+
+/// What the matrices of so many patches take, and the pictures of every way.
+fn require_memory(args: &Args, ways: u64) -> Result<(), Problem> {
+    const PER_PAIR: u64 = 64;
+    const PER_PIXEL_AND_WAY: u64 = 100;
+    // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their own.
+    let patches = args.per_side.map_or(u64::from(args.patches), |_| 0);
+    let pictures = ways + args.frames.len() as u64;
+    let need = memory::of_pixels(
+        args.size.width,
+        args.size.height,
+        pictures * PER_PIXEL_AND_WAY,
+        patches * patches * PER_PAIR,
+    );
+    let what = format_args!("radiosity of {patches} patches with {pictures} pictures of {} pixels", args.size);
+    memory::require(what, need, "ask for fewer `--patches` or a smaller `--size`")
 }
 
 fn provenance(args: &Args, parameters: &Parameters) -> Provenance {

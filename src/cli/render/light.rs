@@ -9,9 +9,9 @@ use refsim::num::{Format, Kind, Rounding};
 use serde_json::json;
 
 use super::scene::{Asked, camera};
-use super::{Args, Out, Problem, Verdict, view};
-use crate::cli::Progress;
+use super::{Args, Out, Problem, SMALLER, Verdict, view};
 use crate::cli::caster::{self, CasterArg};
+use crate::cli::{Progress, memory, number};
 use crate::geom::Caster;
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
@@ -61,15 +61,15 @@ pub(super) struct LightArgs {
     pub(super) view: Option<String>,
 
     /// What radiance is multiplied by for picture.png; 1 is white
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = positive)]
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     exposure: f64,
 
     /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
-    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = not_negative)]
+    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = number::not_negative_single)]
     ambient: f64,
 
     /// A lens: its radius, and the distance at which all is sharp
-    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens)]
+    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     lens: Option<Lens>,
 
     /// Photons for each map [default: 100000]
@@ -96,27 +96,12 @@ impl LightArgs {
     }
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    text.trim()
-        .parse::<f64>()
-        .ok()
-        .filter(|x| x.is_finite())
-        .ok_or_else(|| format!("expected a number, found `{text}`"))
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err(format!("expected a number above 0, found `{text}`")) })
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    number(text)
-        .and_then(|x| if x >= 0.0 { Ok(x) } else { Err(format!("expected a number not below 0, found `{text}`")) })
-}
-
 fn parse_lens(text: &str) -> Result<Lens, String> {
-    let wrong = || format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`");
-    let (radius, focus) = text.split_once(',').ok_or_else(wrong)?;
-    Ok(Lens { radius: not_negative(radius).map_err(|_| wrong())?, focus: positive(focus).map_err(|_| wrong())? })
+    let (radius, focus) =
+        text.split_once(',').ok_or_else(|| format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`"))?;
+    let radius = number::not_negative(radius).map_err(|what| format!("radius: {what}"))?;
+    let focus = number::positive(focus).map_err(|what| format!("focus: {what}"))?;
+    Ok(Lens { radius, focus })
 }
 
 pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<Verdict> {
@@ -125,6 +110,7 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
     let camera = camera(args, &asked.scene)?;
+    require_memory(args, renderer, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
     let mut caster = caster.build(asked.scene.mesh(), Sides::from(args.sides))?;
@@ -133,6 +119,23 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
     view::write_folder(folder, &files(&picture, args.light.exposure)?)?;
     tell(args, &picture, engine.as_ref(), out)?;
     Ok(Verdict::Done)
+}
+
+/// What the picture, its files and the photons take.
+fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
+    const PER_PIXEL: u64 = 250;
+    const PER_PHOTON: u64 = 450;
+    let photons = match renderer {
+        Renderer::Photon => {
+            let usual = Photons::for_scene(scene);
+            let [global, caustic] = [usual.global, usual.caustic].map(|n| u64::from(args.light.photons.unwrap_or(n)));
+            (global + caustic) * PER_PHOTON
+        }
+        _ => 0,
+    };
+    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL, photons);
+    let help = if photons > 0 { "ask for a smaller `--size` or fewer `--photons`" } else { SMALLER };
+    memory::require(format_args!("a lit picture of {} pixels", args.size), need, help)
 }
 
 /// Half a step of single precision, the host's.

@@ -11,9 +11,9 @@ use refsim::device::Profile;
 use super::executor::{Decider, GpuArgs};
 use super::scene_name::EyeArgs;
 use super::size::Size;
-use super::{Out, Problem, Verdict, view};
+use super::{Out, Problem, Verdict, memory, view};
 use crate::geom::Mesh;
-use crate::geom::exact::{Sides, nearest_all};
+use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::io::obj::load_obj;
 use crate::ray_engine::{Crossbar, RayBatch};
@@ -45,7 +45,7 @@ pub(super) struct Args {
     scene: PathBuf,
 
     /// Pixels of the picture
-    #[arg(long, value_name = "WxH", default_value = "512x512")]
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
     #[command(flatten)]
@@ -75,21 +75,27 @@ pub(super) struct Args {
     light: light::LightArgs,
 }
 
+/// Bytes per pixel of a picture by eye rays: rays, hits, layers and the files of them.
+const PER_PIXEL: u64 = 160;
+/// What to do about too large a picture.
+const SMALLER: &str = "ask for a smaller `--size`";
+
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(asked) = scene::lit(args)? {
         return light::run(args, &asked, out);
     }
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
+    view::require_mesh(&args.scene)?;
     let mesh = load_obj(&args.scene)?;
     let camera = camera(args, &mesh)?;
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let Size { width, height } = args.size;
+    let need = memory::of_pixels(width, height, PER_PIXEL, 0);
+    memory::require(format_args!("a picture of {} pixels", args.size), need, SMALLER)?;
+    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
-        None => {
-            nearest_all(&mesh, rays.rays(), sides).into_iter().map(|h| h.map(|h| (h.triangle, h.t.to_f32()))).collect()
-        }
+        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), sides),
         Some(kind) => {
             let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, sides)?;
             answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()

@@ -2,6 +2,7 @@
 
 use super::Args;
 use crate::cli::scene_name::{self, Stand};
+use crate::cli::view;
 use crate::io::scene_file::load;
 use crate::scene::{Camera, Scene};
 
@@ -21,6 +22,7 @@ pub(super) fn lit(args: &Args) -> miette::Result<Option<Asked>> {
     if !described && !args.light.asked() {
         return Ok(None);
     }
+    view::require_mesh(&args.scene)?;
     Ok(Some(Asked { scene: load(&args.scene)?, lit: described }))
 }
 

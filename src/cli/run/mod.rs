@@ -8,11 +8,11 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::{Out, Problem, Verdict, error, pixel};
+use super::{Out, Problem, Verdict, error, memory, pixel};
 use crate::{
     case::{self, Found, Outcome, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
-    report::{Cell, Table},
+    report::{Cell, Table, visible::visible_line},
 };
 
 const EXAMPLES: &str = "\
@@ -30,7 +30,7 @@ Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case 
 
 /// Draw a case: any shader on any textures, constants and geometry; pictures, probes, counts
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The case, a TOML file
     case: PathBuf,
@@ -52,7 +52,7 @@ pub(super) struct Args {
     step_budget: Option<u32>,
 
     /// Show what every instruction writes at a pixel: column and row from the top left, from 0
-    #[arg(long, value_name = "X,Y", value_parser = pixel::parse)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel::parse, allow_hyphen_values = true)]
     trace: Option<[u32; 2]>,
 }
 
@@ -61,6 +61,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let overrides = Overrides { step_budget: args.step_budget, ..Overrides::default() };
     let setup = Setup::read_with(&args.case, &overrides)?;
     error::print_warnings(&setup.warnings, out.json());
+    setup_memory(&setup)?;
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
     let traced = traced.as_ref().map(|trace| trace::Traced {
@@ -92,6 +93,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::held(outcome.passed()))
 }
 
+/// What the surfaces of a case take, and their pictures; its textures are there already.
+pub(super) fn setup_memory(setup: &Setup) -> Result<(), Problem> {
+    let [width, height] = setup.size;
+    // What is stored, its channels as numbers, and the file of them.
+    let stored: u64 = setup.targets.iter().map(|target| 12 + 4 * target.bytes() as u64).sum();
+    let depth = setup.depth.map_or(0, |_| 12 + 4 * 4);
+    let need = memory::of_pixels(width, height, stored + depth, 0);
+    let what = format_args!("drawing {} targets of {width}x{height} pixels", setup.targets.len());
+    memory::require(what, need, "give the case smaller targets")
+}
+
 fn follow(setup: &Setup, executor: &Executor, place: [u32; 2]) -> miette::Result<PixelTrace> {
     let place = pixel::within(place, setup.size)?;
     Ok(case::trace(setup, executor, place)?)
@@ -103,7 +115,7 @@ fn default_folder(case: &Path) -> PathBuf {
 
 fn print(setup: &Setup, outcome: &Outcome, written: &[PathBuf], out: &mut Out) -> miette::Result<()> {
     if let Some(title) = &setup.title {
-        out.line(title)?;
+        out.line(visible_line(title))?;
     }
     out.line(format_args!("device {}, pixel registers {}", setup.profile.name, setup.profile.rules.format))?;
     for path in written {

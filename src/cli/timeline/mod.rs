@@ -34,14 +34,14 @@ Exit codes: 0 done, 2 the case cannot be run, or the device has no time.";
 
 /// Model the time of a run on a card: cost of each draw, busy and waiting units, the critical path
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The case, a TOML file: see `crossbar run`
     #[arg(required_unless_present = "rays", conflicts_with = "rays")]
     case: Option<PathBuf>,
 
     /// Instead of a case: the Ray Engine's crossbar with so many eye rays, bucket after bucket on one card
-    #[arg(long, value_name = "WxH", value_parser = parse_rays)]
+    #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     rays: Option<Size>,
 
     /// With --rays: the mesh, a Wavefront OBJ file [default: the teapot, 8 x 8 quads a patch]

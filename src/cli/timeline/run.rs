@@ -13,8 +13,9 @@ use refsim::timing::{Level, Model, TimingError};
 use super::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup};
+use crate::cli::run::setup_memory;
 use crate::cli::size::Size;
-use crate::cli::{Problem, view};
+use crate::cli::{Problem, memory, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
@@ -29,6 +30,9 @@ const TESSELLATION: u32 = 8;
 /// Tangent of half the vertical field of view, for meshes.
 const TANGENT: f32 = 0.375;
 
+/// Bytes per eye ray: the ray, its hit, its share of the log and of the buckets' cards.
+const PER_RAY: u64 = 90;
+
 /// What is timed.
 pub(super) enum Input {
     Case(Box<Setup>),
@@ -41,10 +45,14 @@ impl Input {
         match (&args.case, args.rays) {
             (Some(case), None) => {
                 let overrides = Overrides { device, ..Overrides::default() };
-                Ok(Self::Case(Box::new(Setup::read_with(case, &overrides)?)))
+                let setup = Setup::read_with(case, &overrides)?;
+                setup_memory(&setup)?;
+                Ok(Self::Case(Box::new(setup)))
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| Profile::named(DEFAULT_DEVICE), Ok)?;
+                let need = memory::of_pixels(size.width, size.height, PER_RAY, 0);
+                memory::require(format_args!("a timeline of {size} rays"), need, "ask for fewer `--rays`")?;
                 let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
                 Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })
@@ -108,6 +116,7 @@ fn no_figure(error: TimingError) -> Problem {
 fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, String)> {
     match mesh {
         Some(path) => {
+            view::require_mesh(path)?;
             let mesh = load_obj(path)?;
             let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
             Ok((mesh, camera, path.display().to_string()))

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::run::{Input, Timed};
 use super::{Args, ReadBackArg};
 use crate::cli::Out;
+use crate::report::visible::visible_line;
 use crate::report::{Cell, Table};
 
 /// Draws that the table shows; the document has all.
@@ -17,7 +18,7 @@ const MOST_DRAWS: usize = 16;
 
 pub(super) fn print(args: &Args, input: &Input, log: &[Event], timed: &[Timed], out: &mut Out) -> miette::Result<()> {
     let profile = input.profile();
-    out.line(input.title())?;
+    out.line(visible_line(&input.title()))?;
     out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
     if args.cache {
         let table = cache(log);

@@ -62,12 +62,12 @@ pub enum SceneObjError {
         normals: usize,
     },
     /// The parts do not make a scene.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Scene {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        source: SceneError,
+        reason: SceneError,
     },
 }
 

@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::super::obj::{logical_lines, words};
-use super::super::quoted;
+use super::super::obj::{logical_lines, single, words};
+use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
 
 /// Exponent of a glossy material that names none.
@@ -67,12 +67,12 @@ pub enum MtlError {
         found: String,
     },
     /// tobj refuses what our pass has accepted.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {reason}", path.display())]
     Loader {
         /// The file.
         path: PathBuf,
         /// What tobj says.
-        source: tobj::LoadError,
+        reason: tobj::LoadError,
     },
 }
 
@@ -86,7 +86,7 @@ pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, MtlError> {
         pass.line(line, &text)?;
     }
     let (read, _) = tobj::load_mtl_buf(&mut pass.clean.as_bytes())
-        .map_err(|source| MtlError::Loader { path: name.into(), source })?;
+        .map_err(|reason| MtlError::Loader { path: name.into(), reason })?;
     let pairs = pass.materials.iter().zip(read);
     pairs.map(|((line, material), read)| assemble(&read, name, *line, material)).collect()
 }
@@ -142,6 +142,7 @@ impl Pass<'_> {
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
     ) -> Result<(), MtlError> {
+        self.not_too_large(line, values)?;
         let channels: Vec<f32> = values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
         // One number stands for three.
         let channels = match (values.len(), channels[..].len()) {
@@ -161,6 +162,7 @@ impl Pass<'_> {
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
     ) -> Result<(), MtlError> {
+        self.not_too_large(line, values)?;
         match values {
             &[word] => match number(word).filter(|&v| allowed(v)) {
                 Some(value) => self.keep(line, key, &[value], text),
@@ -168,6 +170,12 @@ impl Pass<'_> {
             },
             _ => Err(self.syntax(line, expected, text)),
         }
+    }
+
+    /// A number that single precision does not hold is no matter of what the key allows.
+    fn not_too_large(&self, line: usize, values: &[&[u8]]) -> Result<(), MtlError> {
+        let large = values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
+        large.map_or(Ok(()), |word| Err(self.syntax(line, NumberError::TooLarge.expected(), word)))
     }
 
     fn keep(&mut self, line: usize, key: &[u8], values: &[f32], text: &[u8]) -> Result<(), MtlError> {
@@ -189,8 +197,7 @@ impl Pass<'_> {
 
 /// A finite number that is not negative.
 fn number(word: &[u8]) -> Option<f32> {
-    let value: f32 = std::str::from_utf8(word).ok()?.parse().ok()?;
-    (value.is_finite() && value >= 0.0).then_some(value)
+    single(word).ok().filter(|&value| value >= 0.0)
 }
 
 /// A material of what tobj has read.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::super::obj::Pass;
+use super::super::obj::{Pass, single};
 use super::{SceneObjError, parse_mtl};
 use crate::scene::{Material, Scene};
 
@@ -77,11 +77,7 @@ impl<'a> ScenePass<'a> {
         };
         let mut normal = [0.0; 3];
         for (value, word) in normal.iter_mut().zip([x, y, z]) {
-            let number = std::str::from_utf8(word).ok().and_then(|word| word.parse::<f32>().ok());
-            let Some(number) = number.filter(|number| number.is_finite()) else {
-                return Err(self.geometry.syntax(line, "a finite number within the range of f32", word).into());
-            };
-            *value = number;
+            *value = single(word).map_err(|fault| self.geometry.syntax(line, fault.expected(), word))?;
         }
         self.normals.push(of_length_one(normal));
         Ok(())
@@ -180,7 +176,7 @@ impl<'a> ScenePass<'a> {
             }
         }
         Scene::new(mesh, materials, material_of, normals)
-            .map_err(|source| SceneObjError::Scene { path: name.into(), source })
+            .map_err(|reason| SceneObjError::Scene { path: name.into(), reason })
     }
 }
 

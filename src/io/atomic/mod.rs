@@ -1,11 +1,15 @@
 //! Files that appear whole or not at all: written beside their place, then renamed into it.
 
+mod staging;
+
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 
-use tempfile::TempDir;
 use thiserror::Error;
+
+use self::staging::Staging;
+pub use self::staging::abandon;
 
 /// Why a file was not written.
 #[derive(Debug, Error)]
@@ -34,7 +38,8 @@ pub enum WriteError {
     },
 }
 
-/// Writes one file through `fill`; its folder must exist. On any error, whatever stood at `path` before still stands.
+/// Writes one file through `fill`, and the folders that are missing on the way. On any error, whatever stood at `path` before still
+/// stands, and no folder was made.
 ///
 /// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written to and
 /// never replaced; it too gets everything or, when `fill` fails, nothing.
@@ -66,29 +71,20 @@ fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>)
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-/// Writes beside `file`, and renames; errors name `path`.
+/// Writes beside `file`, and renames; errors name `path`. Folders that are missing are made.
 fn write_beside(
     file: &Path,
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let Some(name) = file.file_name() else {
+    let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else {
         return Err(WriteError::Name { name: path.into() });
     };
-    let folder = match file.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let staging = stage_in(folder)?;
-    let staged = staging.path().join(name);
+    let mut set = FileSet::new(folder)?;
+    let staged = set.stage(name.as_ref())?;
     fill_file(&staged, path, fill)?;
-    rename(&staged, file)
-}
-
-/// A folder for what will be renamed, on the same file system because it lies within the target's folder. It goes away when dropped.
-fn stage_in(folder: &Path) -> Result<TempDir, WriteError> {
-    let made = tempfile::Builder::new().prefix(".crossbar-").tempdir_in(folder);
-    made.map_err(|source| WriteError::Folder { path: folder.into(), source })
+    set.commit()?;
+    Ok(())
 }
 
 /// Writes the file at `staged`; errors name `path`.
@@ -105,35 +101,45 @@ fn fill_file(
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-fn rename(staged: &Path, path: &Path) -> Result<(), WriteError> {
-    fs::rename(staged, path).map_err(|source| WriteError::File { path: path.into(), source })
-}
-
-/// Several files that appear together: [`FileSet::commit`] renames them into their folder once all are written. Dropped
-/// without it, it leaves nothing behind, not even folders that it made.
+/// Several files that appear together in one folder, when [`FileSet::commit`] is called. Dropped without it, it leaves nothing behind.
+///
+/// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed one after
+/// another, because the folder itself stays: programs may be at work in it, and it may hold other files. A process that is killed
+/// in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with the rest; the next set for the folder
+/// first finishes them. Files of other names are never touched.
 #[derive(Debug)]
 pub struct FileSet {
+    /// The folder as it was named.
     folder: PathBuf,
-    /// Folders that did not exist before, outermost first.
-    made: Vec<PathBuf>,
-    /// `None` once committed.
-    staging: Option<TempDir>,
+    /// The innermost folder on the way that exists.
+    base: PathBuf,
+    /// From there to the folder: empty if it exists.
+    rest: PathBuf,
+    staging: Staging,
     names: Vec<PathBuf>,
 }
 
 impl FileSet {
-    /// A set for `folder`, which is made if it is missing. Made before long work, it finds out early that nothing can be
-    /// written there.
+    /// A set for `folder`. Made before long work, it finds out early that nothing can be written there.
     ///
     /// # Errors
     /// [`WriteError::Folder`].
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
-        let mut made = missing_folders(folder);
-        made.reverse();
-        let mut set = Self { folder: folder.into(), made, staging: None, names: Vec::new() };
-        fs::create_dir_all(folder).map_err(|source| WriteError::Folder { path: folder.into(), source })?;
-        set.staging = Some(stage_in(folder)?);
+        let fail = |source| WriteError::Folder { path: folder.into(), source };
+        let (base, rest) = split(folder);
+        if let Some(first) = rest.iter().next()
+            && base.join(first).is_symlink()
+        {
+            return Err(fail(io::Error::new(io::ErrorKind::NotFound, "a link leads nowhere")));
+        }
+        let staging = Staging::within(&base).map_err(fail)?;
+        let set = Self { folder: folder.into(), base, rest, staging, names: Vec::new() };
+        fs::create_dir_all(set.staged(Path::new(""))).map_err(fail)?;
         Ok(set)
+    }
+
+    fn staged(&self, name: &Path) -> PathBuf {
+        self.staging.new_files().join(&self.rest).join(name)
     }
 
     /// Where the file `name` (relative, without `..`) is to be written now, for writers that want a path.
@@ -142,10 +148,10 @@ impl FileSet {
     /// [`WriteError::Name`] for a name that leaves the folder, [`WriteError::File`] when its subfolder cannot be made.
     pub fn stage(&mut self, name: &Path) -> Result<PathBuf, WriteError> {
         let plain = name.components().all(|part| matches!(part, Component::Normal(_)));
-        let (true, Some(staging), Some(_)) = (plain, &self.staging, name.file_name()) else {
+        if !plain || name.file_name().is_none() {
             return Err(WriteError::Name { name: name.into() });
-        };
-        let staged = staging.path().join(name);
+        }
+        let staged = self.staged(name);
         if let Some(parent) = staged.parent() {
             let path = || self.folder.join(name);
             fs::create_dir_all(parent).map_err(|source| WriteError::File { path: path(), source })?;
@@ -174,39 +180,66 @@ impl FileSet {
     ///
     /// # Errors
     /// [`WriteError`]; unless a rename itself fails, nothing has then appeared.
-    pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
-        let Some(staging) = self.staging.take() else { return Ok(Vec::new()) };
-        let places: Vec<(PathBuf, PathBuf)> =
-            self.names.iter().map(|name| (staging.path().join(name), self.folder.join(name))).collect();
-        for (staged, place) in &places {
-            let fail = |source| WriteError::File { path: place.clone(), source };
-            fs::metadata(staged).map_err(fail)?;
-            if place.is_dir() {
+    pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
+        self.commit_at_most(usize::MAX)?;
+        Ok(self.names.iter().map(|name| self.folder.join(name)).collect())
+    }
+
+    /// Commits, but stops in the midst of the renames, after `most` of them.
+    fn commit_at_most(&self, most: usize) -> Result<(), WriteError> {
+        for name in &self.names {
+            let fail = |source| WriteError::File { path: self.folder.join(name), source };
+            fs::metadata(self.staged(name)).map_err(fail)?;
+            if self.folder.join(name).is_dir() {
                 return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
             }
         }
-        for folder in places.iter().filter_map(|(_, place)| place.parent()) {
-            let missing = missing_folders(folder);
-            self.made.extend(missing.into_iter().rev());
-            fs::create_dir_all(folder).map_err(|source| WriteError::Folder { path: folder.into(), source })?;
+        if let Some(first) = self.rest.iter().next() {
+            let place = self.base.join(first);
+            match self.staging.rename_folder(first.as_ref(), &place) {
+                Ok(()) => return Ok(()),
+                // Somebody else has made it meanwhile: file by file then.
+                Err(_) if place.is_dir() => {}
+                Err(source) => return Err(WriteError::Folder { path: self.folder.clone(), source }),
+            }
         }
-        for (staged, place) in &places {
-            rename(staged, place)?;
+        let names: Vec<PathBuf> = self.names.iter().map(|name| self.rest.join(name)).collect();
+        let places = names.iter().map(|name| self.base.join(name));
+        let mut made = Vec::new();
+        let rename = || {
+            for folder in places.filter_map(|place| place.parent().map(Path::to_path_buf)) {
+                made.extend(missing_folders(&folder).into_iter().rev());
+                fs::create_dir_all(&folder).map_err(|source| WriteError::Folder { path: folder, source })?;
+            }
+            let renamed = self.staging.rename_files(&self.base, &names, most);
+            renamed.map_err(|(path, source)| WriteError::File { path, source })
+        };
+        let renamed = { rename }();
+        if renamed.is_err() {
+            for folder in made.iter().rev() {
+                // It fails, as it should, where something has come in.
+                let _ = fs::remove_dir(folder);
+            }
         }
-        self.made.clear();
-        Ok(places.into_iter().map(|(_, place)| place).collect())
+        renamed
     }
 }
 
-impl Drop for FileSet {
-    fn drop(&mut self) {
-        // The staging folder lies within those that were made.
-        self.staging = None;
-        for folder in self.made.iter().rev() {
-            // It fails, as it should, where something else has come in meanwhile.
-            let _ = fs::remove_dir(folder);
+/// The innermost existing folder on the way to `folder`, and plain names from there. Nothing that is missing can be a link, so `..`
+/// behind it means what it seems to.
+fn split(folder: &Path) -> (PathBuf, PathBuf) {
+    let mut base = PathBuf::new();
+    let mut rest = PathBuf::new();
+    for part in folder.components() {
+        match part {
+            Component::Normal(name) if rest == Path::new("") && base.join(name).exists() => base.push(name),
+            Component::Normal(name) => rest.push(name),
+            Component::ParentDir if rest != Path::new("") => drop(rest.pop()),
+            Component::CurDir => {}
+            other => base.push(other),
         }
     }
+    (if base == Path::new("") { ".".into() } else { base }, rest)
 }
 
 /// The folders that must be made for `folder` to exist, innermost first.
@@ -287,6 +320,69 @@ mod tests {
             (listing(&folder), listing(&folder.join("sub"))),
             (vec!["a.txt".into(), "sub".into()], vec!["b.txt".into()])
         );
+    }
+
+    #[test]
+    fn missing_folders_appear_with_their_file() {
+        let root = tempfile::tempdir().expect("a folder");
+        let path = root.path().join("a/b/h.csv");
+        let failed = write_file(&path, |_| Err(io::Error::other("no more")));
+        assert_eq!(failed.unwrap_err().to_string(), format!("cannot write {}", path.display()));
+        assert!(listing(root.path()).is_empty(), "a failure makes no folders");
+        write_file(&path, |out| out.write_all(b"hits")).expect("written");
+        assert_eq!(fs::read(&path).expect("read"), b"hits");
+        let round = root.path().join("c/../d/./e/x");
+        write_file(&round, |out| out.write_all(b"x")).expect("written");
+        assert_eq!(listing(root.path()), ["a", "d"]);
+        assert_eq!(listing(&root.path().join("d/e")), ["x"]);
+    }
+
+    /// Old files `a` and `b`, a file of the user's own, and a set of `a`, `b` and `sub/c` that is to replace them.
+    fn set_over_old_files(folder: &Path) -> FileSet {
+        for name in ["a", "b", "mine"] {
+            fs::write(folder.join(name), b"old").expect("written");
+        }
+        let mut set = FileSet::new(folder).expect("a set");
+        for name in ["a", "b", "sub/c"] {
+            set.write(Path::new(name), |out| out.write_all(b"new")).expect("written");
+        }
+        set
+    }
+
+    #[test]
+    fn a_process_killed_between_renames_is_finished_by_the_next() {
+        for renames in 0..=3 {
+            let root = tempfile::tempdir().expect("a folder");
+            let set = set_over_old_files(root.path());
+            set.commit_at_most(renames).expect("renamed");
+            set.staging.leave();
+            assert!(listing(root.path())[0].starts_with(".crossbar-"), "the rest is there");
+            drop(FileSet::new(root.path()).expect("a set"));
+            assert_eq!(listing(root.path()), ["a", "b", "mine", "sub"], "after {renames} renames");
+            let contents = ["a", "b", "sub/c", "mine"].map(|name| fs::read(root.path().join(name)).expect("read"));
+            assert_eq!(
+                contents,
+                ["new", "new", "new", "old"].map(|text| text.as_bytes().to_vec()),
+                "after {renames} renames"
+            );
+        }
+    }
+
+    #[test]
+    fn a_process_killed_before_the_renames_changes_nothing() {
+        let root = tempfile::tempdir().expect("a folder");
+        set_over_old_files(root.path()).staging.leave();
+        let missing = root.path().join("x/y");
+        let mut set = FileSet::new(&missing).expect("a set");
+        set.write(Path::new("a"), |out| out.write_all(b"new")).expect("written");
+        set.staging.leave();
+        assert!(!missing.exists());
+        let living = FileSet::new(root.path()).expect("a set");
+        drop(FileSet::new(root.path()).expect("a set"));
+        assert_eq!(listing(root.path()).len(), 4, "the staging folder of a living process is left alone");
+        drop(living);
+        assert_eq!(listing(root.path()), ["a", "b", "mine"]);
+        assert_eq!(fs::read(root.path().join("a")).expect("read"), b"old");
     }
 
     #[test]

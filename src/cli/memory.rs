@@ -1,0 +1,138 @@
+//! Work that would not fit into memory is refused before it begins.
+//!
+//! A command says what it needs at most, counted from the sizes that it is asked for. What there is: the memory that the system can
+//! give without swapping, what the process's control group still allows, and what `ulimit -v` still allows; the least of the three,
+//! or what `--memory-limit` says instead.
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use bytesize::ByteSize;
+use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
+
+use super::Problem;
+
+/// What `--memory-limit` says; not set where nothing is said.
+static ASKED: OnceLock<u64> = OnceLock::new();
+
+/// What the program needs besides what it computes with: code, tables, buffers of files.
+const PROGRAM: u64 = 24 << 20;
+/// What the stack of a thread takes of the addresses that `ulimit -v` counts.
+#[cfg(unix)]
+const STACK: u64 = 2 << 20;
+/// Needs below this are not worth asking the system.
+const SMALL: u64 = 16 << 20;
+
+/// Where a limit comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimitSource {
+    /// `--memory-limit`.
+    Option,
+    /// What the system can give.
+    System,
+    /// What the control group, a container for example, still allows.
+    ControlGroup,
+    /// What the limit of the process's addresses still allows.
+    Process,
+}
+
+impl fmt::Display for LimitSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Option => "allowed by `--memory-limit`",
+            Self::System => "free on this computer",
+            Self::ControlGroup => "left to this control group or container",
+            Self::Process => "left to this process by `ulimit -v`",
+        })
+    }
+}
+
+/// Sets the limit that `--memory-limit` asks for.
+pub(super) fn limit_to(bytes: Option<ByteSize>) {
+    if let Some(bytes) = bytes {
+        // Set once, by `main`.
+        ASKED.set(bytes.as_u64()).ok();
+    }
+}
+
+/// Refuses work that needs more `bytes` than there are. `what` is the work, as in "tracing 512x512 pixels"; `help` how to ask for less.
+///
+/// # Errors
+/// [`Problem::Memory`].
+pub(super) fn require(what: impl fmt::Display, bytes: u64, help: &str) -> Result<(), Problem> {
+    if bytes < SMALL && ASKED.get().is_none() {
+        return Ok(());
+    }
+    let (limit, from) = limit();
+    if bytes <= limit {
+        return Ok(());
+    }
+    let help = match from {
+        LimitSource::Option => help.to_owned(),
+        _ => format!("{help}; `--memory-limit` says how much may be taken instead"),
+    };
+    Err(Problem::Memory { what: what.to_string(), need: ByteSize(bytes), limit: ByteSize(limit), from, help })
+}
+
+/// Refuses to start where not even the program and its threads fit.
+///
+/// # Errors
+/// [`Problem::Memory`].
+pub(super) fn require_to_start() -> Result<(), Problem> {
+    match process_limit() {
+        Some(limit) if limit < PROGRAM => {
+            let (need, limit) = (ByteSize(PROGRAM), ByteSize(limit));
+            let help = "raise `ulimit -v`, or lower `--threads`".to_owned();
+            Err(Problem::Memory {
+                what: "the program itself".to_owned(),
+                need,
+                limit,
+                from: LimitSource::Process,
+                help,
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn limit() -> (u64, LimitSource) {
+    if let Some(&asked) = ASKED.get() {
+        return (asked, LimitSource::Option);
+    }
+    let mut limits = vec![(u64::MAX, LimitSource::System)];
+    if let Ok(mut system) = System::new() {
+        system.refresh_memory();
+        if system.available_memory() > 0 {
+            limits.push((system.available_memory(), LimitSource::System));
+        }
+        let own = Pid::from_u32(std::process::id());
+        system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), false, ProcessRefreshKind::nothing());
+        let group = system.process(own).and_then(|process| process.cgroup_limits()).or_else(|| system.cgroup_limits());
+        if let Some(group) = group {
+            // Pages of files that the group has read do not count: they make way.
+            limits.push((group.total_memory.saturating_sub(group.rss), LimitSource::ControlGroup));
+        }
+    }
+    limits.extend(process_limit().map(|limit| (limit, LimitSource::Process)));
+    limits.into_iter().min_by_key(|limit| limit.0).unwrap_or((u64::MAX, LimitSource::System))
+}
+
+/// What the limit of the process's addresses leaves once all threads have their stacks; `None` without a limit.
+#[cfg(unix)]
+fn process_limit() -> Option<u64> {
+    let limit = rustix::process::getrlimit(rustix::process::Resource::As).current?;
+    let taken = std::fs::read_to_string("/proc/self/statm").ok();
+    let pages: u64 = taken.and_then(|text| text.split_whitespace().next()?.parse().ok()).unwrap_or(0);
+    let threads = rayon::current_num_threads() as u64;
+    Some(limit.saturating_sub(pages * rustix::param::page_size() as u64 + threads * STACK))
+}
+
+#[cfg(not(unix))]
+const fn process_limit() -> Option<u64> {
+    None
+}
+
+/// For sizes of a picture: what `per_pixel` bytes a pixel come to, and `fixed` bytes.
+pub(super) const fn of_pixels(width: u32, height: u32, per_pixel: u64, fixed: u64) -> u64 {
+    (width as u64 * height as u64).saturating_mul(per_pixel).saturating_add(fixed)
+}

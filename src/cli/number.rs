@@ -1,0 +1,73 @@
+//! Numbers on the command line.
+
+use crate::io::{NumberError, parse_f32, to_f32};
+
+/// A finite number.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        Ok(_) if text.contains(|c: char| c.is_ascii_digit()) => {
+            Err(format!("expected a number that is not too large for a 64-bit float, found `{text}`"))
+        }
+        Ok(_) => Err(wrong(NumberError::NotFinite, text)),
+        Err(_) => Err(wrong(NumberError::NoNumber, text)),
+    }
+}
+
+/// A finite number above 0.
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err(format!("expected a number above 0, found `{text}`")) })
+}
+
+/// A finite number of at least 0.
+pub(super) fn not_negative(text: &str) -> Result<f64, String> {
+    finite(text)
+        .and_then(|x| if x >= 0.0 { Ok(x) } else { Err(format!("expected a number not below 0, found `{text}`")) })
+}
+
+/// A number of at least 0 that single precision holds.
+pub(super) fn not_negative_single(text: &str) -> Result<f64, String> {
+    let number = not_negative(text)?;
+    to_f32(number).map(|_| number).map_err(|error| wrong(error, text))
+}
+
+/// A finite number of single precision.
+pub(super) fn single(text: &str) -> Result<f32, String> {
+    parse_f32(text.trim()).map_err(|error| wrong(error, text))
+}
+
+/// `1,2.5,-3` as three numbers of single precision; `form` says how they are written.
+pub(super) fn three(text: &str, form: &str) -> Result<[f32; 3], String> {
+    let parts: Vec<&str> = text.split(',').collect();
+    let [x, y, z] = parts[..] else { return Err(format!("expected three numbers {form}, found `{text}`")) };
+    Ok([single(x)?, single(y)?, single(z)?])
+}
+
+/// `1,2.5,-3` as a point.
+pub(super) fn point(text: &str) -> Result<[f32; 3], String> {
+    three(text, "X,Y,Z")
+}
+
+fn wrong(error: NumberError, text: &str) -> String {
+    format!("{error}, found `{text}`")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let large = "expected a number that is not too large for a 32-bit float: at most 3.4028235e38, found `1e39`";
+        assert_eq!(point("0,1e39,0"), Err(large.to_owned()));
+        assert_eq!(point("0,1"), Err("expected three numbers X,Y,Z, found `0,1`".to_owned()));
+        assert_eq!(point("0,x,1"), Err("expected a number, found `x`".to_owned()));
+        assert_eq!(not_negative("-1"), Err("expected a number not below 0, found `-1`".to_owned()));
+        assert_eq!(not_negative_single("1e39"), Err(large.to_owned()));
+        assert_eq!(positive("nan"), Err("expected a finite number, found `nan`".to_owned()));
+        assert_eq!(
+            finite("1e400").unwrap_err(),
+            "expected a number that is not too large for a 64-bit float, found `1e400`"
+        );
+    }
+}

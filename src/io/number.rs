@@ -1,0 +1,88 @@
+//! Decimal numbers of files and options as single precision.
+
+use serde::{Deserialize, Deserializer, de};
+use thiserror::Error;
+
+/// Why a piece of text is no number in single precision. What was found is quoted by those who know where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum NumberError {
+    /// No number at all.
+    #[error("expected a number")]
+    NoNumber,
+    /// A NaN or an infinity, by name.
+    #[error("expected a finite number")]
+    NotFinite,
+    /// A number that rounds to infinity.
+    #[error("expected a number that is not {TOO_LARGE}")]
+    TooLarge,
+}
+
+const TOO_LARGE: &str = "too large for a 32-bit float: at most 3.4028235e38";
+
+impl NumberError {
+    /// What was expected, to stand between "expected" and "found".
+    pub const fn expected(self) -> &'static str {
+        match self {
+            Self::NoNumber => "a number",
+            Self::NotFinite => "a finite number",
+            Self::TooLarge => "a number that is not too large for a 32-bit float: at most 3.4028235e38",
+        }
+    }
+}
+
+/// The number that a decimal text stands for, rounded to the nearest single-precision number.
+///
+/// # Errors
+/// [`NumberError`].
+pub fn parse_f32(text: &str) -> Result<f32, NumberError> {
+    let number: f32 = text.parse().map_err(|_| NumberError::NoNumber)?;
+    match number.is_finite() {
+        true => Ok(number),
+        false if text.contains(|c: char| c.is_ascii_digit()) => Err(NumberError::TooLarge),
+        false => Err(NumberError::NotFinite),
+    }
+}
+
+/// A number in double precision rounded to the nearest of single precision; NaN and infinities stay what they are.
+///
+/// # Errors
+/// [`NumberError::TooLarge`].
+pub fn to_f32(number: f64) -> Result<f32, NumberError> {
+    let rounded = number as f32;
+    if number.is_finite() && rounded.is_infinite() { Err(NumberError::TooLarge) } else { Ok(rounded) }
+}
+
+/// A number of a TOML file in single precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Single(pub(crate) f32);
+
+impl<'de> Deserialize<'de> for Single {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let number = f64::deserialize(deserializer)?;
+        to_f32(number).map(Self).map_err(|error| de::Error::custom(format_args!("{error}, found {number:e}")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_fault_has_its_name() {
+        assert_eq!(parse_f32("3.4028235e38"), Ok(f32::MAX));
+        assert_eq!(parse_f32("-1e-50"), Ok(-0.0));
+        for (text, fault) in [
+            ("five", NumberError::NoNumber),
+            ("", NumberError::NoNumber),
+            ("nan", NumberError::NotFinite),
+            ("-inf", NumberError::NotFinite),
+            ("infinity", NumberError::NotFinite),
+            ("1e39", NumberError::TooLarge),
+            ("-3.4028236e38", NumberError::TooLarge),
+        ] {
+            assert_eq!(parse_f32(text), Err(fault), "{text}");
+            assert_eq!(fault.to_string(), format!("expected {}", fault.expected()));
+        }
+        assert_eq!((to_f32(1e39), to_f32(f64::INFINITY)), (Err(NumberError::TooLarge), Ok(f32::INFINITY)));
+    }
+}

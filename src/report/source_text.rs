@@ -1,0 +1,98 @@
+//! A text with its name, as messages quote it: any line is found at once, however many messages there are.
+
+use std::ops::Range;
+
+use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+
+/// A text with its name and an index of its lines. Lines end with a line feed; columns count characters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceText {
+    name: String,
+    text: String,
+    /// Where each line starts, in bytes.
+    starts: Vec<usize>,
+    /// Columns are bytes.
+    ascii: bool,
+}
+
+impl SourceText {
+    /// A text, and what to call it in messages.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect();
+        Self { name: name.into(), ascii: text.is_ascii(), starts, text }
+    }
+
+    /// What the text is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The line, from 0, that holds a byte; the byte behind the text belongs to the last.
+    pub fn line_of(&self, byte: usize) -> usize {
+        self.starts.partition_point(|&start| start <= byte).saturating_sub(1)
+    }
+
+    /// The bytes of a line, from 0, with its end.
+    pub fn line_range(&self, line: usize) -> Range<usize> {
+        let place = |line: usize| self.starts.get(line).copied().unwrap_or(self.text.len());
+        place(line)..place(line + 1)
+    }
+
+    /// The column, from 0, of a byte in its line.
+    pub fn column_of(&self, byte: usize) -> usize {
+        let start = self.line_range(self.line_of(byte)).start;
+        let end = self.text.floor_char_boundary(byte);
+        if self.ascii { end - start } else { self.text[start.min(end)..end].chars().count() }
+    }
+}
+
+impl SourceCode for SourceText {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let (start, end) = (span.offset(), span.offset().saturating_add(span.len()));
+        if end > self.text.len() {
+            return Err(MietteError::OutOfBounds);
+        }
+        let first = self.line_of(start).saturating_sub(before);
+        // The last byte of the span decides, not the one behind it.
+        let last = self.line_of(end.saturating_sub(1).max(start)).saturating_add(after);
+        let from = if before == 0 { start } else { self.line_range(first).start };
+        let to = if after == 0 { end } else { self.line_range(last).end };
+        let column = if before == 0 { self.column_of(start) } else { 0 };
+        let data = &self.text.as_bytes()[from..to];
+        let lines = last.min(self.starts.len() - 1) - first + 1;
+        let at = (from, to - from).into();
+        Ok(Box::new(MietteSpanContents::new_named(self.name.clone(), data, at, first, column, lines)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places() {
+        let text = SourceText::new("x", "ab\nü = 1\r\n\nend");
+        assert_eq!([0, 2, 3, 4, 10, 11, 12, 15].map(|byte| text.line_of(byte)), [0, 0, 1, 1, 1, 2, 3, 3]);
+        assert_eq!([0, 2, 3, 5, 6, 12, 15].map(|byte| text.column_of(byte)), [0, 2, 0, 1, 2, 0, 3]);
+        assert_eq!((text.line_range(1), text.line_range(3), text.line_range(9)), (3..11, 12..15, 15..15));
+        assert!(text.read_span(&(15, 1).into(), 1, 1).is_err());
+        let read = |span: (usize, usize), around| {
+            let contents = text.read_span(&span.into(), around, around).expect("inside");
+            (String::from_utf8_lossy(contents.data()).into_owned(), contents.line(), contents.column())
+        };
+        assert_eq!(read((6, 1), 0), ("=".to_owned(), 1, 2));
+        assert_eq!(read((6, 1), 1), ("ab\nü = 1\r\n\n".to_owned(), 0, 0));
+        assert_eq!(read((15, 0), 1), ("\nend".to_owned(), 2, 0));
+    }
+}

@@ -1,0 +1,424 @@
+//! Hostile and careless values for every option of every subcommand: exit code 2, one message, nothing left behind.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use rayon::prelude::*;
+
+/// Values that somebody may give to any option.
+const HOSTILE: &[&str] = &[
+    "",
+    " ",
+    "nan",
+    "inf",
+    "-inf",
+    "1e39",
+    "-1e39",
+    "1e400",
+    "-1",
+    "0",
+    "-0",
+    "4294967296",
+    "18446744073709551616",
+    "1,nan,2",
+    "-1,-1",
+    "0x0",
+    "1e9x1e9",
+    "99999999999999999999x1",
+    ",",
+    "=",
+    "a=",
+    "a=1e39,0,0",
+    "=1,1,1",
+    "--",
+    "-",
+    ".",
+    "..",
+    "/",
+    "nowhere/at.all",
+    "\u{202e}x",
+    "\u{1b}[2J",
+    "a\nb",
+    "🫖",
+];
+
+/// Each subcommand with the options that take values, and arguments with which it fails before any work whatever they say: the test is of
+/// what it says, and of what it leaves.
+const COMMANDS: &[(&[&str], &[&str])] = &[
+    (&["alu", "add", "--format", "fp99"], &["--format", "--to", "--tininess"]),
+    (&["check", "nowhere.psa"], &["--device", "--switch"]),
+    (
+        &["compare", "nowhere.toml"],
+        &[
+            "--left",
+            "--right",
+            "--adapter",
+            "--left-device",
+            "--right-device",
+            "--left-format",
+            "--right-format",
+            "--left-switch",
+            "--right-switch",
+            "--pixel",
+        ],
+    ),
+    (&["devices", "nowhere"], &["--probe"]),
+    (
+        &["intersect", "--mesh", "nowhere.obj"],
+        &["--mesh", "--rays", "--sides", "--device", "--executor", "--adapter", "--out"],
+    ),
+    (
+        &["leaky-teapot", "--device", "nowhere"],
+        &[
+            "--size",
+            "--tessellation",
+            "--device",
+            "--format",
+            "--out",
+            "--rays-per-edge",
+            "--seed",
+            "--sides",
+            "--executor",
+            "--adapter",
+        ],
+    ),
+    (
+        &["radiosity", "nowhere.obj"],
+        &[
+            "--patches",
+            "--per-side",
+            "--factors",
+            "--strata",
+            "--hemicube",
+            "--seed",
+            "--require-closed",
+            "--enforce",
+            "--solver",
+            "--packing",
+            "--storage",
+            "--device",
+            "--executor",
+            "--adapter",
+            "--tolerance",
+            "--iterations",
+            "--emit",
+            "--paint",
+            "--frames",
+            "--size",
+            "--view",
+            "--eye",
+            "--target",
+            "--up",
+            "--tan-half-height",
+            "--exposure",
+            "--out",
+        ],
+    ),
+    (
+        &["render", "nowhere.obj"],
+        &[
+            "--size",
+            "--eye",
+            "--target",
+            "--up",
+            "--tan-half-height",
+            "--sides",
+            "--device",
+            "--executor",
+            "--adapter",
+            "--out",
+            "--renderer",
+            "--samples",
+            "--depth",
+            "--seed",
+            "--view",
+            "--exposure",
+            "--ambient",
+            "--lens",
+            "--photons",
+            "--gather",
+            "--caster",
+        ],
+    ),
+    (&["reproduce", "nowhere"], &["--out"]),
+    (&["run", "nowhere.toml"], &["--out", "--executor", "--adapter", "--trace"]),
+    (&["scene", "nowhere"], &["--out"]),
+    (&["timeline", "nowhere.toml"], &["--device", "--model", "--readback", "--trace", "--rays", "--mesh"]),
+];
+
+const GLOBAL: &[&str] = &["--threads", "--memory-limit"];
+
+struct Said {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+fn said(folder: &Path, arguments: &[OsString]) -> Said {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    command.args(arguments).current_dir(folder).stdin(Stdio::null());
+    let output = command.output().expect("the program that this test was built with");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");
+    Said { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+}
+
+/// One message, whole, that says nothing twice and does nothing to a terminal; and nothing else.
+fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).expect("a file");
+    }
+    let Said { code, stdout, stderr } = said(folder.path(), arguments);
+    assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
+    let errors = stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
+    // A shader's errors stand under one that counts them.
+    let one = errors == 1 || (errors > 1 && stderr.starts_with("Error: asm::syntax"));
+    assert!(one, "{arguments:?}: one error, not {errors}:\n{stderr}");
+    assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+    assert!(!stderr.contains(|c| c != '\n' && crossbar::report::visible::is_hidden(c)), "{arguments:?}: {stderr:?}");
+    assert_eq!(twice(&stderr), None, "{arguments:?}: {stderr}");
+    let left: Vec<_> =
+        fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
+    assert_eq!(left.len(), files.len(), "{arguments:?} left {left:?}");
+    stderr
+}
+
+/// A cause, behind an arrow, whose words the message in front of it has said already.
+fn twice(stderr: &str) -> Option<String> {
+    let words = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let (_, rest) = stderr.split_once("  x ")?;
+    let (message, causes) = rest.split_once("-> ")?;
+    let cause = words(
+        causes
+            .split("\n\n")
+            .next()?
+            .lines()
+            .take_while(|line| !line.contains("help:"))
+            .collect::<Vec<_>>()
+            .join(" ")
+            .as_str(),
+    );
+    words(message).contains(&cause).then_some(cause)
+}
+
+fn all_options() -> Vec<(Vec<&'static str>, &'static str)> {
+    let own = COMMANDS.iter().flat_map(|(base, options)| options.iter().map(|option| (base.to_vec(), *option)));
+    let global = GLOBAL.iter().map(|option| (vec!["alu", "add", "--format", "fp99"], *option));
+    own.chain(global).collect()
+}
+
+#[test]
+fn every_option_with_a_value_is_here() {
+    let known: Vec<String> = COMMANDS.iter().map(|(base, _)| base[0].to_owned()).collect();
+    for (base, options) in COMMANDS {
+        let help = crate::crossbar(&[base[0], "--help"], "").stdout;
+        for line in help.lines().filter(|line| line.trim_start().starts_with("--")) {
+            let mut words = line.split_whitespace();
+            let (option, value) = (words.next().expect("an option"), words.next());
+            let takes_value = value.is_some_and(|value| value.starts_with('<'));
+            assert!(
+                !takes_value || options.contains(&option) || GLOBAL.contains(&option),
+                "{} {option}: add it",
+                base[0]
+            );
+        }
+    }
+    let help = crate::crossbar(&["--help"], "").stdout;
+    assert!(known.iter().all(|name| help.contains(name.as_str())), "{known:?}");
+}
+
+#[test]
+fn hostile_values() {
+    let mut runs: Vec<Vec<OsString>> = Vec::new();
+    for (base, option) in all_options() {
+        let base = || base.iter().map(OsString::from).chain([OsString::from(option)]);
+        runs.extend(HOSTILE.iter().map(|value| base().chain([OsString::from(value)]).collect()));
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStringExt as _;
+            runs.push(base().chain([OsString::from_vec(b"\xff\xfe\x1b[31m".to_vec())]).collect());
+        }
+    }
+    runs.par_iter().for_each(|arguments| {
+        assert_refused(arguments, &[]);
+    });
+}
+
+/// Values that the option itself must refuse, with words that say what is wrong.
+#[test]
+fn what_is_wrong_is_said() {
+    const LARGE: &str = "too large for a 32-bit float: at most 3.4028235e38";
+    let render = |option: &'static str, value: &'static str| vec!["render", "white-box", option, value];
+    let room = |option: &'static str, value: &'static str| vec!["radiosity", "white-box", option, value];
+    let cases: Vec<(Vec<&str>, &str)> = vec![
+        (render("--lens", "-1,2"), "radius: expected a number not below 0, found `-1`"),
+        (render("--lens", "1,-2"), "focus: expected a number above 0, found `-2`"),
+        (render("--lens", "1"), "expected RADIUS,FOCUS as in 0.02,1.5; found `1`"),
+        (render("--eye", "-1e39,0,0"), LARGE),
+        (render("--up", "0,nan,0"), "expected a finite number, found `nan`"),
+        (render("--eye", "1,2"), "expected three numbers X,Y,Z, found `1,2`"),
+        (render("--tan-half-height", "1e39"), LARGE),
+        (
+            vec![
+                "render",
+                "white-box",
+                "--renderer",
+                "path",
+                "--eye",
+                "0,0,0.5",
+                "--target",
+                "0,1,0.5",
+                "--tan-half-height",
+                "-1",
+            ],
+            "above 0 and up to 1000000, found -1",
+        ),
+        (render("--ambient", "1e39"), LARGE),
+        (render("--exposure", "-1"), "expected a number above 0, found `-1`"),
+        (render("--exposure", "1e400"), "too large for a 64-bit float"),
+        (render("--size", "-1x4"), "expected a size as `512x512`, each side 1 to 16384, found `-1x4`"),
+        (render("--samples", "-1"), "-1 is not in 1..=1048576"),
+        (render("--seed", "-1"), "invalid value '-1' for '--seed <N>'"),
+        (render("--photons", "4294967296"), "4294967296 is not in"),
+        (room("--emit", "light=1e39,0,0"), LARGE),
+        (room("--emit", "light=-1,0,0"), "expected radiances of at least 0"),
+        (room("--paint", "red=1,2"), "expected three numbers R,G,B, found `1,2`"),
+        (room("--tolerance", "-1"), "expected a number not below 0, found `-1`"),
+        (room("--frames", "-1,2"), "-1 is not in 1..=100000"),
+        (vec!["timeline", "--rays", "-1,2"], "found `-1x2`"),
+        (
+            vec!["run", "nowhere.toml", "--trace", "-1,2"],
+            "expected a pixel as `3,4`, column and row from 0; found `-1,2`",
+        ),
+        (vec!["compare", "nowhere.toml", "--pixel", "-1,2"], "found `-1,2`"),
+        (vec!["compare", "nowhere.toml", "--adapter", "x"], "add `--left wgpu` or `--right wgpu`, or leave them out"),
+        (vec!["alu", "add", "--format", "fp16", "--threads", "-1"], "-1 is not in 1..=1024"),
+        (vec!["alu", "add", "--format", "fp16", "--verify"], "expected at least one line to verify, found none"),
+        (
+            vec!["alu", "add", "--format", "fp16", "--verify", "--json"],
+            "expected at least one line to verify, found none",
+        ),
+    ];
+    for (arguments, words) in cases {
+        let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
+        let flat = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let Said { code, stdout, stderr } = said(folder.path(), &arguments);
+        assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
+        assert!(flat(&stderr).contains(words), "{arguments:?}: {stderr}");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
+    }
+}
+
+/// Every place for a file with everything that is no such file.
+#[test]
+fn hostile_files() {
+    let commands: [&[&str]; 10] = [
+        &["check", "IN", "--device", "r200"],
+        &["run", "IN"],
+        &["compare", "IN"],
+        &["timeline", "IN"],
+        &["timeline", "--rays", "4x4", "--mesh", "IN"],
+        &["render", "IN"],
+        &["render", "IN", "--renderer", "eye"],
+        &["radiosity", "IN"],
+        &["intersect", "--mesh", "IN", "--rays", "r.csv", "--out", "h.csv"],
+        &["intersect", "--mesh", "m.obj", "--rays", "IN", "--out", "h.csv"],
+    ];
+    let nul = [b"v 0 0 0\n\0\n".as_slice(), b"f 1 1 1\n"].concat();
+    let wide = format!("x{}", "y".repeat(200_000));
+    let contents: [&[u8]; 9] = [
+        b"",
+        b"\n",
+        b"\0",
+        b"\xff\xfe",
+        b"\xef\xbb\xbf",
+        &nul,
+        wide.as_bytes(),
+        b"v 0 0 1e39\nv 0 0 0\nv 0 1 0\nf 1 2 3\n",
+        b"\x1b[2J\xc2\x9b",
+    ];
+    let good: [(&str, &[u8]); 2] =
+        [("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ("r.csv", b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n")];
+    let mut runs: Vec<(Vec<OsString>, Vec<(&str, &[u8])>)> = Vec::new();
+    for command in commands {
+        let with = |input: &str| command.iter().map(|a| OsString::from(a.replace("IN", input))).collect::<Vec<_>>();
+        for bytes in contents {
+            for name in ["in.obj", "in.toml", "in.csv"] {
+                runs.push((with(name), [&good[..], &[(name, bytes)]].concat()));
+            }
+        }
+        runs.push((with("."), good.to_vec()));
+        runs.push((with("m.obj/x"), good.to_vec()));
+        #[cfg(target_os = "linux")]
+        for device in ["/dev/null", "/proc/self/mem", "/dev/zero"] {
+            // A thousand million zeros are a table of rays, but a long one.
+            if !(device == "/dev/zero" && command[0] != "check" && command[0] != "run") {
+                runs.push((with(device), good.to_vec()));
+            }
+        }
+    }
+    runs.par_iter().for_each(|(arguments, files)| {
+        let stderr = assert_refused(arguments, files);
+        assert!(stderr.len() < 4000, "{arguments:?}: a message of {} bytes", stderr.len());
+    });
+}
+
+/// Every place for a result with everything that takes none.
+#[test]
+fn hostile_places_for_results() {
+    let files: [(&str, &[u8]); 3] = [
+        ("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("r.csv", b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n"),
+        ("file", b"mine"),
+    ];
+    let case = crate::case::example("modulate");
+    let folders: [&[&str]; 6] = [
+        &["run", &case],
+        &["render", "m.obj", "--size", "4x4"],
+        &["render", "white-box", "--size", "2x2"],
+        &["scene", "white-box"],
+        &["leaky-teapot", "--size", "2x2", "--tessellation", "1", "--format", "fp32"],
+        &["reproduce", "equation-11"],
+    ];
+    let not_folders = ["", "file", "file/x", "/dev/null", "/dev/null/x", "/proc/nowhere", "/dev/stdout"];
+    let single: [&[&str]; 2] =
+        [&["intersect", "--mesh", "m.obj", "--rays", "r.csv", "--out"], &["timeline", &case, "--trace"]];
+    let not_files = ["", ".", "/", "..", "file/x", "/proc/nowhere", "/dev/full"];
+    let mut runs: Vec<Vec<OsString>> = Vec::new();
+    for (commands, places, option) in
+        [(&folders[..], &not_folders[..], Some("--out")), (&single[..], &not_files[..], None)]
+    {
+        for (command, place) in commands.iter().flat_map(|command| places.iter().map(move |place| (command, place))) {
+            let words = command.iter().copied().chain(option).chain([*place]);
+            runs.push(words.map(OsString::from).collect());
+        }
+    }
+    runs.par_iter().for_each(|arguments| {
+        assert_refused(arguments, &files);
+    });
+}
+
+/// No error repeats in its own words what its cause says: whoever prints the chain would print it twice.
+#[test]
+fn no_error_says_its_cause_twice() {
+    fn sources(folder: &Path, found: &mut Vec<String>) {
+        for entry in fs::read_dir(folder).expect("a folder of sources").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = fs::read_to_string(&path).expect("a source");
+                let lines = text.lines().filter(|line| line.contains("error(\"") && line.contains("{source"));
+                found.extend(lines.map(|line| format!("{}: {}", path.display(), line.trim())));
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for source in ["src", "refsim/src"] {
+        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join(source), &mut found);
+    }
+    assert!(found.is_empty(), "name the field `reason` where the message has it: {found:#?}");
+}

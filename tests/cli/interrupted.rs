@@ -1,0 +1,108 @@
+//! A program that is told to end leaves nothing half-written.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::process::ExitStatusExt as _;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+fn begin(folder: &Path, arguments: &[&str]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().expect("the program that this test was built with")
+}
+
+fn staging(folder: &Path) -> usize {
+    let entries = fs::read_dir(folder).expect("a folder").flatten();
+    entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(".crossbar-")).count()
+}
+
+/// Waits until the long work has begun, which is after its staging folder is there.
+fn begun(child: &mut Child, folder: &Path) {
+    let start = Instant::now();
+    while staging(folder) == 0 {
+        assert!(child.try_wait().expect("a child").is_none(), "the work is long enough to be interrupted");
+        assert!(start.elapsed() < Duration::from_secs(120), "the work begins");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn signal(child: &Child, name: &str) {
+    let sent = Command::new("kill").args(["-s", name, &child.id().to_string()]).status().expect("kill, of any system");
+    assert!(sent.success());
+}
+
+/// Work of minutes, which every test here ends early.
+const LONG: &[&str] = &["render", "white-box", "--renderer", "path", "--samples", "100000", "--size", "64x64"];
+
+#[test]
+fn signals_leave_nothing_behind() {
+    for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        for (out, staged) in [("new", "."), ("there", "there")] {
+            let folder = tempfile::tempdir().expect("a folder for the test");
+            fs::create_dir(folder.path().join("there")).expect("a folder");
+            fs::write(folder.path().join("there/mine"), "mine").expect("a file");
+            let mut child = begin(folder.path(), &[LONG, &["--out", out]].concat());
+            begun(&mut child, &folder.path().join(staged));
+            signal(&child, name);
+            let status = child.wait().expect("a child");
+            // Shells report death by signal n as 128 + n: 130, 143 and 129.
+            assert_eq!(status.signal(), Some(number), "{name}");
+            assert_eq!(staging(folder.path()) + staging(&folder.path().join("there")), 0, "{name}");
+            assert!(!folder.path().join("new").exists(), "{name}: no folder either");
+            assert_eq!(fs::read_dir(folder.path().join("there")).expect("a folder").count(), 1, "{name}");
+        }
+    }
+}
+
+#[test]
+fn shells_see_130_and_143() {
+    for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        // A shell without job control starts what is in the background with SIGINT ignored, so the program is in its foreground.
+        let script = format!(
+            "(until ls -d .crossbar-* > /dev/null 2>&1; do sleep 0.02; done; kill -s {name} $(cat pid)) & \
+             sh -c 'echo $$ > pid; exec \"$0\" \"$@\"' \"$@\"; echo $?"
+        );
+        let mut command = Command::new("sh");
+        command.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
+        let output = command.stdin(Stdio::null()).output().expect("a shell");
+        assert_eq!(String::from_utf8_lossy(&output.stdout).lines().last(), Some(code.to_string().as_str()), "{name}");
+        assert_eq!(staging(folder.path()), 0, "{name}");
+    }
+}
+
+/// `nohup` ignores SIGHUP on behalf of its program.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_is_ignored_stays_ignored() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let mut command = Command::new("sh");
+    command.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_crossbar")]).args(LONG);
+    command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().expect("a shell");
+    begun(&mut child, folder.path());
+    signal(&child, "HUP");
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(child.try_wait().expect("a child").is_none(), "it goes on");
+    signal(&child, "TERM");
+    assert_eq!(child.wait().expect("a child").signal(), Some(15));
+    assert_eq!(staging(folder.path()), 0);
+}
+
+/// What a kill leaves, the next run clears away.
+#[test]
+fn the_next_run_clears_up_after_a_kill() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let mut child = begin(folder.path(), &[LONG, &["--out", "new"]].concat());
+    begun(&mut child, folder.path());
+    // The lock is taken a moment after the folder is made.
+    std::thread::sleep(Duration::from_millis(200));
+    child.kill().expect("a child");
+    child.wait().expect("a child");
+    assert_eq!(staging(folder.path()), 1, "nobody cleans up after SIGKILL");
+    let ran = crate::crossbar_in(folder.path(), &["scene", "white-box", "--out", "new"], "");
+    assert_eq!((ran.code, staging(folder.path())), (Some(0), 0), "{}", ran.stderr);
+    assert_eq!(fs::read_dir(folder.path().join("new")).expect("a folder").count(), 3);
+}
