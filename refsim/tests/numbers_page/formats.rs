@@ -114,9 +114,9 @@ impl Words {
         let (a, b) = self.layout;
         if self.fixed {
             let spare = 31 - a - b;
-            return f64::from(((bits << spare) as i32) >> spare) * power(-b);
+            return f64::from((bits << spare).cast_signed() >> spare) * power(-b);
         }
-        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)) as i32);
+        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)).cast_signed());
         let mantissa = f64::from(bits & ((1 << b) - 1));
         let magnitude = match field {
             0 if self.flush => 0.0,
