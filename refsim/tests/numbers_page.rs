@@ -61,6 +61,11 @@ impl Random {
     }
 }
 
+/// 2^n as a double.
+fn power(n: i32) -> f64 {
+    f64::from_bits(((n + 1023) as u64) << 52)
+}
+
 /// A pattern with its NaN made the page's one.
 fn clean(x: f32) -> u32 {
     if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }

@@ -68,11 +68,11 @@ pub enum CaseError {
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
     Draw(Box<MachineError>),
     /// A program did not end within its step budget.
-    #[error("the case cannot be drawn: {source}")]
+    #[error("the case cannot be drawn: {error}")]
     #[diagnostic(code(crossbar::case::steps), help("{help}"))]
     StepBudget {
         /// Which pixel or vertex, and how many steps it had.
-        source: Box<MachineError>,
+        error: Box<MachineError>,
         /// What to do.
         help: String,
         /// The program's text.

@@ -1,6 +1,7 @@
 //! A case in the memory of a card: ready to be drawn, or followed pixel by pixel.
 
 use refsim::{
+    device::DEFAULT_STEP_BUDGET,
     event::{DrawEvents, Event, TexelObserver},
     exec::ResolvedConstants,
     machine::{
@@ -135,19 +136,18 @@ pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
 
 /// An error of the machine: one about a program with the place in its text.
 fn placed(setup: &Setup, error: MachineError) -> CaseError {
-    let MachineError::StepBudget { place, span, budget, .. } = error else { return error.into() };
+    let MachineError::StepBudget { place, span, .. } = error else { return error.into() };
     let (text, key) = match place {
         ProgramPlace::Pixel { .. } => (Some(&setup.pixel_text), "pixel"),
         ProgramPlace::Vertex { .. } => (setup.vertex_text.as_ref(), "vertex"),
     };
     let Some(text) = text else { return error.into() };
     let help = format!(
-        "let it end sooner, or allow more steps: `--step-budget`, or `step_budget` in the case; {budget} is \
-         `limits.{key}_step_budget` of `{}`",
-        setup.profile.name
+        "let it end sooner, or allow more steps: `--step-budget`, or `step_budget` in the case; the budget of a device is \
+         its `limits.{key}_step_budget`, {DEFAULT_STEP_BUDGET} where it states none"
     );
     let span = (span.start as usize, span.end.saturating_sub(span.start) as usize).into();
-    CaseError::StepBudget { source: Box::new(error), help, source_code: text.named_source(), span }
+    CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }
 }
 
 /// The values of each attribute register, vertex by vertex.

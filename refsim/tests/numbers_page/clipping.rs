@@ -19,7 +19,7 @@ type Snapped = (i64, i64, f32, f32);
 fn distances([x, y, z, w]: [f32; 4], opengl: bool) -> [f32; 7] {
     let band = 8.0 * w;
     let near = if opengl { z + w } else { z };
-    [w - 2f32.powi(-64), near, w - z, band + x, band - x, band + y, band - y]
+    [w - f32::from_bits((127 - 64) << 23), near, w - z, band + x, band - x, band + y, band - y]
 }
 
 fn is_inside(distance: f32) -> bool {

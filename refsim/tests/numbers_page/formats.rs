@@ -1,6 +1,6 @@
 //! "Formats": the value of every pattern and one rounding, in exact doubles.
 
-use super::{Random, probes};
+use super::{Random, power, probes};
 use refsim::num::{Flags, Format, ops};
 
 /// A format by its words.
@@ -52,7 +52,7 @@ impl Words {
     pub(crate) fn round(&self, x: f64) -> (u32, Flags) {
         let (a, b) = self.layout;
         if self.fixed {
-            let (top, units) = (2f64.powi(a + b), x * 2f64.powi(b));
+            let (top, units) = (power(a + b), x * power(b));
             let (width, kept) = (1 + a + b, self.whole(units));
             let mask = u32::MAX >> (32 - width);
             let pattern = |k: f64| (k as i64 as u32) & mask;
@@ -78,12 +78,12 @@ impl Words {
         // The exponent of a double that is exact: its own field.
         let exponent = |x: f64| if x == 0.0 { -5000 } else { ((x.to_bits() >> 52 & 0x7ff) as i32) - 1023 };
         let at = |least: i32| {
-            let unit = 2f64.powi(exponent(x).max(least) - b);
+            let unit = power(exponent(x).max(least) - b);
             self.whole(x / unit) * unit
         };
         let (rounded, least) = (at(1 - bias), 1 - bias);
-        if rounded.abs() >= 2f64.powi(bias + 1) {
-            let huge = x.abs() >= 2f64.powi(bias + 1);
+        if rounded.abs() >= power(bias + 1) {
+            let huge = x.abs() >= power(bias + 1);
             let infinite = match (self.overflow, self.rounding) {
                 ("sat", _) | (_, "rtz") if self.overflow != "nvovf" => false,
                 ("nvovf", _) => huge,
@@ -94,17 +94,17 @@ impl Words {
             return (sign | magnitude, Flags::OVERFLOW | Flags::INEXACT);
         }
         let mut flags = if rounded == x { Flags::empty() } else { Flags::INEXACT };
-        if rounded != x && at(-4000).abs() < 2f64.powi(least) {
+        if rounded != x && at(-4000).abs() < power(least) {
             flags |= Flags::UNDERFLOW;
         }
         let magnitude = rounded.abs();
-        if self.flush && magnitude != 0.0 && magnitude < 2f64.powi(least) {
+        if self.flush && magnitude != 0.0 && magnitude < power(least) {
             return (sign, Flags::UNDERFLOW | Flags::INEXACT);
         }
         let field = exponent(magnitude).max(least - 1) - least + 1;
         let mantissa = match field {
-            0 => magnitude / 2f64.powi(least - b),
-            _ => magnitude / 2f64.powi(exponent(magnitude) - b) - 2f64.powi(b),
+            0 => magnitude / power(least - b),
+            _ => magnitude / power(exponent(magnitude) - b) - power(b),
         };
         (sign | (field as u32) << b | mantissa as u32, flags)
     }
@@ -114,13 +114,13 @@ impl Words {
         let (a, b) = self.layout;
         if self.fixed {
             let spare = 31 - a - b;
-            return f64::from(((bits << spare) as i32) >> spare) * 2f64.powi(-b);
+            return f64::from((bits << spare).cast_signed() >> spare) * power(-b);
         }
-        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)) as i32);
+        let (bias, field) = ((1 << (a - 1)) - 1, (bits >> b & ((1 << a) - 1)).cast_signed());
         let mantissa = f64::from(bits & ((1 << b) - 1));
         let magnitude = match field {
             0 if self.flush => 0.0,
-            0 => mantissa * 2f64.powi(1 - bias - b),
+            0 => mantissa * power(1 - bias - b),
             _ if field == (1 << a) - 1 => {
                 if mantissa == 0.0 {
                     f64::INFINITY
@@ -128,7 +128,7 @@ impl Words {
                     f64::NAN
                 }
             }
-            _ => (mantissa + 2f64.powi(b)) * 2f64.powi(field - bias - b),
+            _ => (mantissa + power(b)) * power(field - bias - b),
         };
         if bits >> (a + b) & 1 == 1 { -magnitude } else { magnitude }
     }

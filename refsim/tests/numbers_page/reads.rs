@@ -36,9 +36,10 @@ fn half_logarithm(x: f32, bits: u32) -> f32 {
     let mut level = i64::from((exact >> 52) as i32 - 1023);
     let mut significand = u128::from(exact & ((1 << 52) - 1) | 1 << 52) << 10;
     for _ in 0..bits {
-        significand = significand * significand >> 62;
-        level = 2 * level + i64::from(significand >> 63 == 1);
-        significand >>= significand >> 63;
+        significand = (significand * significand) >> 62;
+        let carry = significand >> 63;
+        level = 2 * level + i64::from(carry == 1);
+        significand >>= carry;
     }
     (level.div_euclid(2)) as f32 / (1 << bits) as f32
 }

@@ -106,7 +106,7 @@ fn channel(text: &str) -> Channel {
 }
 
 /// What a read gives for a component: a channel, or a constant.
-pub(crate) fn component<'c>(channels: &'c [Channel], component: usize) -> Result<&'c Channel, i64> {
+pub(crate) fn component(channels: &[Channel], component: usize) -> Result<&Channel, i64> {
     let has = |letter: char| channels.iter().find(|c| c.letter == letter);
     if let Some(found) = has(['r', 'g', 'b', 'a'][component]).or_else(|| has('l').filter(|_| component < 3)) {
         return Ok(found);

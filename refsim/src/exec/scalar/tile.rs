@@ -54,6 +54,10 @@ impl<'a> ScalarTiles<'a> {
         let mut counts = FragmentCounts::default();
         let mut first: Option<Overrun> = None;
         for quad in triangle.quads(region) {
+            // Quads that can only have later ones need not run.
+            if first.is_some_and(|known| (known.y, known.x) < (quad.y, quad.x)) {
+                continue;
+            }
             let overrun = self.shade(triangle, &quad, tile, &mut counts, observer);
             first = first.into_iter().chain(overrun).min();
         }
