@@ -41,7 +41,8 @@ fn rendered(source: &dyn SourceCode, spans: &[Range<usize>]) -> String {
 #[test]
 fn a_short_line_stays_whole() {
     let source = SourceText::new("x.psa", "ps_1_4\nmov r0, \x1b[31mc0\nend\n");
-    insta::assert_snapshot!(rendered(&source, &[16..18]), @"");
+    let text = rendered(&source, &[16..18]);
+    assert!(text.contains("[x.psa:2:10]") && text.contains("| mov r0, \\u{1b}[31mc0\n"), "{text}");
 }
 
 #[test]
@@ -49,7 +50,9 @@ fn a_long_line_is_cut_around_its_label() {
     let line = format!("{}mov r0, wrong{}", "é".repeat(70_000), " ; more".repeat(100_000));
     let at = line.find("wrong").expect("there");
     let source = SourceText::new("x.psa", format!("ps_1_4\n{line}\n{line}"));
-    insta::assert_snapshot!(rendered(&source, &[7 + at..7 + at + 5]), @"");
+    let text = rendered(&source, &[7 + at..7 + at + 5]);
+    assert!(text.contains("[x.psa:2:70009]"), "{text}");
+    assert!(text.contains("| ...éééééééééééémov r0, wrong ; more") && text.len() < 1000, "{text}");
 }
 
 #[test]
