@@ -148,6 +148,9 @@ const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["timeline", "nowhere.toml"], &["--device", "--model", "--readback", "--trace", "--rays", "--mesh"]),
 ];
 
+/// Names and contents.
+type Files<'a> = Vec<(&'a str, &'a [u8])>;
+
 const GLOBAL: &[&str] = &["--threads", "--memory-limit"];
 
 struct Said {
@@ -346,7 +349,7 @@ fn hostile_files() {
     ];
     let good: [(&str, &[u8]); 2] =
         [("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ("r.csv", b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n")];
-    let mut runs: Vec<(Vec<OsString>, Vec<(&str, &[u8])>)> = Vec::new();
+    let mut runs: Vec<(Vec<OsString>, Files<'_>)> = Vec::new();
     for command in commands {
         let with = |input: &str| command.iter().map(|a| OsString::from(a.replace("IN", input))).collect::<Vec<_>>();
         for bytes in contents {

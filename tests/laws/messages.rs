@@ -38,10 +38,14 @@ fn rendered(source: &dyn SourceCode, spans: &[Range<usize>]) -> String {
     text
 }
 
+fn rendered_at(source: &dyn SourceCode, span: Range<usize>) -> String {
+    rendered(source, std::slice::from_ref(&span))
+}
+
 #[test]
 fn a_short_line_stays_whole() {
     let source = SourceText::new("x.psa", "ps_1_4\nmov r0, \x1b[31mc0\nend\n");
-    let text = rendered(&source, &[16..18]);
+    let text = rendered_at(&source, 16..18);
     assert!(text.contains("[x.psa:2:10]") && text.contains("| mov r0, \\u{1b}[31mc0\n"), "{text}");
 }
 
@@ -50,7 +54,7 @@ fn a_long_line_is_cut_around_its_label() {
     let line = format!("{}mov r0, wrong{}", "é".repeat(70_000), " ; more".repeat(100_000));
     let at = line.find("wrong").expect("there");
     let source = SourceText::new("x.psa", format!("ps_1_4\n{line}\n{line}"));
-    let text = rendered(&source, &[7 + at..7 + at + 5]);
+    let text = rendered_at(&source, 7 + at..7 + at + 5);
     assert!(text.contains("[x.psa:2:70009]"), "{text}");
     assert!(text.contains("| ...éééééééééééémov r0, wrong ; more") && text.len() < 1000, "{text}");
 }
@@ -60,8 +64,8 @@ fn labels_at_the_edges_of_a_text() {
     for text in ["", "\n", "a", "a\n", "a\r\nb", "\u{feff}"] {
         let source = SourceText::new("x", text);
         for start in (0..=text.len()).filter(|&at| text.is_char_boundary(at)) {
-            rendered(&source, &[start..start]);
-            rendered(&source, &[start..text.len()]);
+            rendered_at(&source, start..start);
+            rendered_at(&source, start..text.len());
         }
     }
 }
