@@ -107,7 +107,8 @@ proptest! {
     fn columns_count_characters(line in "\\PC{0,300}", place in any::<prop::sample::Index>()) {
         let ends: Vec<usize> = line.char_indices().map(|(at, _)| at).chain([line.len()]).collect();
         let column = place.index(ends.len());
-        let text = rendered(&SourceText::new("x", format!("first\n{line}\n")), &[6 + ends[column]..6 + ends[column]]);
+        let at = 6 + ends[column];
+        let text = rendered_at(&SourceText::new("x", format!("first\n{line}\n")), at..at);
         prop_assert!(text.contains(&format!("[x:2:{}]", column + 1)), "{text}");
     }
 }
