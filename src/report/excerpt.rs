@@ -1,6 +1,7 @@
 //! What a message shows of a text: the lines around its labels, long ones cut, hidden characters escaped.
 
 use std::ops::Range;
+use std::slice;
 
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
@@ -92,7 +93,7 @@ impl SourceCode for Excerpt {
 /// A line without its end as a table quotes it: blanks around it left out, tabs made blanks, cut around the byte `focus` if it is long.
 pub fn quoted_line(line: &str, focus: usize) -> String {
     let mut text = String::new();
-    push_line(&mut text, line.as_bytes(), 0, &[focus..focus], &mut [0..0]);
+    push_line(&mut text, line.as_bytes(), 0, slice::from_ref(&(focus..focus)), slice::from_mut(&mut (0..0)));
     text.replace('\t', " ").trim().to_owned()
 }
 
