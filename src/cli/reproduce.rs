@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::{Out, Problem, Progress, Verdict, view};
 use crate::io::atomic::FileSet;
 use crate::report::{Provenance, Table};
-use crate::study::reproduce::report::{Reproduced, files, held, json, notes, rows};
-use crate::study::reproduce::{ENTRIES, choose};
+use crate::study::reproduce::report::{files, held, json, notes, questions, tables, tally_line};
+use crate::study::reproduce::{ENTRIES, choose, reproduce};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,10 +17,14 @@ Examples:
   crossbar reproduce --list
       the entries
 
-Written to --out: index.html (self-contained), rows.csv, reproduce.json and a drawing NAME.svg a chart.
-Ends with 1 if a figure is neither met nor its miss explained.";
+Written to --out: index.html (self-contained), rows.csv, tally.csv, reproduce.json, and a drawing
+NAME.svg per chart.
+Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
+bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
+vague to judge.
+Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
-/// Reproduce printed tables and figures: the papers' values beside both timing models'
+/// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
@@ -49,11 +53,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let provenance = Provenance::new(command);
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let bar = Progress::new("reproducing", chosen.len() as u64);
-    let mut found = Reproduced::new();
-    for entry in chosen {
-        found.push((entry, entry.reproduce()?));
-        bar.advance(1);
-    }
+    let found = reproduce(&chosen, &mut || bar.advance(1))?;
     drop(bar);
     view::write_folder(folder, &files(&found, &provenance)?)?;
     let verdict = Verdict::held(held(&found));
@@ -61,10 +61,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         out.document(&json(&found, &provenance))?;
         return Ok(verdict);
     }
-    for table in [rows(&found), notes(&found)] {
+    for table in tables(&found).into_iter().chain([notes(&found)]) {
         if !table.rows().is_empty() {
             print(&table, out)?;
         }
+    }
+    out.line(format_args!("tally: {}", tally_line(&found)))?;
+    for (entry, question) in questions(&found) {
+        out.line(format_args!("open ({entry}): {question}"))?;
     }
     out.line(format_args!("page, tables and drawings: {}", args.out.join("index.html").display()))?;
     Ok(verdict)

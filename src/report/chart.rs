@@ -36,19 +36,25 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// Lines over an axis to the right that starts at 0 and an axis upward.
-#[derive(Clone, Debug, PartialEq)]
+/// Lines and points over an axis to the right that starts at 0 and an axis upward.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
     /// What the chart shows.
     pub title: String,
-    /// The axis to the right, with its unit.
+    /// The axis to the right, with its unit; nothing where `ticks` say what stands there.
     pub x: String,
     /// The axis upward, with its unit.
     pub y: String,
     /// How the axis upward grows.
     pub y_scale: Scale,
-    /// The lines, at most six of different colours.
+    /// The lines; with `dots`, at most six of different colours.
     pub lines: Vec<Line>,
+    /// Points that no line joins.
+    pub dots: Vec<Line>,
+    /// A paper's points: black rings, called "printed".
+    pub printed: Vec<(f64, f64)>,
+    /// What stands at 1, 2, ... of the axis to the right, where that has no numbers.
+    pub ticks: Vec<String>,
 }
 
 impl Chart {
@@ -58,9 +64,12 @@ impl Chart {
     /// [`ReportError::Encode`] if there is nothing to draw.
     pub fn svg(&self) -> Result<String, ReportError> {
         let fail = |reason: String| ReportError::Encode { format: "SVG", reason };
-        let shown: Vec<Vec<(f64, f64)>> = self.lines.iter().map(|line| self.shown(&line.points)).collect();
+        let all = self.lines.iter().chain(&self.dots).map(|line| &line.points).chain([&self.printed]);
+        let shown: Vec<Vec<(f64, f64)>> = all.map(|points| self.shown(points)).collect();
         let most = |of: fn(&(f64, f64)) -> f64| shown.iter().flatten().map(of).fold(f64::NEG_INFINITY, f64::max);
-        let (right, top) = (most(|p| p.0), most(|p| p.1));
+        // Names stand in the middle of as much room each.
+        let right = if self.ticks.is_empty() { most(|p| p.0) } else { self.ticks.len() as f64 + 0.5 };
+        let top = most(|p| p.1);
         let [low, high] = match self.y_scale {
             Scale::Linear => [0.0, top * 1.05],
             Scale::Logarithmic => {
@@ -108,12 +117,34 @@ impl Chart {
             // A label a power of ten while there are few, so that no label is rounded.
             mesh.y_labels(((high - low) as usize + 1).min(25)).y_label_formatter(&power);
         }
+        let name = |x: &f64| {
+            let place = x.round();
+            let there = (x - place).abs() < 0.01 && place >= 1.0;
+            self.ticks.get(place as usize - usize::from(there)).filter(|_| there).cloned().unwrap_or_default()
+        };
+        if !self.ticks.is_empty() {
+            mesh.x_labels(self.ticks.len() + 1).x_label_formatter(&name);
+        }
         mesh.x_desc(&self.x).y_desc(&self.y).light_line_style(WHITE).label_style(("sans-serif", 13)).draw()?;
-        for ((line, points), color) in self.lines.iter().zip(shown).zip(PALETTE.iter().cycle()) {
+        let (lines, points) = shown.split_at(self.lines.len());
+        let (dots, printed) = points.split_at(self.dots.len());
+        let mut colors = PALETTE.iter().cycle();
+        for ((line, points), color) in self.lines.iter().zip(lines).zip(&mut colors) {
             chart
                 .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?
                 .label(&line.label)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
+        }
+        for ((line, points), color) in self.dots.iter().zip(dots).zip(&mut colors) {
+            chart
+                .draw_series(points.iter().map(|point| Circle::new(*point, MARK, color.filled())))?
+                .label(&line.label)
+                .legend(move |(x, y)| Circle::new((x + 9, y), MARK, color.filled()));
+        }
+        let ring = BLACK.stroke_width(2);
+        let printed = chart.draw_series(printed.iter().flatten().map(|point| Circle::new(*point, MARK, ring)))?;
+        if !self.printed.is_empty() {
+            printed.label("printed").legend(move |(x, y)| Circle::new((x + 9, y), MARK, ring));
         }
         chart
             .configure_series_labels()
@@ -130,19 +161,16 @@ impl Chart {
     }
 }
 
+/// Radius of a point, in pixels.
+const MARK: i32 = 5;
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
         let line = Line { label: "a <line>".to_owned(), points };
-        Chart {
-            title: "title".to_owned(),
-            x: "x".to_owned(),
-            y: "y".to_owned(),
-            y_scale: Scale::Linear,
-            lines: vec![line],
-        }
+        Chart { title: "title".to_owned(), x: "x".to_owned(), y: "y".to_owned(), lines: vec![line], ..Chart::default() }
     }
 
     #[test]
@@ -160,6 +188,20 @@ mod tests {
             assert!(svg.contains(&format!("\n{label}\n")), "{label}: {svg}");
         }
         assert!(Chart { y_scale: Scale::Logarithmic, ..chart(vec![(1.0, 0.0)]) }.svg().is_err());
+    }
+
+    #[test]
+    fn points_and_names_are_drawn() {
+        let series = |label: &str| Line { label: label.to_owned(), points: vec![(1.0, 2.0), (2.0, 3.0)] };
+        let ticks = ["an office", "a room"].map(str::to_owned).into();
+        let dots = vec![series("ours")];
+        let chart = Chart { dots, printed: vec![(1.0, 2.5), (2.0, 1.0)], ticks, ..chart(Vec::new()) };
+        let svg = chart.svg().expect("four points");
+        for text in ["an office", "a room", "ours", "printed"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        // Two points each, and one in the legend.
+        assert_eq!(svg.matches("<circle").count(), 6, "{svg}");
     }
 
     #[test]

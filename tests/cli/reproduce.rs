@@ -22,12 +22,24 @@ fn the_rows_are_these() {
     // The tables of whole renderings take long; tests/papers holds theirs.
     let quick = ["radeon-8500", "vertex-variant", "equation-11", "figure-7"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &quick[..]].concat(), "");
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert_eq!(ran.code, Some(1), "figures are missed: {}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    assert_eq!(document["rows"].as_array().map(Vec::len), Some(11));
+    assert_eq!(document["rows"].as_array().map(Vec::len), Some(17));
+    let tally = document["tally"].as_array().expect("a tally");
+    let counted: u64 = tally.iter().filter_map(|row| row["rows"].as_u64()).sum();
+    assert_eq!(counted, 17, "every row has one verdict: {tally:?}");
     let file = |name: &str| std::fs::read_to_string(folder.path().join("found").join(name)).expect("it was written");
     assert!(file("index.html").contains("<svg") && file("figure-7-gamma-4.svg").starts_with("<svg"));
     let written: serde_json::Value = serde_json::from_str(&file("reproduce.json")).expect("JSON");
     assert_eq!(written["rows"], document["rows"]);
-    insta::assert_snapshot!(file("rows.csv"));
+    insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
+}
+
+/// What holds ends with 0, and says so in text.
+#[test]
+fn nothing_missed_is_success() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = crossbar_in(folder.path(), &["reproduce", "equation-11", "--out", "found"], "");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    insta::assert_snapshot!(ran.stdout);
 }

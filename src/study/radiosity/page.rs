@@ -89,6 +89,7 @@ fn residuals(outcome: &Outcome) -> Option<Chart> {
         y: "error".to_owned(),
         y_scale: Scale::Logarithmic,
         lines,
+        ..Chart::default()
     })
 }
 

@@ -2,13 +2,16 @@
 
 use refsim::device::Profile;
 
-use super::{Findings, Modelled, Printed, ReproduceError, Row, figure, pipeline};
+use super::pipeline::model;
+use super::{Bound, Findings, Method, Origin, Prose, ReproduceError, Row, Standing, Target, figure, number, pipeline};
 use crate::ray_engine::model::CostRates;
 
 /// Bytes a ray: a triangle id; an id with three barycentric coordinates.
 pub(super) const GAMMAS: [f64; 2] = [4.0, 16.0];
 /// Triangles of the paper's example.
-const TEN: f64 = 10.0;
+pub(super) const TEN: f64 = 10.0;
+/// Printed millions of tests a second at ten triangles, in the text under figure 7.
+pub(super) const TEN_TRIANGLES: [(&str, f64); 2] = [("nv20", 240.0), ("nv25", 286.0)];
 /// In millions.
 pub(super) const MEGA: f64 = 1e6;
 
@@ -22,70 +25,81 @@ pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
     })
 }
 
-const fn printed(value: f64, decimals: usize, unit: &'static str) -> Printed {
-    Printed { value, decimals, unit, place: "section 6.1" }
-}
+const PLACE: &str = "section 6.1";
+const READ_BACK: &str = "250 MB/s (read-back)";
+const RATES: &str = "390 M/s (fill rate), 250 MB/s (read-back)";
+/// How the GeForce4's fill rate follows.
+const IMPLIED: &str = "equation 11 solved for the fill rate: T / (T / 286 M/s - gamma / 250 MB/s), T = 10, gamma = 4 B, if it reads back like a GeForce3";
 
 pub(super) fn findings() -> Result<Findings, ReproduceError> {
-    let (geforce3, geforce4) = (rates("nv20")?, rates("nv25")?);
     let mut rows = Vec::new();
-    for (gamma, value, decimals) in [(GAMMAS[0], 62.5, 1), (GAMMAS[1], 15.6, 1)] {
-        rows.push(Row {
-            what: format!("results read back, {gamma} B each"),
-            device: "nv20",
-            printed: printed(value, decimals, "M/s"),
-            rates: Modelled::predicted(geforce3.results_per_s(gamma) / MEGA),
-            pipeline: Modelled::predicted(pipeline::results_per_s("nv20", gamma)? / MEGA),
-            note: String::new(),
-        });
+    for (gamma, value) in GAMMAS.into_iter().zip([62.5, 15.6]) {
+        rows.extend(read_back(gamma, Target::printed(value, 1, "M/s", PLACE))?);
     }
-    rows.push(Row {
-        what: "fill rate, two textures a pixel".to_owned(),
-        device: "nv20",
-        printed: printed(390.0, 0, "M/s"),
-        rates: Modelled::calibrated(geforce3.fill_pixels_per_s / MEGA, "this figure"),
-        pipeline: Modelled::predicted(pipeline::dual_textured("nv20")?.pixels_per_s() / MEGA),
-        note: String::new(),
-    });
-    rows.push(Row {
-        what: "fill rate, two textures a pixel (implied by the 286 M/s below)".to_owned(),
-        device: "nv25",
-        printed: printed(527.3, 1, "M/s"),
-        rates: Modelled::calibrated(geforce4.fill_pixels_per_s / MEGA, "286 M/s at ten triangles"),
-        pipeline: Modelled::predicted(pipeline::dual_textured("nv25")?.pixels_per_s() / MEGA),
-        note: String::new(),
-    });
-    rows.push(Row {
-        what: "tests, ten triangles, 4 B a ray".to_owned(),
-        device: "nv20",
-        printed: printed(240.0, 0, "M/s"),
-        rates: Modelled::predicted(geforce3.tests_per_s(TEN, GAMMAS[0]) / MEGA),
-        pipeline: Modelled::predicted(pipeline::tests_per_s("nv20", TEN, GAMMAS[0])? / MEGA),
-        note: String::new(),
-    });
-    rows.push(Row {
-        what: "tests, ten triangles, 4 B a ray".to_owned(),
-        device: "nv25",
-        printed: printed(286.0, 0, "M/s"),
-        rates: Modelled::calibrated(
-            geforce4.tests_per_s(TEN, GAMMAS[0]) / MEGA,
-            "this figure, by the implied fill rate",
-        ),
-        pipeline: Modelled::predicted(pipeline::tests_per_s("nv25", TEN, GAMMAS[0])? / MEGA),
-        note: String::new(),
-    });
+    rows.extend(fill("nv20", Target::printed(390.0, 0, "M/s", PLACE), "this figure")?);
+    let [_, ti4600] = TEN_TRIANGLES;
+    let implied = CostRates::implied_fill(ti4600.1 * MEGA, TEN, GAMMAS[0], rates("nv25")?.readback_bytes_per_s) / MEGA;
+    let implied = Target { origin: Origin::Implied(IMPLIED.to_owned()), ..Target::printed(implied, 1, "M/s", PLACE) };
+    rows.extend(fill("nv25", implied, "286 M/s at ten triangles, which implies it")?);
+    for (device, value) in TEN_TRIANGLES {
+        rows.extend(ten_triangles(device, Target::printed(value, 0, "M/s", PLACE))?);
+    }
+    let pixel = pipeline::dual_textured("nv20")?;
+    let bytes =
+        model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
     Ok(Findings {
         text: vec![
             "Equation 11 is seconds = T R / fill + R gamma / readback. The GeForce3's fill and read-back rates are printed; the \
-             GeForce4's fill rate follows from its 286 M tests a second, if it reads back as fast as the GeForce3."
-                .to_owned(),
-            "The pipeline model knows neither fill rate. It draws screen-filling quads with two 32-bit textures of the screen's \
-             size (nearest, each texel read once a quad), a depth test and depth and colour writes, and finds memory the \
-             narrowest place: 20 bytes a pixel."
-                .to_owned(),
+             GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3."
+                .into(),
+            Prose::new(
+                "The pipeline model knows neither fill rate, but reads back at the printed rate. It draws screen-filling quads with two textures of \
+                 the screen's size (each texel read once a quad), a depth test and depth and colour writes, and finds {} the \
+                 narrowest place: {} bytes a pixel.",
+                [format!("{:?}", pixel.cost.bottleneck).to_lowercase(), number(bytes, 0)],
+            ),
         ],
         rows,
         tables: vec![pipeline::cost_table(&["nv20", "nv25"])?],
-        charts: Vec::new(),
+        ..Findings::default()
     })
+}
+
+/// Results read back: the equation's quotient of printed figures, and the pipeline's bus, which has the printed rate.
+fn read_back(gamma: f64, target: Target) -> Result<[Row; 2], ReproduceError> {
+    let what = format!("results read back, {gamma} B each");
+    let equation = (rates("nv20")?.results_per_s(gamma) / MEGA, Standing::Predicted { from: READ_BACK });
+    let pipeline = (pipeline::results_per_s("nv20", gamma)? / MEGA, Standing::Calibrated { on: READ_BACK });
+    Ok([
+        Row::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
+        Row::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
+    ])
+}
+
+/// The fill rate: the equation's input, and the pipeline's prediction.
+fn fill(device: &'static str, target: Target, on: &'static str) -> Result<[Row; 2], ReproduceError> {
+    let what = "fill rate, two textures a pixel";
+    let equation = (rates(device)?.fill_pixels_per_s / MEGA, Standing::Calibrated { on });
+    let pipeline = (pipeline::dual_textured(device)?.pixels_per_s() / MEGA, Standing::Predicted { from: "" });
+    Ok([
+        Row::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        Row::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+    ])
+}
+
+/// Ten triangles: equation 11 on both cards, the GeForce4's with the fill rate that this figure implies; and the pipeline.
+fn ten_triangles(device: &'static str, target: Target) -> Result<[Row; 2], ReproduceError> {
+    let what = "tests, ten triangles, 4 B a ray";
+    let standing = if device == "nv20" {
+        Standing::Predicted { from: RATES }
+    } else {
+        Standing::Calibrated { on: "this figure, by the fill rate that it implies" }
+    };
+    let equation = (rates(device)?.tests_per_s(TEN, GAMMAS[0]) / MEGA, standing);
+    let pipeline = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
+    let pipeline = (pipeline, Standing::Predicted { from: READ_BACK });
+    Ok([
+        Row::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        Row::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+    ])
 }

@@ -1,15 +1,17 @@
 //! The papers' printed figures beside ours: one file an entry, each a list of rows with tables and charts.
 //!
-//! Every row has the printed value, what the rates model gives (the paper's own cost equation) and what the pipeline model
-//! gives (first principles), and says which printed figures went into it. No figure is fitted silently.
+//! Every row has the paper's value with its origin, ours with the printed figures that went into it, and a bound that was stated
+//! beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the value ([`Sweep`]).
 
 mod equation_11;
 mod figure_7;
 mod pipeline;
+mod prose;
 mod radeon_8500;
 mod radiosity;
 pub mod report;
 mod row;
+mod shared;
 mod tables;
 mod vertex_variant;
 
@@ -20,7 +22,9 @@ use crate::ray_engine::EngineError;
 use crate::report::{Chart, Table};
 
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
-pub use row::{Judgement, Modelled, Printed, Row, TOLERANCE};
+pub use prose::{Prose, number};
+pub use row::{Bound, Explanation, Method, Origin, Row, Setting, Standing, Sweep, Target, Verdict};
+use shared::Shared;
 
 /// Why a figure could not be worked out.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -72,16 +76,18 @@ pub struct NamedChart {
     /// The chart.
     pub chart: Chart,
     /// What stands under it.
-    pub caption: String,
+    pub caption: Prose,
 }
 
 /// What one entry found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
     /// How it was done, as paragraphs.
-    pub text: Vec<String>,
-    /// Printed figures beside ours.
+    pub text: Vec<Prose>,
+    /// The paper's figures beside ours.
     pub rows: Vec<Row>,
+    /// What would have to be known to say why rows are off.
+    pub questions: Vec<&'static str>,
     /// What else there is to show.
     pub tables: Vec<Table>,
     /// Plots.
@@ -95,17 +101,24 @@ pub struct Entry {
     pub id: &'static str,
     /// What it is, and where it is printed.
     pub title: &'static str,
-    work: fn() -> Result<Findings, ReproduceError>,
+    work: fn(&Shared) -> Result<Findings, ReproduceError>,
 }
 
-impl Entry {
-    /// Works it out.
-    ///
-    /// # Errors
-    /// [`ReproduceError`].
-    pub fn reproduce(&self) -> Result<Findings, ReproduceError> {
-        (self.work)()
-    }
+/// Entries with what they found.
+pub type Reproduced = Vec<(Entry, Findings)>;
+
+/// Works entries out, one after the other. What several of them need is rendered and run once. `done` is called after each.
+///
+/// # Errors
+/// [`ReproduceError`].
+pub fn reproduce(entries: &[Entry], done: &mut dyn FnMut()) -> Result<Reproduced, ReproduceError> {
+    let shared = Shared::default();
+    let work = |entry: &Entry| {
+        let found = (entry.work)(&shared)?;
+        done();
+        Ok((*entry, found))
+    };
+    entries.iter().map(work).collect()
 }
 
 /// All entries, in the order of the papers.
@@ -113,22 +126,22 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         id: "radeon-8500",
         title: "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)",
-        work: radeon_8500::findings,
+        work: |_| radeon_8500::findings(),
     },
     Entry {
         id: "vertex-variant",
         title: "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)",
-        work: vertex_variant::findings,
+        work: |_| vertex_variant::findings(),
     },
     Entry {
         id: "equation-11",
         title: "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
-        work: equation_11::findings,
+        work: |_| equation_11::findings(),
     },
     Entry {
         id: "figure-7",
         title: "Tests a second by the number of triangles (Ray Engine, figure 7)",
-        work: figure_7::findings,
+        work: |_| figure_7::findings(),
     },
     Entry {
         id: "ray-engine-tables-1-2",
@@ -153,17 +166,17 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         id: "radiosity-figure-3",
         title: "Jacobi and Gauss-Seidel, residual by iteration (radiosity, figure 3)",
-        work: radiosity::figure_3,
+        work: |_| radiosity::figure_3(),
     },
     Entry {
         id: "radiosity-rates",
         title: "29.7 iterations and 141 MFLOP a second on a GeForce FX 5900 Ultra (radiosity, section 3.1)",
-        work: radiosity::rates,
+        work: |_| radiosity::rates(),
     },
     Entry {
         id: "radiosity-figure-4",
         title: "The time of an iteration by the size of the matrix, on card and host (radiosity, figure 4)",
-        work: radiosity::figure_4,
+        work: |_| radiosity::figure_4(),
     },
 ];
 

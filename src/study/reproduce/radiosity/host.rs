@@ -4,7 +4,7 @@
 //! line from memory. A matrix is read from end to end again and again, so of one that is W bytes long a cache of C bytes still
 //! holds C / W when it is asked again, at best.
 
-use super::PATCHES;
+use super::{PATCHES, PRINTED_HOST};
 
 /// Clock: Athlon XP 2800+ with Barton core, as reviewed (Tom's Hardware).
 const CLOCK_HZ: f64 = 2.083e9;
@@ -14,8 +14,6 @@ const CACHE_BYTES: f64 = 524_288.0;
 const ADD_CLOCKS: f64 = 4.0;
 /// Bytes of an element: single precision, as on the card. A guess.
 const ELEMENT_BYTES: f64 = 4.0;
-/// Section 3.1: the one printed figure of the host. It sets what memory costs.
-const PRINTED_PER_S: f64 = 40.0;
 
 /// The share of a matrix that is not in the cache any more when it is asked for again.
 fn missed(patches: f64) -> f64 {
@@ -27,10 +25,10 @@ fn cached() -> f64 {
     ADD_CLOCKS / CLOCK_HZ
 }
 
-/// Seconds an element from memory beside that: what is left of the printed rate.
+/// Seconds an element from memory beside that: what is left of the printed rate, the one printed figure of the host.
 fn from_memory() -> f64 {
     let n = f64::from(PATCHES);
-    (1.0 / (PRINTED_PER_S * n * n) - cached()) / missed(n)
+    (1.0 / (PRINTED_HOST.0 * n * n) - cached()) / missed(n)
 }
 
 /// Seconds of a Gauss-Seidel iteration over so many patches.
@@ -45,7 +43,7 @@ mod tests {
 
     #[test]
     fn the_printed_rate_comes_back() {
-        assert!((1.0 / iteration(PATCHES) - PRINTED_PER_S).abs() < 1e-9);
+        assert!((1.0 / iteration(PATCHES) - PRINTED_HOST.0).abs() < 1e-9);
         // 362 x 362 elements are the cache.
         assert_eq!((missed(362.0), missed(64.0)), (0.0, 0.0));
         assert!(missed(363.0) > 0.0);

@@ -1,66 +1,153 @@
-//! The printed rates: 29.7 iterations and 141 MFLOP a second on the card, 40 and 190 on the host.
+//! The printed rates: 29.7 iterations and 141 MFLOP a second on the card, 40 and 190 on the host. And what the number of patches decides.
 
-use super::{CARD, Findings, PATCHES, ReproduceError, Storage, iteration};
+use super::{CARD, Findings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
+use crate::radiosity::rate::Timed;
 use crate::report::{Cell, Table};
-use crate::study::reproduce::{Modelled, Printed, Row};
+use crate::study::reproduce::report::rounded;
+use crate::study::reproduce::{Bound, Method, Origin, Prose, Row, Standing, Target, number};
 
 const PLACE: &str = "section 3.1";
+/// Numbers of patches that are compared: six whole blocks; six sides of 16 x 16; the four at which both pairs of rates hold, with
+/// their neighbours; a round number.
+const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
+/// What chose the number of patches.
+const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
+
+const HOW: &str = "Neither the number of patches nor that of passes is printed. Both printed pairs of rates mean {} million operations an iteration; \
+    at two an element that leaves {} to {} patches, and we take the first. So the rows of operations are calibrated, and the number of passes is inferred. \
+    An iteration of that size is drawn on the emulated {} and timed by the pipeline model, in which nothing was set by this paper; \
+    the table gives it for other sizes.";
+
+const WHERE: &str = "Where the time goes: each of a texel's two reads is of {} bytes at a computed coordinate, which a texture unit of {} bytes a clock \
+    takes {} clocks for; and of each quad of fragments only {} % lie in the one row of the target. The unit's width and how registers slow the card \
+    are guesses or measurements of others, as `crossbar devices` says.";
 
 pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
-    let host = |value: f64, decimals: usize, unit: &'static str, found: f64, what: &str| Row {
-        what: what.to_owned(),
-        device: "Athlon 2800+",
-        printed: Printed { value, decimals, unit, place: PLACE },
-        rates: Modelled::predicted(found),
-        pipeline: None,
-        note: String::new(),
-    };
-    let card = |value: f64, decimals: usize, unit: &'static str, found: [Option<f64>; 2], what: &str, note: &str| Row {
-        what: what.to_owned(),
-        device: CARD,
-        printed: Printed { value, decimals, unit, place: PLACE },
-        rates: found[0].and_then(Modelled::predicted),
-        pipeline: found[1].and_then(Modelled::predicted),
-        note: note.to_owned(),
-    };
-    let passes = f64::from(model::passes(PATCHES, 1, model::BLOCK));
-    let rows = vec![
-        card(29.7, 1, "1/s", [None, Some(paper.per_s)], "Jacobi iterations", ""),
-        // The paper's own arithmetic: so many operations an iteration, times its rate.
-        card(141.0, 0, "MFLOP/s", [Some(model::mflops(PATCHES, 29.7)), Some(paper.mflops)], "operations of Jacobi", ""),
-        card(7.0, 0, "passes", [Some(passes), Some(paper.passes as f64)], "passes an iteration, ceil(N / 254)", ""),
-        card(
-            10.0,
-            0,
-            "%",
-            [None, Some(100.0 * paper.bandwidth)],
-            "bandwidth used, \"perhaps as little as\"",
-            "A guess of the authors'. Ours counts each texel of the matrix once and each of the vectors once a pass; lines of the texture \
-             cache that are fetched and not used up would add to it. To know more one would need the size and the lines of the \
-             card's texture cache, of which nothing is documented.",
-        ),
-        host(190.0, 0, "MFLOP/s", model::mflops(PATCHES, 40.0), "operations of Gauss-Seidel, 40 iterations/s"),
-    ];
+    let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n)).collect();
+    let ends = [fits.first(), fits.last()].map(|n| n.map_or_else(String::new, u32::to_string));
+    let [least, most] = ends;
+    let (sizes, texel) = (sizes()?, 16.0);
+    let width = profile_width()?;
     Ok(Findings {
         text: vec![
-            format!(
-                "Both printed pairs of rates mean 4.75 million operations an iteration; at two an element that is {PATCHES} to 1543 \
-                 patches, and we take the first. An iteration of that size is drawn on the emulated {CARD} and timed by the \
-                 pipeline model. Nothing in it was set by this paper."
+            Prose::new(HOW, [number(PRINTED_CARD.1 / PRINTED_CARD.0, 2), least, most, CARD.to_owned()]),
+            Prose::new(
+                WHERE,
+                [number(texel, 0), number(width, 0), number(texel / width, 0), number(100.0 * paper.filled, 0)],
             ),
-            "Where the time goes: each of a texel's two reads is of 16 bytes at a computed coordinate, which a texture unit of 4 bytes a clock \
-             takes four clocks for; four registers are in use, two more than run at full speed; and of each quad of 2 x 2 \
-             fragments half lies beside the one row of the target. These three figures of the card are guesses or measurements of \
-             others, as `crossbar devices nv35` says."
-                .to_owned(),
         ],
-        rows,
-        tables: vec![costs()?],
-        charts: Vec::new(),
+        rows: rows(&paper),
+        questions: vec![
+            "how many patches the authors' scene had.",
+            "what share of its bandwidth the card used: the text guesses, and of the card's texture cache nothing is documented.",
+        ],
+        tables: vec![sizes, costs()?],
+        ..Findings::default()
     })
+}
+
+/// Bytes of a texel that a texture unit of the card takes in a clock.
+fn profile_width() -> Result<f64, ReproduceError> {
+    let profile = refsim::device::Profile::named(CARD)?;
+    crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
+}
+
+fn rows(paper: &Timed) -> Vec<Row> {
+    let printed = |value: f64, decimals: usize, unit: &'static str| Target::printed(value, decimals, unit, PLACE);
+    let calibrated = Standing::Calibrated { on: CHOSE_N };
+    let predicted = Standing::Predicted { from: CHOSE_N };
+    let (jacobi, gauss_seidel) = (model::mflops(PATCHES, PRINTED_CARD.0), model::mflops(PATCHES, PRINTED_HOST.0));
+    let passes = f64::from(model::passes(PATCHES, 1, model::BLOCK));
+    let inferred =
+        Origin::Inferred("ceil(N / 254) for the inferred number of patches; the paper prints neither".to_owned());
+    vec![
+        Row::new(
+            "Jacobi iterations",
+            (CARD, Method::Pipeline),
+            printed(PRINTED_CARD.0, 1, "1/s"),
+            (paper.per_s, predicted),
+            Bound::PREDICTION,
+        ),
+        // The paper's own arithmetic: so many operations an iteration, times its rate.
+        Row::new(
+            "operations of Jacobi, 2 N N times the printed rate",
+            (CARD, Method::Equation),
+            printed(PRINTED_CARD.1, 0, "MFLOP/s"),
+            (jacobi, calibrated),
+            Bound::Print,
+        ),
+        Row::new(
+            "operations of Gauss-Seidel, 2 N N times the printed rate",
+            (HOST, Method::Equation),
+            printed(PRINTED_HOST.1, 0, "MFLOP/s"),
+            (gauss_seidel, calibrated),
+            Bound::Print,
+        ),
+        Row::new(
+            "Gauss-Seidel iterations",
+            (HOST, Method::Host),
+            printed(PRINTED_HOST.0, 0, "1/s"),
+            (1.0 / host::iteration(PATCHES), Standing::Calibrated { on: "this figure, which sets what memory costs" }),
+            Bound::Print,
+        ),
+        Row::new(
+            "passes an iteration",
+            (CARD, Method::Pipeline),
+            Target { origin: inferred, ..printed(passes, 0, "passes") },
+            (paper.passes as f64, calibrated),
+            Bound::Print,
+        ),
+        // "Only a fraction (perhaps as little as 10%)": nothing that is much less than all of it contradicts that.
+        Row::new(
+            "bandwidth used, at least; \"perhaps as little as\"",
+            (CARD, Method::Pipeline),
+            printed(10.0, 0, "%"),
+            (100.0 * paper.bandwidth, predicted),
+            Bound::TooVague,
+        ),
+    ]
+}
+
+const HOST: &str = "Athlon 2800+";
+
+/// Whether both printed pairs of rates hold for so many patches.
+fn fits(patches: u32) -> bool {
+    [PRINTED_CARD, PRINTED_HOST].iter().all(|(rate, mflops)| model::mflops(patches, *rate).round() == *mflops)
+}
+
+/// What the number of patches decides.
+fn sizes() -> Result<Table, ReproduceError> {
+    let mut table = Table::new(
+        "What the number of patches decides",
+        &[
+            "patches",
+            "passes",
+            "iterations_per_s",
+            "difference_%",
+            "MFLOP/s_of_Jacobi",
+            "reads_141",
+            "MFLOP/s_of_Gauss-Seidel",
+            "reads_190",
+        ],
+    );
+    for patches in SIZES {
+        let timed = iteration(patches, Packing::Rgb, Storage::Fp32)?;
+        let reads = |(rate, mflops): (f64, f64)| -> [Cell; 2] {
+            let ours = model::mflops(patches, rate);
+            [rounded(ours, 10.0).into(), (ours.round() == mflops).into()]
+        };
+        let head: [Cell; 4] = [
+            patches.into(),
+            timed.passes.into(),
+            rounded(timed.per_s, 100.0).into(),
+            rounded(100.0 * (timed.per_s / PRINTED_CARD.0 - 1.0), 10.0).into(),
+        ];
+        table.push(head.into_iter().chain(reads(PRINTED_CARD)).chain(reads(PRINTED_HOST)));
+    }
+    Ok(table)
 }
 
 /// What an iteration costs in each packing and precision.

@@ -3,18 +3,20 @@
 use refsim::event::Event;
 use refsim::timing::host::{HostCounts, HostModel, Operation};
 
-use super::{Line, TeapotRoom, figure};
+use super::figure;
+use super::speed_ups::Line;
+use super::teapot::TeapotRoom;
 use crate::report::{Cell, Table};
 
 /// Microseconds a ray that the host spends on each kind of operation: alone, and in the lines of a table.
-pub(super) fn table(room: &TeapotRoom, lines: &[Line]) -> Table {
+pub(super) fn table(room: &TeapotRoom, lines: &[&Line]) -> Table {
     let kinds = Operation::ALL.iter().map(|operation| format!("{operation}_us"));
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("The host's time a ray", &headings);
     table.push(row("host alone", &room.host, &room.work.alone.counts, room.work.alone.rays));
     for line in lines {
-        table.push(row(&line.what, &room.host, &counted(line.run.log()), line.run.counts.rays));
+        table.push(row(&line.row.what, &room.host, &counted(line.run.log()), line.run.counts.rays));
     }
     table
 }

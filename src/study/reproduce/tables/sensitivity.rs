@@ -1,11 +1,14 @@
 //! What each guess of host and queue does to Table 3.
 
-use rayon::prelude::*;
+use std::rc::Rc;
+
 use refsim::timing::host::{HostWeights, Operation};
 use refsim::timing::queue::QueueFigures;
 
-use super::engine_run::{Commands, HostOnly, rays_per_s};
-use super::{Line, ReproduceError, figure, speed_up};
+use super::engine_run::{Commands, HostOnly, Run};
+use super::speed_ups::Line;
+use super::sweeps::rates;
+use super::{ReproduceError, figure, speed_up};
 use crate::report::{Cell, Table};
 
 /// Guesses that are doubled: of the host's operations, and of the queue's commands.
@@ -17,9 +20,9 @@ fn keys() -> Vec<String> {
 
 /// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated anew each
 /// time, so that it does the work alone in the same time.
-pub(super) fn table(alone: &HostOnly, lines: &[Line]) -> Result<Table, ReproduceError> {
+pub(super) fn table(alone: &HostOnly, lines: &[&Line]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
-        .chain(lines.iter().map(|line| format!("{}_%", line.what.replace(' ', "_"))))
+        .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))
         .collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("Speed-ups of Table 3 with one guess doubled", &headings);
@@ -32,7 +35,7 @@ pub(super) fn table(alone: &HostOnly, lines: &[Line]) -> Result<Table, Reproduce
         }
         speed_ups(alone, lines, weights, queue).map(|found| (key, found))
     };
-    let found: Vec<_> = keys().into_par_iter().map(doubled).collect::<Result<_, _>>()?;
+    let found: Vec<_> = keys().into_iter().map(doubled).collect::<Result<_, ReproduceError>>()?;
     for (key, found) in found.into_iter().filter(|(_, found)| *found != stated) {
         push(&mut table, &format!("{key} doubled"), &found);
     }
@@ -41,12 +44,13 @@ pub(super) fn table(alone: &HostOnly, lines: &[Line]) -> Result<Table, Reproduce
 
 fn speed_ups(
     alone: &HostOnly,
-    lines: &[Line],
+    lines: &[&Line],
     weights: HostWeights,
     queue: QueueFigures,
 ) -> Result<Vec<f64>, ReproduceError> {
     let host = alone.calibrate(weights)?;
-    lines.iter().map(|line| Ok(speed_up(rays_per_s(&line.run, &host, Commands::Cost(queue))?))).collect()
+    let runs: Vec<Rc<Run>> = lines.iter().map(|line| Rc::clone(&line.run)).collect();
+    Ok(rates(&runs, &host, Commands::Cost(queue))?.into_iter().map(speed_up).collect())
 }
 
 fn push(table: &mut Table, guess: &str, found: &[f64]) {

@@ -1,21 +1,68 @@
 //! Table 4: the teapot room by the range of triangles that goes to the card.
 
-use super::super::{Findings, ReproduceError};
-use super::{HOW, TeapotRoom, lines, parameters, rows};
-use crate::ray_engine::engine::EngineParameters;
+use super::super::shared::Shared;
+use super::super::{Findings, NamedChart, Prose, ReproduceError, number};
+use super::shares::{self, Share};
+use super::speed_ups::{Line as Run, SpeedUps, table};
+use super::{QUESTION, how};
+use crate::report::{Chart, Line};
 
-const ORDER: &str = "Printed, 4 to 16 triangles bring the fewest rays to the card (78 %) and 5 to 15 the most (89 %). Ours can't: a GPU cell is the largest \
-    cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. The authors mark cells by another rule, which is not \
-    printed; the three ranges hardly differ here.";
+const PLACE: &str = "Table 4";
+/// The share of rays on the card, in per cent.
+const SHARES: [f64; 3] = [78.0, 81.0, 89.0];
 
-pub(in super::super) fn findings() -> Result<Findings, ReproduceError> {
-    let room = TeapotRoom::new()?;
-    let wanted =
-        [(4..=16, 147_630.0), (5..=12, 157_839.0), (5..=15, 165_098.0)].into_iter().map(|(triangles, printed)| {
-            let what = format!("{} to {} triangles", triangles.start(), triangles.end());
-            (what, printed, EngineParameters { triangles, ..parameters() })
-        });
-    let lines = lines(&room, wanted.collect())?;
-    let (rows, table) = rows(&room, &lines, "Table 4")?;
-    Ok(Findings { text: vec![HOW.to_owned(), ORDER.to_owned()], rows, tables: vec![table], charts: Vec::new() })
+const ORDER: &str = "Printed, the widest range brings the fewest rays to the card. Ours can't: a GPU cell is the largest \
+    cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. Our speed-ups are {}, {} and {} % \
+    for the printed {}, {} and {} %.";
+
+pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceError> {
+    let room = shared.teapot()?;
+    let found = room.speed_ups()?;
+    let lines = found.of(PLACE);
+    let shares: Vec<Share<'_>> = lines
+        .iter()
+        .zip(SHARES)
+        .map(|(line, printed)| Share { what: &line.row.what, printed, counts: &line.run.counts })
+        .collect();
+    let (share_rows, readings) = shares::rows(&shares, PLACE);
+    let ticks: Vec<&str> = lines.iter().map(|line| line.row.what.as_str()).collect();
+    let speed_ups_of = |of: fn(&Run) -> f64| lines.iter().map(move |line| number(of(line), 1));
+    let order = Prose::new(ORDER, speed_ups_of(Run::ours).chain(speed_ups_of(Run::printed)));
+    let mut rows = found.rows(room, PLACE);
+    rows.extend(share_rows);
+    Ok(Findings {
+        text: vec![how(room), order],
+        rows,
+        questions: vec![
+            QUESTION,
+            "by which rule the authors mark GPU cells: with ours the widest range can't have the fewest rays.",
+        ],
+        tables: vec![table(room, &lines, PLACE)?, readings],
+        charts: vec![
+            NamedChart {
+                name: "ray-engine-table-4",
+                chart: speed_ups(found, &lines, &ticks),
+                caption: "Table 4 by the range of triangles, with the costs of commands as stated and more.".into(),
+            },
+            NamedChart {
+                name: "ray-engine-table-4-shares",
+                chart: shares::chart(&shares, &ticks, "Share of rays on the card"),
+                caption: "The share of rays on the card of Table 4, and both readings of our runs.".into(),
+            },
+        ],
+    })
+}
+
+fn speed_ups(found: &SpeedUps, lines: &[&Run], ticks: &[&str]) -> Chart {
+    let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
+    let dots =
+        |(at, values): (String, Vec<f64>)| Line { label: format!("ours, commands x {at}"), points: points(values) };
+    Chart {
+        title: "Speed-up over the host alone".to_owned(),
+        y: "%".to_owned(),
+        ticks: ticks.iter().map(ToString::to_string).collect(),
+        dots: found.under(&found.commands, PLACE).into_iter().map(dots).collect(),
+        printed: points(lines.iter().map(|line| line.printed()).collect()),
+        ..Chart::default()
+    }
 }

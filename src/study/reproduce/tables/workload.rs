@@ -5,6 +5,7 @@ use super::super::pipeline::failed;
 use super::engine_run::{HostOnly, OCTREE, TIMES};
 use crate::geom::exact::Sides;
 use crate::geom::{CastError, Caster, Hit, Mesh, Ray};
+use crate::ray_engine::octree::OctreeParameters;
 use crate::ray_engine::{HostCounts, HostTracer};
 use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
@@ -41,6 +42,18 @@ pub(super) struct Workload {
     pub(super) bundles: Vec<Vec<Ray>>,
     /// What a host does for them without card and ray tree.
     pub(super) alone: HostOnly,
+}
+
+impl Workload {
+    /// What a host does for the same rays with another octree.
+    pub(super) fn alone_with(&self, octree: OctreeParameters) -> HostOnly {
+        let tracer = HostTracer::new(&self.mesh, octree, Sides::Both);
+        let mut cost = HostCounts::default();
+        for bundle in &self.bundles {
+            cost += tracer.nearest_all(bundle).1;
+        }
+        HostOnly::of(&cost)
+    }
 }
 
 /// A host tracer that writes down what it is asked, and what that costs.

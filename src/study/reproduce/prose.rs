@@ -1,0 +1,70 @@
+//! Sentences of a report, whose figures are the run's.
+
+use std::fmt;
+
+/// A number with so many digits behind the point.
+pub fn number(value: f64, decimals: usize) -> String {
+    // Plus 0, so that nothing reads -0.
+    let scale = (0..decimals).fold(1.0, |scale: f64, _| scale * 10.0);
+    format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
+}
+
+/// A paragraph: a text without figures, and the figures that stand where it says `{}`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Prose {
+    template: &'static str,
+    figures: Vec<String>,
+}
+
+impl Prose {
+    /// A paragraph with its figures, one a `{}`.
+    pub fn new(template: &'static str, figures: impl IntoIterator<Item = String>) -> Self {
+        Self { template, figures: figures.into_iter().collect() }
+    }
+
+    /// The text as it is written in the source.
+    pub const fn template(&self) -> &'static str {
+        self.template
+    }
+
+    /// Whether there are as many figures as places for them.
+    pub fn is_whole(&self) -> bool {
+        self.template.matches("{}").count() == self.figures.len()
+    }
+}
+
+impl From<&'static str> for Prose {
+    fn from(template: &'static str) -> Self {
+        Self::new(template, [])
+    }
+}
+
+impl fmt::Display for Prose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut figures = self.figures.iter();
+        for (i, part) in self.template.split("{}").enumerate() {
+            if i > 0 {
+                f.write_str(figures.next().map_or("?", String::as_str))?;
+            }
+            f.write_str(part)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_stand_in_their_places() {
+        let prose = Prose::new("{} of {} rows", [number(2.0, 0), number(2.95, 1)]);
+        assert_eq!(prose.to_string(), "2 of 3.0 rows");
+        assert!(prose.is_whole() && !Prose::from("{} rows").is_whole());
+    }
+
+    #[test]
+    fn nothing_reads_minus_zero() {
+        assert_eq!((number(-0.04, 1), number(1540.0, 0)), ("0.0".to_owned(), "1540".to_owned()));
+    }
+}

@@ -1,0 +1,99 @@
+//! How far a value may be off.
+
+use super::Target;
+use crate::study::reproduce::prose::number;
+
+/// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed on top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// It reads as printed, rounded to as many digits.
+    Print,
+    /// By this share of the paper's value.
+    Relative(f64),
+    /// By this share of what the paper's value is above another one that the model was calibrated on. Who predicts nothing but that other
+    /// value is outside.
+    Gain {
+        /// The share.
+        share: f64,
+        /// The other value.
+        over: f64,
+    },
+    /// At least the paper's value.
+    AtLeast,
+    /// The text is too vague to be missed.
+    TooVague,
+}
+
+impl Bound {
+    /// Predictions, all of them, unless a narrower bound can be stated.
+    pub const PREDICTION: Self = Self::Relative(Self::SHARE);
+    /// The share that a prediction may be off by.
+    pub const SHARE: f64 = 0.15;
+
+    /// The least and the largest value within the bound; nothing where everything is.
+    pub fn interval(&self, target: &Target) -> Option<[f64; 2]> {
+        let around = |by: f64| Some([target.value - by, target.value + by]);
+        match *self {
+            Self::Print => around(target.rounding()),
+            Self::Relative(share) => around(share * target.value.abs() + target.rounding()),
+            Self::Gain { share, over } => around(share * (target.value - over).abs() + target.rounding()),
+            Self::AtLeast => Some([target.value - target.rounding(), f64::INFINITY]),
+            Self::TooVague => None,
+        }
+    }
+
+    /// The bound in words.
+    pub fn text(&self) -> String {
+        let percent = |share: f64| number(100.0 * share, 0);
+        match *self {
+            Self::Print => "every digit".to_owned(),
+            Self::Relative(share) => format!("{} %", percent(share)),
+            Self::Gain { share, .. } => format!("{} % of the gain", percent(share)),
+            Self::AtLeast => "at least".to_owned(),
+            Self::TooVague => "none".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn target(value: f64, decimals: usize) -> Target {
+        Target::printed(value, decimals, "M/s", "section 6.1")
+    }
+
+    fn admits(bound: Bound, target: &Target, value: f64) -> bool {
+        bound.interval(target).is_some_and(|[low, high]| (low..=high).contains(&value))
+    }
+
+    #[test]
+    fn digits_are_compared_as_printed() {
+        let rate = target(15.6, 1);
+        assert!(admits(Bound::Print, &rate, 15.625) && !admits(Bound::Print, &rate, 15.66));
+        assert!(admits(Bound::Print, &target(114.0, 0), 113.6) && !admits(Bound::Print, &target(114.0, 0), 114.6));
+    }
+
+    #[test]
+    fn a_share_is_of_what_is_printed() {
+        let rate = target(100.0, 0);
+        assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
+    }
+
+    /// "About twice" is not met by whatever rounds to 2.
+    #[test]
+    fn about_twice_is_no_wider_than_any_prediction() {
+        let twice = target(2.0, 1);
+        assert!(admits(Bound::PREDICTION, &twice, 1.8) && !admits(Bound::PREDICTION, &twice, 1.6));
+        assert!(!admits(Bound::PREDICTION, &twice, 2.4));
+    }
+
+    /// Who says that the card brings nothing has not predicted what it brings.
+    #[test]
+    fn the_calibrated_value_itself_is_outside() {
+        let gained = target(147_630.0, 0);
+        let bound = Bound::Gain { share: 0.15, over: 135_812.0 };
+        assert!(!admits(bound, &gained, 135_812.0) && admits(bound, &gained, 148_000.0));
+        assert!(admits(Bound::Relative(0.15), &gained, 135_812.0), "as a share of the whole it would pass");
+    }
+}

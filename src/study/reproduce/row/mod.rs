@@ -1,0 +1,270 @@
+//! A figure of a paper beside ours, judged by a bound that was stated beforehand.
+//!
+//! A verdict can't be talked into: [`Explanation`]s are made by a [`Sweep`] of the same run alone, and a calibrated value is kept apart and
+//! still has to lie within its bound.
+
+mod bound;
+mod sweep;
+
+pub use bound::Bound;
+pub use sweep::{Explanation, Setting, Sweep};
+
+use super::prose::number;
+
+/// Where a figure comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// It stands in the paper.
+    Printed,
+    /// It follows from printed figures by arithmetic: the formula.
+    Implied(String),
+    /// We concluded it; the paper says neither the figure nor how to work it out.
+    Inferred(String),
+}
+
+impl Origin {
+    /// One word for tables.
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Printed => "printed",
+            Self::Implied(_) => "implied",
+            Self::Inferred(_) => "inferred",
+        }
+    }
+
+    /// The formula or the conclusion; nothing for what is printed.
+    pub fn how(&self) -> &str {
+        match self {
+            Self::Printed => "",
+            Self::Implied(how) | Self::Inferred(how) => how,
+        }
+    }
+}
+
+/// A paper's figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// The value, in units of `unit`.
+    pub value: f64,
+    /// Digits behind the point, as printed.
+    pub decimals: usize,
+    /// The unit.
+    pub unit: &'static str,
+    /// Where it stands.
+    pub place: &'static str,
+    /// Whether it stands there in so many words.
+    pub origin: Origin,
+}
+
+impl Target {
+    /// A figure that stands in the paper.
+    pub const fn printed(value: f64, decimals: usize, unit: &'static str, place: &'static str) -> Self {
+        Self { value, decimals, unit, place, origin: Origin::Printed }
+    }
+
+    /// What rounding to the printed digits may have taken away or added.
+    pub fn rounding(&self) -> f64 {
+        (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
+    }
+
+    /// The value as it is printed, with its origin where that is not print.
+    pub fn text(&self) -> String {
+        let value = number(self.value, self.decimals);
+        if self.origin == Origin::Printed { value } else { format!("{value} ({})", self.origin.word()) }
+    }
+}
+
+/// How our value came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The paper's own equation with its printed rates.
+    Equation,
+    /// Drawn on an emulated card and timed from clocks, slots and bytes.
+    Pipeline,
+    /// A rendering played to the whole engine, its work counted and timed.
+    Engine,
+    /// A model of the paper's host.
+    Host,
+    /// Solved in f64.
+    Solver,
+}
+
+impl Method {
+    /// One word for tables.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Equation => "equation",
+            Self::Pipeline => "pipeline",
+            Self::Engine => "engine",
+            Self::Host => "host model",
+            Self::Solver => "solver",
+        }
+    }
+}
+
+/// How our value stands to the papers' figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// This figure had no part in it; what other printed figures had.
+    Predicted {
+        /// Printed figures that went in; empty for none.
+        from: &'static str,
+    },
+    /// The figure itself, or one that follows from it, chose a constant of the model: agreement is no evidence.
+    Calibrated {
+        /// The printed figures that did.
+        on: &'static str,
+    },
+    /// Counted in a run in which no time and no printed figure takes part.
+    Counted,
+}
+
+impl Standing {
+    /// One word for tables.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Predicted { .. } => "predicted",
+            Self::Calibrated { .. } => "calibrated",
+            Self::Counted => "counted",
+        }
+    }
+
+    /// The printed figures that went into our value.
+    pub const fn inputs(self) -> &'static str {
+        match self {
+            Self::Predicted { from: inputs } | Self::Calibrated { on: inputs } => inputs,
+            Self::Counted => "",
+        }
+    }
+}
+
+/// How a row came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Verdict {
+    /// Within the bound, and the figure had no part in it.
+    Reproduced,
+    /// Within the bound, but the figure chose a constant of the model: no evidence.
+    Calibrated,
+    /// Outside the bound, and a computation of this run reaches it.
+    Explained,
+    /// Outside the bound.
+    Missed,
+    /// The text is too vague to be missed: no success either.
+    TooVague,
+}
+
+impl Verdict {
+    /// All of them, as tallies list them.
+    pub const ALL: [Self; 5] = [Self::Reproduced, Self::Calibrated, Self::Explained, Self::Missed, Self::TooVague];
+
+    /// For tables.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::Calibrated => "calibrated",
+            Self::Explained => "explained",
+            Self::Missed => "missed",
+            Self::TooVague => "too vague to judge",
+        }
+    }
+}
+
+/// One figure of a paper with ours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What is measured.
+    pub what: String,
+    /// The card, or the host.
+    pub device: &'static str,
+    /// How ours came about.
+    pub method: Method,
+    /// The paper's.
+    pub target: Target,
+    /// Ours, in the unit of the paper's.
+    pub ours: f64,
+    /// How ours stands to the papers' figures.
+    pub standing: Standing,
+    /// What was stated beforehand.
+    pub bound: Bound,
+    /// Set by [`Sweep::explain`] alone.
+    explanation: Option<Explanation>,
+}
+
+impl Row {
+    /// A row without explanation.
+    pub fn new(
+        what: impl Into<String>,
+        (device, method): (&'static str, Method),
+        target: Target,
+        (ours, standing): (f64, Standing),
+        bound: Bound,
+    ) -> Self {
+        Self { what: what.into(), device, method, target, ours, standing, bound, explanation: None }
+    }
+
+    /// Whether a value of ours would lie within the bound; never where the text is too vague.
+    pub fn admits(&self, value: f64) -> bool {
+        self.bound.interval(&self.target).is_some_and(|[low, high]| (low..=high).contains(&value))
+    }
+
+    /// Ours less the paper's, as a share of the paper's.
+    pub fn difference(&self) -> f64 {
+        (self.ours - self.target.value) / self.target.value
+    }
+
+    /// How it came out.
+    pub fn verdict(&self) -> Verdict {
+        let calibrated = matches!(self.standing, Standing::Calibrated { .. });
+        if matches!(self.bound, Bound::TooVague) {
+            Verdict::TooVague
+        } else if self.admits(self.ours) {
+            if calibrated { Verdict::Calibrated } else { Verdict::Reproduced }
+        } else if self.explanation.is_some() {
+            Verdict::Explained
+        } else {
+            Verdict::Missed
+        }
+    }
+
+    /// What of this run reaches the figure, if the row is outside its bound.
+    pub fn explanation(&self) -> Option<&Explanation> {
+        self.explanation.as_ref()
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(super) fn row(ours: f64) -> Row {
+        let target = Target::printed(15.6, 1, "M/s", "section 6.1");
+        let standing = Standing::Predicted { from: "" };
+        Row::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
+    }
+
+    #[test]
+    fn a_value_outside_its_bound_is_missed_and_no_word_changes_that() {
+        assert_eq!(
+            [15.0, 18.0, 13.0].map(|ours| row(ours).verdict()),
+            [Verdict::Reproduced, Verdict::Missed, Verdict::Missed]
+        );
+    }
+
+    #[test]
+    fn a_calibrated_value_proves_nothing_and_still_has_a_bound() {
+        let standing = Standing::Calibrated { on: "itself" };
+        assert_eq!(Row { standing, ..row(15.6) }.verdict(), Verdict::Calibrated);
+        assert_eq!(Row { standing, ..row(10.0) }.verdict(), Verdict::Missed);
+    }
+
+    #[test]
+    fn vague_text_is_no_success() {
+        assert_eq!(Row { bound: Bound::TooVague, ..row(15.6) }.verdict(), Verdict::TooVague);
+    }
+
+    #[test]
+    fn differences_are_shares_of_what_is_printed() {
+        assert_eq!(row(31.2).difference(), 1.0);
+        assert_eq!(row(7.8).difference(), -0.5);
+    }
+}

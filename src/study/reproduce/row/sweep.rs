@@ -1,0 +1,158 @@
+//! What the papers do not print, varied: the only thing that can explain a row.
+
+use super::{Row, Standing};
+use crate::report::{Cell, Table};
+use crate::study::reproduce::prose::number;
+use crate::study::reproduce::report::rounded;
+
+/// One setting of what is varied, and what rows would be under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// The setting, as in "2" of a factor.
+    pub at: String,
+    /// A value a row, in the order of the rows and in their units.
+    pub values: Vec<f64>,
+}
+
+/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out at one of the
+/// settings, which was chosen before any of them was.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Its name, as rows refer to it.
+    pub name: &'static str,
+    /// What is varied, with its unit.
+    pub parameter: &'static str,
+    /// The settings.
+    pub settings: Vec<Setting>,
+}
+
+/// What reaches a figure that a row misses. Made by [`Sweep::explain`] alone, from values of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    sweep: &'static str,
+    parameter: &'static str,
+    at: String,
+    value: f64,
+    others: [usize; 2],
+}
+
+impl Explanation {
+    /// The sweep's name.
+    pub const fn sweep(&self) -> &'static str {
+        self.sweep
+    }
+
+    /// The setting at which the row lies within its bound.
+    pub fn at(&self) -> &str {
+        &self.at
+    }
+
+    /// The row's value there.
+    pub const fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// In words.
+    pub fn text(&self) -> String {
+        let [held, all] = self.others;
+        format!(
+            "{}: {} at {} = {}, where {held} of the {all} rows of the sweep lie within their bounds",
+            self.sweep,
+            number(self.value, if self.value < 1000.0 { 1 } else { 0 }),
+            self.parameter,
+            self.at,
+        )
+    }
+}
+
+impl Sweep {
+    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains nothing if a
+    /// row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows are never explained.
+    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut Row>) {
+        let mut rows: Vec<&mut Row> = rows.into_iter().collect();
+        for setting in &self.settings {
+            let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
+            if rows.iter().zip(&held).any(|(row, held)| row.admits(row.ours) && !held) {
+                continue;
+            }
+            let others = [held.iter().filter(|held| **held).count(), held.len()];
+            for ((row, value), held) in rows.iter_mut().zip(&setting.values).zip(&held) {
+                let judged = !matches!(row.standing, Standing::Calibrated { .. }) && !row.admits(row.ours);
+                if *held && judged && row.explanation.is_none() {
+                    row.explanation = Some(Explanation {
+                        sweep: self.name,
+                        parameter: self.parameter,
+                        at: setting.at.clone(),
+                        value: *value,
+                        others,
+                    });
+                }
+            }
+        }
+    }
+
+    /// A line a row, a column a setting; what is within its bound is marked. Values are shown by `show`, in its unit if it has one.
+    pub fn table(&self, title: &str, rows: &[Row], show: (Option<&str>, fn(f64) -> f64)) -> Table {
+        let (unit, show) = show;
+        let settings =
+            self.settings.iter().map(|setting| format!("{}={}", self.parameter.replace(' ', "_"), setting.at));
+        let headings: Vec<String> =
+            ["what", "place", "unit", "paper", "ours"].map(str::to_owned).into_iter().chain(settings).collect();
+        let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+        let mut table = Table::new(format!("{title}; * within the bound"), &headings);
+        for (i, row) in rows.iter().enumerate() {
+            let text = |value: f64| -> Cell {
+                let within = if row.admits(value) { " *" } else { "" };
+                format!("{}{within}", rounded(show(value), 10.0)).into()
+            };
+            let head: [Cell; 5] = [
+                row.what.as_str().into(),
+                row.target.place.into(),
+                unit.unwrap_or(row.target.unit).into(),
+                rounded(show(row.target.value), 10.0).into(),
+                text(row.ours),
+            ];
+            let value = |setting: &Setting| text(setting.values.get(i).copied().unwrap_or(f64::NAN));
+            table.push(head.into_iter().chain(self.settings.iter().map(value)));
+        }
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Verdict;
+    use super::super::tests::row;
+    use super::*;
+
+    fn sweep(settings: &[[f64; 2]]) -> Sweep {
+        let setting = |(i, values): (usize, &[f64; 2])| Setting { at: i.to_string(), values: values.to_vec() };
+        let settings = settings.iter().enumerate().map(setting).collect();
+        Sweep { name: "costs", parameter: "factor", settings }
+    }
+
+    #[test]
+    fn what_a_setting_reaches_is_explained_by_it() {
+        let mut rows = [row(20.0), row(15.6)];
+        sweep(&[[19.0, 15.6], [16.0, 15.0]]).explain(&mut rows);
+        assert_eq!(rows.each_ref().map(Row::verdict), [Verdict::Explained, Verdict::Reproduced]);
+        let explanation = rows[0].explanation().expect("the second setting");
+        assert_eq!((explanation.at(), explanation.value()), ("1", 16.0));
+        assert!(rows[1].explanation().is_none(), "what holds needs no explanation");
+    }
+
+    #[test]
+    fn what_no_setting_reaches_stays_missed() {
+        let mut rows = [row(20.0), row(15.6)];
+        sweep(&[[19.0, 15.6], [25.0, 15.0]]).explain(&mut rows);
+        assert_eq!(rows[0].verdict(), Verdict::Missed);
+    }
+
+    /// The setting that brings one row home must not drive another one out.
+    #[test]
+    fn a_setting_that_loses_another_row_explains_nothing() {
+        let mut rows = [row(20.0), row(15.6)];
+        sweep(&[[16.0, 9.0]]).explain(&mut rows);
+        assert_eq!(rows[0].verdict(), Verdict::Missed);
+    }
+}

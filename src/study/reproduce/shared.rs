@@ -1,0 +1,28 @@
+//! What several entries need: worked out once, by the first that asks.
+
+use std::cell::OnceCell;
+
+use super::ReproduceError;
+use super::tables::TeapotRoom;
+
+/// Renderings and runs of the engine that entries share.
+#[derive(Default)]
+pub(super) struct Shared {
+    teapot: OnceCell<TeapotRoom>,
+}
+
+impl Shared {
+    /// The teapot room of Tables 1 to 5.
+    pub(super) fn teapot(&self) -> Result<&TeapotRoom, ReproduceError> {
+        get_or_try(&self.teapot, TeapotRoom::new)
+    }
+}
+
+/// The value of a cell; computed if it has none yet, and left empty if that fails.
+pub(super) fn get_or_try<T, E>(cell: &OnceCell<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+    if let Some(value) = cell.get() {
+        return Ok(value);
+    }
+    let value = make()?;
+    Ok(cell.get_or_init(|| value))
+}

@@ -1,0 +1,161 @@
+//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them has to bear the others.
+
+use std::rc::Rc;
+
+use super::super::{Bound, Method, ReproduceError, Row, Standing, Sweep, Target};
+use super::engine_run::{Commands, Run, TIMES};
+use super::teapot::{TeapotRoom, Variant};
+use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
+use crate::ray_engine::engine::Readback;
+use crate::report::{Cell, Table};
+
+/// Passes in flight in the asynchronous run.
+const IN_FLIGHT: usize = 4;
+/// Of the printed gain over the host alone.
+const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
+
+/// A row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
+pub(super) struct Line {
+    pub(super) row: Row,
+    pub(super) run: Rc<Run>,
+}
+
+impl Line {
+    /// The printed speed-up over the host alone, in per cent.
+    pub(super) fn printed(&self) -> f64 {
+        speed_up(self.row.target.value)
+    }
+
+    /// Ours.
+    pub(super) fn ours(&self) -> f64 {
+        speed_up(self.row.ours)
+    }
+}
+
+/// All rows, and what they would be under other guesses.
+pub(super) struct SpeedUps {
+    pub(super) lines: Vec<Line>,
+    pub(super) commands: Sweep,
+    pub(super) host_leaf: Sweep,
+}
+
+impl SpeedUps {
+    /// The lines of a table.
+    pub(super) fn of(&self, place: &'static str) -> Vec<&Line> {
+        self.lines.iter().filter(|line| line.row.target.place == place).collect()
+    }
+
+    /// The rows of a table with that of the host alone.
+    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<Row> {
+        std::iter::once(room.host_alone(place)).chain(self.of(place).into_iter().map(|line| line.row.clone())).collect()
+    }
+
+    /// All rows under each setting of a sweep, as speed-ups.
+    pub(super) fn table(&self, sweep: &Sweep, title: &str) -> Table {
+        let rows: Vec<Row> = self.lines.iter().map(|line| line.row.clone()).collect();
+        sweep.table(title, &rows, (Some("%"), speed_up))
+    }
+
+    /// The speed-ups of a table's lines under each setting of a sweep of all rows.
+    pub(super) fn under(&self, sweep: &Sweep, place: &'static str) -> Vec<(String, Vec<f64>)> {
+        let of = |values: &[f64]| {
+            let pairs = self.lines.iter().zip(values);
+            pairs.filter(|(line, _)| line.row.target.place == place).map(|(_, value)| speed_up(*value)).collect()
+        };
+        sweep.settings.iter().map(|setting| (setting.at.clone(), of(&setting.values))).collect()
+    }
+}
+
+/// What is printed: name, table, rays a second, and how the engine runs.
+fn printed() -> Vec<(String, &'static str, f64, Variant)> {
+    let plus = Variant::PLUS_CARD;
+    let readback = |readback| Variant { readback, ..plus.clone() };
+    let triangles = |triangles| Variant { triangles, ..plus.clone() };
+    let rays = |rays| Variant { rays, ..plus.clone() };
+    let mut lines = Vec::new();
+    for (what, value, variant) in [
+        ("plus card", 165_098.0, plus.clone()),
+        ("asynchronous read-back", 183_273.0, readback(Readback::Asynchronous { passes: IN_FLIGHT })),
+        ("infinitely fast card", 234_102.0, readback(Readback::InfinitelyFast)),
+    ] {
+        lines.push((what.to_owned(), "Table 3", value, variant));
+    }
+    for (range, value) in [(4..=16, 147_630.0), (5..=12, 157_839.0), (5..=15, 165_098.0)] {
+        let what = format!("{} to {} triangles", range.start(), range.end());
+        lines.push((what, "Table 4", value, triangles(range)));
+    }
+    for (count, value) in [(64, 165_098.0), (128, 177_647.0), (256, 180_558.0), (512, 175_904.0)] {
+        lines.push((format!("{count} rays"), "Table 5", value, rays(count)));
+    }
+    lines
+}
+
+/// Runs, times and sweeps.
+pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
+    let printed = printed();
+    let variants: Vec<Variant> = printed.iter().map(|(.., variant)| variant.clone()).collect();
+    let runs = room.runs(&variants)?;
+    let ours = sweeps::rates(&runs, &room.host, commands())?;
+    let mut lines = Vec::new();
+    for (((what, place, value, _), run), ours) in printed.into_iter().zip(&runs).zip(ours) {
+        let target = Target::printed(value, 0, "rays/s", place);
+        let row = Row::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
+        lines.push(Line { row, run: Rc::clone(run) });
+    }
+    let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
+    for sweep in [&commands, &host_leaf] {
+        sweep.explain(lines.iter_mut().map(|line| &mut line.row));
+    }
+    Ok(SpeedUps { lines, commands, host_leaf })
+}
+
+pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> Row {
+    let standing = Standing::Calibrated { on: "this figure" };
+    let ours = room.work.alone.rays_per_s(&room.host);
+    let target = Target::printed(HOST_ALONE, 0, "rays/s", place);
+    Row::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
+}
+
+const HEADINGS: [&str; 14] = [
+    "run",
+    "printed_rays_per_s",
+    "ours_rays_per_s",
+    "printed_%",
+    "ours_%",
+    "points_off",
+    "ours_if_commands_were_free_%",
+    "passes_per_1000_rays",
+    "rays_per_pass",
+    "triangles_per_pass",
+    "cells_per_ray",
+    "host_tests_per_ray",
+    "card_visits_per_ray",
+    "forced_per_ray",
+];
+
+/// The speed-ups of some lines over the host alone, and what their engines did.
+pub(super) fn table(room: &TeapotRoom, lines: &[&Line], place: &str) -> Result<Table, ReproduceError> {
+    let mut table = Table::new(format!("Speed-ups over the host alone, {place}"), &HEADINGS);
+    for line in lines {
+        let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);
+        let (counts, rays) = (&line.run.counts, line.run.counts.rays as f64);
+        let of = |part: u64, whole: f64, steps: f64| -> Cell { figure(part as f64 / whole.max(1.0), steps) };
+        table.push([
+            line.row.what.as_str().into(),
+            figure(line.row.target.value, 1.0),
+            figure(line.row.ours, 1.0),
+            figure(line.printed(), 10.0),
+            figure(line.ours(), 10.0),
+            figure(line.ours() - line.printed(), 10.0),
+            figure(free, 10.0),
+            figure(1000.0 * counts.passes as f64 / rays, 10.0),
+            of(counts.pass_rays, counts.passes as f64, 10.0),
+            of(counts.pass_tests, counts.pass_rays as f64, 10.0),
+            of(counts.traversal.cells, rays, 10.0),
+            of(counts.host_tests, rays, 10.0),
+            of(counts.pass_rays, rays, 100.0),
+            of(counts.forced_rays, rays, 100.0),
+        ]);
+    }
+    Ok(table)
+}

@@ -1,0 +1,65 @@
+//! What the rows of Tables 3 to 5 hang on and no paper prints, varied.
+
+use std::rc::Rc;
+
+use rayon::prelude::*;
+use refsim::timing::host::{HostModel, HostWeights};
+use refsim::timing::queue::QueueFigures;
+
+use super::super::{ReproduceError, Setting, Sweep};
+use super::commands as stated;
+use super::engine_run::{Commands, OCTREE, Run, rays_per_s};
+use super::teapot::TeapotRoom;
+use crate::ray_engine::octree::OctreeParameters;
+
+/// Halves of the guessed costs of commands: once, one and a half times, twice, three times.
+const HALVES: [u64; 4] = [2, 3, 4, 6];
+/// Triangles of a leaf of the host's octree.
+const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
+
+/// Rays a second of runs; each log is replayed once, however often its run stands in the list.
+pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, ReproduceError> {
+    let mut distinct: Vec<&Rc<Run>> = Vec::new();
+    for run in runs {
+        if !distinct.iter().any(|known| Rc::ptr_eq(known, run)) {
+            distinct.push(run);
+        }
+    }
+    let plain: Vec<&Run> = distinct.iter().map(|run| &***run).collect();
+    let found: Vec<f64> = plain.into_par_iter().map(|run| rays_per_s(run, host, commands)).collect::<Result<_, _>>()?;
+    let rate =
+        |run: &Rc<Run>| distinct.iter().zip(&found).find(|(known, _)| Rc::ptr_eq(known, run)).map(|(_, rate)| *rate);
+    Ok(runs.iter().filter_map(rate).collect())
+}
+
+/// All costs of commands together, by a factor. The bus and the card stay as they are.
+pub(super) fn commands(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
+    let setting = |halves: u64| {
+        let values = rates(runs, &room.host, Commands::Cost(scaled(halves)))?;
+        Ok(Setting { at: (halves as f64 / 2.0).to_string(), values })
+    };
+    let settings = HALVES.into_iter().map(setting).collect::<Result<_, ReproduceError>>()?;
+    Ok(Sweep { name: "command costs", parameter: "factor", settings })
+}
+
+fn scaled(halves: u64) -> QueueFigures {
+    let mut figures = QueueFigures::default();
+    for row in QueueFigures::default().rows().into_iter().filter(|row| row.unit == "ps") {
+        if let Some(figure) = figures.figure_mut(&row.key) {
+            *figure = *figure * halves / 2;
+        }
+    }
+    figures
+}
+
+/// The octree of the host alone, by the triangles of its leaves; the engine keeps its own. The host is calibrated anew each time, so that it
+/// takes the printed time for what it then counts.
+pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
+    let setting = |most_triangles: usize| {
+        let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });
+        let values = rates(runs, &alone.calibrate(HostWeights::default())?, stated())?;
+        Ok(Setting { at: most_triangles.to_string(), values })
+    };
+    let settings = LEAVES.into_iter().map(setting).collect::<Result<_, ReproduceError>>()?;
+    Ok(Sweep { name: "leaves of the host's octree", parameter: "triangles", settings })
+}
