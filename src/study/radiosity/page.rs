@@ -123,6 +123,7 @@ fn darkness(outcome: &Outcome) -> Option<Chart> {
         y: "error, %".to_owned(),
         y_scale: Scale::Logarithmic,
         lines,
+        ..Chart::default()
     })
 }
 

@@ -26,8 +26,8 @@ use crate::device::Rules;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::budget::straight_exceeds;
 use crate::exec::{
-    BUMP_STAGES, BumpStage, Overrun, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written, inputs_read,
-    sample_rules,
+    BUMP_STAGES, BumpStage, Overrun, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written,
+    inputs_read, sample_rules,
 };
 use crate::isa::Program;
 use crate::output::{DepthFormat, TargetTile};
