@@ -23,7 +23,7 @@ use refsim::machine::ExecutorKind;
 use scene::Scene;
 
 /// Cards and ideal formats, some with other switches: an overflow that wraps breaks what one that saturates may hide.
-const DEVICES: [(&str, &[(&str, &str)]); 20] = [
+const DEVICES: [(&str, &[(&str, &str)]); 18] = [
     ("r200", &[]),
     ("r200", &[("overflow", "wrap"), ("texcrd-overflow", "wrap-preserving")]),
     ("r200", &[("rounding", "rne"), ("overflow", "wrap"), ("ray-textures", "signed")]),
@@ -35,13 +35,11 @@ const DEVICES: [(&str, &[(&str, &str)]); 20] = [
     ("nv35", &[]),
     // Saturating: the hit mask is the constant 1, which would wrap to -1 here.
     ("ideal-s0.15", &[]),
-    ("ideal-s1.10", &[]),
     ("ideal-s3.12:wrap", &[]),
     ("ideal-s3.16", &[]),
     ("ideal-s7.16:wrap", &[]),
     ("ideal-s7.24", &[]),
     ("ideal-fp16", &[]),
-    ("ideal-e4m16", &[]),
     ("ideal-e6m9:rtz", &[]),
     ("ideal-fp24", &[]),
     ("ideal-fp32", &[]),
