@@ -5,10 +5,12 @@ use std::slice;
 
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
+use unicode_width::UnicodeWidthChar as _;
+
 use super::SourceText;
 use super::visible::{is_hidden, visible_line};
 
-/// Most characters of a line that are shown, escapes counted as they are written, the marks of a cut not counted.
+/// Most columns of a line that are shown, escapes counted as they are written, the marks of a cut not counted.
 const WIDTH: usize = 80;
 /// Characters in front of a label that are shown at least, where a long line is cut.
 const BEFORE: usize = 20;
@@ -209,13 +211,13 @@ impl Piece {
         }
     }
 
-    /// Characters that it is shown with.
+    /// Columns of a terminal that it takes. What takes none of its own counts as one, so that no line is endless.
     fn width(&self) -> usize {
         match self {
             // Renderers write a tab as blanks, four at most.
             Self::Character('\t') => 4,
             Self::Character(c) if is_hidden(*c) => c.escape_default().len(),
-            Self::Character(_) => 1,
+            Self::Character(c) => c.width().unwrap_or(1).max(1),
             Self::Byte(_) => 4,
         }
     }

@@ -316,7 +316,7 @@ fn a_program_that_runs_too_long_is_an_error() {
     let endrep = "endrep\\n".repeat(4);
     let text = format!(
         "device = \"nv30\"\n[pixel]\nsource = \"ps_2_a\\nmov r0, c0\\n{rep}add r0, r0, c0\\n{endrep}mov oC0, r0\"\n\
-         [constants]\ni0 = [255, 0, 0, 0]\n[geometry]\nprimitive = \"quads\"\nfull_screen = true\n[target]\nsize = [18, 18]\n\
+         [constants]\ni0 = [255, 0, 0, 0]\n[geometry]\nfull_screen = true\n[target]\nsize = [18, 18]\n\
          format = \"bgra8\"\n"
     );
     fs::write(folder.path().join("case.toml"), &text).expect("a file");

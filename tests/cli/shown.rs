@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use wait4::Wait4 as _;
+
 use crossbar::report::visible::is_hidden;
 
 use crate::{Ran, crossbar, crossbar_in};
@@ -123,7 +125,7 @@ fn a_report_costs_as_much_as_its_errors() {
     let seconds = |count: usize, more: &[&str]| {
         let folder = folder_with(&[("shader.psa", bad_lines(count).as_bytes())]);
         let arguments = [&["check", "shader.psa", "--device", "r200"], more].concat();
-        let used = crate::used_by(folder.path(), &arguments);
+        let used = crate::start(folder.path(), &arguments).wait4().expect("a child");
         assert_eq!(used.status.code(), Some(1));
         used.rusage.utime.as_secs_f64()
     };
