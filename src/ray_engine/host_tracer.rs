@@ -105,8 +105,9 @@ impl HostTracer {
         (hit[0], counts)
     }
 
-    /// Whether anything is hit before `t_max`, in multiples of the ray's direction: whether the t of the first hit is smaller. Cheaper, since
-    /// any hit will do.
+    /// Whether anything is hit before `t_max`, in multiples of the ray's direction: whether the t of the first hit is
+    /// smaller, unless rounding alone made it so (the triangle lies in cells beyond `t_max`, as in exact arithmetic).
+    /// Cheaper, since any hit will do.
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
         let mut occluded = [false];
         let counts = self.occluded_each(std::slice::from_ref(ray), t_max, &mut occluded);

@@ -78,7 +78,14 @@ proptest! {
             let before = found.map_or(1.0, |hit| hit.t);
             for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
                 let (occluded, cost) = fine.occluded(&ray, end);
-                prop_assert_eq!(occluded, found.is_some_and(|hit| hit.t < end), "before {}", end);
+                if occluded != found.is_some_and(|hit| hit.t < end) {
+                    // Rounding can bring the t of a hit in front of the cells that hold the triangle, which a search
+                    // that ends at `end` does not reach. Then nothing is there in exact arithmetic either.
+                    let hit = found.expect("only a hit can be lost");
+                    let corners = mesh.corners(hit.triangle).expect("a triangle");
+                    let exact = exact::intersect(&ray, &corners, sides).map(|t| t.to_f64());
+                    prop_assert!(!occluded && exact.is_none_or(|t| t >= f64::from(end)), "{hit:?}, {exact:?}, before {end}");
+                }
                 prop_assert!(cost.tests <= counts.tests);
             }
         }
