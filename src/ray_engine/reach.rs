@@ -23,10 +23,8 @@ impl Span {
     }
 
     fn include(&mut self, v: Vec3) {
-        for axis in 0..3 {
-            self.0[0][axis] = self.0[0][axis].min(v[axis]);
-            self.0[1][axis] = self.0[1][axis].max(v[axis]);
-        }
+        let [low, high] = self.0;
+        self.0 = [[0, 1, 2].map(|axis| low[axis].min(v[axis])), [0, 1, 2].map(|axis| high[axis].max(v[axis]))];
     }
 
     /// One component: from, to.

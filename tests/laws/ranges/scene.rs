@@ -31,14 +31,14 @@ impl Scene {
         let point = |index: u64, sample: u64| [0, 1, 2].map(|k| number_in(index, sample, k));
         let add = |p: [f64; 3], q: [f64; 3], by: f64| [0, 1, 2].map(|k| p[k] + by * q[k]);
         // A third of the scenes lie around the origin, the others up to four sizes away.
-        let middle = point(1, 0).map(|x| if number % 3 == 0 { 0.0 } else { 4.0 * x });
+        let middle = point(1, 0).map(|x| if number.is_multiple_of(3) { 0.0 } else { 4.0 * x });
         let mut corners: Vec<[f64; 3]> = Vec::new();
         let count = 2 + random.bits(2, 0, 0) % 10;
         // Edges of one scene: all tiny, all large, or mixed.
         let finest = [0, 4, 10][(random.bits(2, 1, 0) % 3) as usize];
         for i in 0..count {
             let edge = power_of_two(-((random.bits(3, i, 0) % (finest + 1)) as i32)) * (1.0 + random.unit(3, i, 1));
-            let at = add(middle, point(4, i), if number % 5 == 0 { 0.01 } else { 1.0 });
+            let at = add(middle, point(4, i), if number.is_multiple_of(5) { 0.01 } else { 1.0 });
             corners.extend((0..3).map(|k| add(at, point(5 + k, i), edge)));
         }
         let single = |p: [f64; 3]| p.map(|x| (x * size) as f32);
