@@ -27,6 +27,11 @@ impl Span {
         self.0 = [[0, 1, 2].map(|axis| low[axis].min(v[axis])), [0, 1, 2].map(|axis| high[axis].max(v[axis]))];
     }
 
+    /// The largest magnitude of each component.
+    pub(super) fn magnitudes(self) -> Vec3 {
+        [0, 1, 2].map(|axis| magnitude(self.axis(axis)))
+    }
+
     /// One component: from, to.
     fn axis(&self, axis: usize) -> [f64; 2] {
         [self.0[0][axis], self.0[1][axis]]
@@ -127,15 +132,18 @@ impl Reach {
             reach.directions.include(d);
             let [p, q] = [sub(origin, low), sub(origin, high)];
             let farthest = [0, 1, 2].map(|axis| p[axis].abs().max(q[axis].abs()));
-            let mut offsets = Span([p; 2]);
-            offsets.include(q);
-            let d_alone = Span([d; 2]);
-            let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let components = units.map(|unit| offsets.triple(unit, d_alone));
-            let products = [1, 2].map(|by| inner_most(farthest, [d[by % 3], d[(by + 1) % 3], d[(by + 2) % 3]]));
             reach.origin = reach.origin.max(largest(origin));
             reach.offset = reach.offset.max(largest(farthest));
-            reach.cross = reach.cross.max(largest(components)).max(products[0]).max(products[1]);
+            // No cross product of this ray exceeds the magnitudes of its terms: few rays can be the largest.
+            if largest(mixed(farthest, d.map(f64::abs))) > reach.cross {
+                let mut offsets = Span([p; 2]);
+                offsets.include(q);
+                let d_alone = Span([d; 2]);
+                let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                let components = units.map(|unit| offsets.triple(unit, d_alone));
+                let products = [1, 2].map(|by| inner_most(farthest, [d[by % 3], d[(by + 1) % 3], d[(by + 2) % 3]]));
+                reach.cross = reach.cross.max(largest(components)).max(products[0]).max(products[1]);
+            }
             // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at
             // t <= 2 r; along its own length, at t <= r / |d|.
             let length = |v: Vec3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();

@@ -5,7 +5,7 @@ use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
 
 use super::range::Range;
 use super::rays::{ceil_power_of_two, normalise_range, power_of_two, scale_into};
-use super::reach::{Reach, Span, inner, largest, most_of_partial_sums};
+use super::reach::{Reach, Span, inner, largest, mixed, most_of_partial_sums};
 use super::reference::{Vec3, cross, sub};
 use super::{Form, Kernel, RayBatch};
 use crate::geom::{Mesh, Ray};
@@ -85,6 +85,23 @@ impl Units {
         let n = cross(ab, ac);
         let (texel, error) = (self.range.texel_error(), self.range.cross_product_error());
         let (ao, bo, d) = (self.origins.minus(a), self.origins.minus(b), self.directions);
+        let components = [ab, ac, bc, n].map(largest).into_iter().fold(0.0, f64::max);
+        let scale = |sum: f64| self.range.edge_scale(sum.max(components), largest(n));
+
+        // Most triangles are small: the magnitudes of all terms together, which no sum exceeds, settle it for them.
+        let [ao_most, bo_most, d_most] = [ao, bo, d].map(Span::magnitudes);
+        let [aod, bod] = [ao_most, bo_most].map(|v| mixed(v, d_most).map(|x| x + error));
+        let n_d = inner(n, d_most.map(|x| x + texel)) * self.range.of_divisors();
+        let n_ao = match self.form {
+            Form::OneOrigin => inner(n, ao_most) / self.t_max,
+            Form::AnyOrigin | Form::Float => inner(n, ao_most.map(|x| x + texel + 2.0 * self.range.step)),
+        };
+        let w = inner(bc, bod) + inner(n, [texel; 3]);
+        let terms = [n_d, n_ao, inner(ac, aod), inner(ab, aod), inner(bc, aod), w].into_iter().fold(0.0, f64::max);
+        if scale(terms) == scale(0.0) {
+            return scale(0.0);
+        }
+
         let turned = |e: Vec3| most_of_partial_sums(e, |e| ao.triple(e, d)) + inner(e, [error; 3]);
         let n_d = most_of_partial_sums(n, |n| d.dot(n)) + inner(n, [texel; 3]);
         let n_ao = match self.form {
@@ -97,9 +114,7 @@ impl Units {
         // w is the difference of n.d and bc.aod, and has the errors of both.
         let w = bo.triple(bc, d) + inner(bc, [error; 3]) + inner(n, [texel; 3]);
         let sums = [n_d * self.range.of_divisors(), n_ao, turned(ac), turned(ab), turned(bc), w];
-        let components = [ab, ac, bc, n].map(largest);
-        let sum = sums.into_iter().chain(components).fold(0.0, f64::max);
-        self.range.edge_scale(sum, largest(n))
+        scale(sums.into_iter().fold(0.0, f64::max))
     }
 
     /// `c0` is the program's own; `c1` scene scale, unused, 1 / t_max; `c2` the common origin.
