@@ -7,8 +7,19 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// A command to which no signal is ignored, though one may be to whoever runs these tests (`nohup`, a script in the background): it would stay
+/// so for the program too, and work of minutes would run to its end.
+fn unignoring(program: &str) -> Command {
+    if cfg!(target_os = "linux") {
+        let mut command = Command::new("env");
+        command.args(["--default-signal=INT,TERM,HUP", program]);
+        return command;
+    }
+    Command::new(program)
+}
+
 fn begin(folder: &Path, arguments: &[&str]) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    let mut command = unignoring(env!("CARGO_BIN_EXE_crossbar"));
     command.args(arguments).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().expect("the program that this test was built with")
 }
@@ -65,7 +76,7 @@ fn shells_see_130_and_143() {
             "(until ls -d .crossbar-* > /dev/null 2>&1; do sleep 0.02; done; kill -s {name} $(cat pid)) & \
              sh -c 'echo $$ > pid; exec \"$0\" \"$@\"' \"$@\"; echo $?"
         );
-        let mut command = Command::new("sh");
+        let mut command = unignoring("sh");
         command.args(["-c", &script, "sh", env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
         let output = command.stdin(Stdio::null()).output().expect("a shell");
         assert_eq!(String::from_utf8_lossy(&output.stdout).lines().last(), Some(code.to_string().as_str()), "{name}");
@@ -78,7 +89,7 @@ fn shells_see_130_and_143() {
 #[cfg(target_os = "linux")]
 fn what_is_ignored_stays_ignored() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let mut command = Command::new("sh");
+    let mut command = unignoring("sh");
     command.args(["-c", "trap '' HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_crossbar")]).args(LONG);
     command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().expect("a shell");
