@@ -5,19 +5,15 @@ use thiserror::Error;
 
 /// Why a piece of text is no number in single precision. What was found is quoted by those who know where it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("expected {}", self.expected())]
 pub enum NumberError {
     /// No number at all.
-    #[error("expected a number")]
     NoNumber,
     /// A NaN or an infinity, by name.
-    #[error("expected a finite number")]
     NotFinite,
     /// A number that rounds to infinity.
-    #[error("expected a number that is not {TOO_LARGE}")]
     TooLarge,
 }
-
-const TOO_LARGE: &str = "too large for a 32-bit float: at most 3.4028235e38";
 
 impl NumberError {
     /// What was expected, to stand between "expected" and "found".

@@ -13,8 +13,8 @@
 //! | k n.d, k n.ao and their partial sums | 3 \|k n\| D, 3 \|k n\| A | k |
 //! | k u, k v, k w and their partial sums | 3 k e (2 A D) | k |
 //!
-//! The bounds used are finer than this table: sums of magnitudes by component, over all rays of a batch, for each
-//! triangle by itself. They include the rounding errors of the card, so that nothing saturates, wraps or becomes
+//! The bounds used are finer than this table: intervals by component, over all rays of a batch, for each triangle by
+//! itself. They include the rounding errors of the card, so that nothing saturates, wraps or becomes
 //! infinite, in whatever order a card adds.
 
 use refsim::device::{Rules, TexdepthDenominator};
