@@ -13,6 +13,7 @@ mod flow;
 mod fragment;
 #[cfg(feature = "wgpu")]
 pub mod gpu;
+mod lower;
 mod observer;
 pub mod scalar;
 mod tile;

@@ -52,8 +52,7 @@ pub enum LaneOperation {
 /// compares the two through this function.
 pub fn evaluate(format: Format, operation: LaneOperation, a: &[u32], b: &[u32], c: &[u32]) -> Vec<u32> {
     let mut out = Vec::with_capacity(a.len());
-    let Some(any) = AnyLane::new(format) else { return out };
-    with_any_lane!(&any, |lane| {
+    with_any_lane!(&AnyLane::new(format), |lane| {
         for start in (0..a.len()).step_by(LANES) {
             let end = a.len().min(start + LANES);
             let part = |s: &[u32]| {
@@ -121,10 +120,9 @@ fn apply<L: Lane>(lane: &L, operation: LaneOperation, a: &[L::T], b: &[L::T], c:
 
 /// Bit patterns of `from` converted to `to`, as [`crate::num::ops::convert`] defines it.
 pub fn convert(from: Format, to: Format, bits: &[u32]) -> Vec<u32> {
-    let (Some(source), Some(target)) = (AnyLane::new(from), AnyLane::new(to)) else { return Vec::new() };
     let mut wide = Vec::with_capacity(bits.len());
-    with_any_lane!(&source, |lane| { wide.extend(bits.iter().map(|&b| lane.to_f64(lane.decode(b)))) });
+    with_any_lane!(&AnyLane::new(from), |lane| { wide.extend(bits.iter().map(|&b| lane.to_f64(lane.decode(b)))) });
     let mut out = Vec::with_capacity(bits.len());
-    with_any_lane!(&target, |lane| { out.extend(wide.iter().map(|&x| lane.encode(lane.round_f64(x)))) });
+    with_any_lane!(&AnyLane::new(to), |lane| { out.extend(wide.iter().map(|&x| lane.encode(lane.round_f64(x)))) });
     out
 }

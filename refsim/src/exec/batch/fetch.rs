@@ -3,9 +3,8 @@
 
 use std::sync::Arc;
 
-use super::arith::Formats;
 use super::cache::Cache;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
 use super::odd;
@@ -14,6 +13,7 @@ use super::simd::SimdLevel;
 use super::slots::{Row, Slots};
 use super::stored::Stored;
 use crate::exec::SamplerBinding;
+use crate::exec::lower::Arith;
 use crate::num::Format;
 use crate::num::ops;
 use crate::texture::{
@@ -72,7 +72,7 @@ impl<'a> BatchTexture<'a> {
     }
 
     /// Reads texels for the lanes that `run` names into the slots of the step.
-    pub(crate) fn read(&self, step: &FetchStep, formats: &Formats, run: &Row, slots: &mut Slots) {
+    pub(crate) fn read(&self, step: &FetchStep, formats: &LaneFormats, run: &Row, slots: &mut Slots) {
         match &self.table {
             Some(table) => {
                 let mut index = [0u32; LANES];
@@ -96,7 +96,7 @@ impl<'a> BatchTexture<'a> {
         }
     }
 
-    fn read_lanes(&self, step: &FetchStep, formats: &Formats, run: &Row, slots: &mut Slots) {
+    fn read_lanes(&self, step: &FetchStep, formats: &LaneFormats, run: &Row, slots: &mut Slots) {
         let single = formats.lane(Arith::Single);
         // Lanes that are not run still take part in arithmetic: a number of the format, not what the slot held before.
         for to in step.to.iter().flatten() {

@@ -3,6 +3,7 @@
 use super::lane::Lane;
 use super::odd::{self, SIGN};
 use super::power;
+use crate::exec::lower::{FloatLayout, pow2};
 use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
 
 /// Host `f32` operations are the format's own: binary32, nearest even, IEEE overflow.
@@ -29,15 +30,11 @@ pub(crate) const ANY: u8 = 4;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     rounding: u8,
-    man_bits: u32,
-    exp_bits: u32,
-    /// Smallest normal number.
-    min_normal: f64,
+    layout: FloatLayout,
     /// Numbers below this become zero: the smallest normal number under [`Denormals::Flush`], else 0.
     flush: f64,
-    /// `2^(52 - m)` and `2^-m`: a binade times these is the number to round against, and the unit in the last place.
+    /// `2^(52 - m)`: a binade times this is the number to round against.
     magic: f64,
-    unit: f64,
     /// Largest finite number, and what larger ones become, by sign; the same for exact magnitudes of `2^(emax+1)` and more.
     max: f64,
     over: [f32; 2],
@@ -75,18 +72,12 @@ pub(crate) fn path(format: &Format) -> u8 {
     }
 }
 
-/// `2^e` for `e` of normal doubles.
-fn pow2(e: i32) -> f64 {
-    f64::from_bits(((e + 1023) as u64) << 52)
-}
-
 impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
-    /// The arithmetic of `format`, or `None` if that is a fixed-point format.
-    pub(crate) fn new(format: Format) -> Option<Self> {
-        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+    /// The arithmetic of a float format with these bits.
+    pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
         let (x, m) = (i32::from(exp_bits), i32::from(man_bits));
         let emax = (1 << (x - 1)) - 1;
-        let min_normal = pow2(1 - emax);
+        let layout = FloatLayout::new(exp_bits, man_bits, format.denormals);
         let max = pow2(emax) * (2.0 - pow2(-m));
         let (inf, largest) = ([f32::INFINITY, f32::NEG_INFINITY], [max as f32, -max as f32]);
         let (over, huge) = match format.overflow {
@@ -101,21 +92,18 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
                 (both, both)
             }
         };
-        Some(FloatLane {
+        FloatLane {
             rounding: rounding_index(format.rounding),
-            man_bits: u32::from(man_bits),
-            exp_bits: u32::from(exp_bits),
-            min_normal,
-            flush: if format.denormals == Denormals::Flush { min_normal } else { 0.0 },
+            layout,
+            flush: if format.denormals == Denormals::Flush { layout.min_normal } else { 0.0 },
             magic: pow2(52 - m),
-            unit: pow2(-m),
             max,
             over,
             huge_from: pow2(emax) * 2.0,
             huge,
             pole: if format.overflow == Overflow::Saturate { largest } else { inf },
             nv: format.specials == Specials::Nv,
-        })
+        }
     }
 
     #[inline(always)]
@@ -129,11 +117,11 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         let mag = x.abs();
         let negative = x.is_sign_negative();
         let binade = f64::from_bits(mag.to_bits() & 0x7ff0_0000_0000_0000);
-        let scale = if binade > self.min_normal { binade } else { self.min_normal };
+        let scale = if binade > self.layout.min_normal { binade } else { self.layout.min_normal };
         // Adding a number whose unit in the last place is the format's there rounds to nearest even.
         let pivot = scale * self.magic;
         let near = (mag + pivot) - pivot;
-        let unit = scale * self.unit;
+        let unit = scale * self.layout.unit;
         let kept = match self.rounding() {
             0 => near,
             1 => {
@@ -174,7 +162,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     fn narrow_single(&self, x: f32) -> f32 {
         let mag = x.abs();
         let binade = f32::from_bits(mag.to_bits() & 0x7f80_0000);
-        let min_normal = self.min_normal as f32;
+        let min_normal = self.layout.min_normal as f32;
         let scale = if binade > min_normal { binade } else { min_normal };
         let pivot = scale * (self.magic * SINGLE_MAGIC) as f32;
         let near = (mag + pivot) - pivot;
@@ -224,41 +212,12 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn decode(&self, bits: u32) -> f32 {
-        let (m, x) = (self.man_bits, self.exp_bits);
-        let sign = (bits >> (m + x) & 1) << 31;
-        let magnitude = bits & ((1 << (m + x)) - 1);
-        let field = magnitude >> m;
-        let man = magnitude & ((1 << m) - 1);
-        if field == (1 << x) - 1 {
-            return if man == 0 { f32::from_bits(sign | 0x7f80_0000) } else { f32::NAN };
-        }
-        let value = if field == 0 {
-            if self.flush > 0.0 { 0.0 } else { f64::from(man) * self.min_normal * self.unit }
-        } else {
-            f64::from(man | 1 << m) * self.unit * pow2(field.cast_signed() + 1 - (1 << (x - 1)))
-        };
-        f32::from_bits((value as f32).to_bits() | sign)
+        self.layout.decode(bits)
     }
 
     #[inline(always)]
     fn encode(&self, x: f32) -> u32 {
-        let (m, w) = (self.man_bits, self.man_bits + self.exp_bits);
-        let sign = u32::from(x.is_sign_negative()) << w;
-        let infinity = ((1 << self.exp_bits) - 1) << m;
-        if x.is_nan() {
-            return infinity | 1 << (m - 1);
-        }
-        if x.is_infinite() {
-            return sign | infinity;
-        }
-        let mag = f64::from(x).abs();
-        if mag < self.min_normal {
-            return sign | (mag / (self.min_normal * self.unit)) as u32;
-        }
-        let bits = mag.to_bits();
-        let bias = (1i64 << (self.exp_bits - 1)) - 1;
-        let field = ((bits >> 52).cast_signed() - 1023 + bias) as u32;
-        sign | field << m | (bits << 12 >> 12 >> (52 - m)) as u32
+        self.layout.encode(x)
     }
 
     #[inline(always)]

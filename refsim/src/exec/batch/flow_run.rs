@@ -1,11 +1,12 @@
 //! A run of a program with flow control: which lanes are active, and where the program goes on.
 
-use super::flow::{ACTIVE, COUNTER, DECIDED, FlowPlan, Instr, KILLED};
+use super::flow::{FlowPlan, Instr};
 use super::lane::LANES;
-use super::slots::{Row, Slots, TRUE};
+use super::slots::{Row, Slots};
 use super::steps::{Surroundings, run_steps};
 use crate::event::SAMPLERS;
 use crate::exec::budget::LOOP_LIMIT;
+use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
 use crate::isa::{Opcode, OpcodeClass};
 
 /// What an open block remembers.

@@ -3,35 +3,37 @@
 
 use std::collections::BTreeMap;
 
-use super::graph::{Arith, Graph, Kind, Node};
-use super::ops::{Code, OPERANDS};
+use super::ops::OPERANDS;
+use crate::exec::lower::{Arith, Graph, NodeId, NodeKind, NodeOperation};
 
 /// An operation as it is carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fused {
     pub(crate) arith: Arith,
-    pub(crate) code: Code,
+    pub(crate) code: NodeOperation,
     /// As many as the code's arity says.
-    pub(crate) args: [Node; OPERANDS],
+    pub(crate) args: [NodeId; OPERANDS],
 }
 
 impl Fused {
-    fn new(arith: Arith, code: Code, operands: &[Node]) -> Self {
+    fn new(arith: Arith, code: NodeOperation, operands: &[NodeId]) -> Self {
         let mut args = [operands[0]; OPERANDS];
         args[..operands.len()].copy_from_slice(operands);
         Self { arith, code, args }
     }
 
     /// The operands.
-    pub(crate) fn operands(&self) -> &[Node] {
+    pub(crate) fn operands(&self) -> &[NodeId] {
         &self.args[..self.code.arity()]
     }
 
     /// Whether the operand is read as a number that all lanes share, and not as a row.
     pub(crate) fn is_shared(&self, operand: usize) -> bool {
         match self.code {
-            Code::SumBy(_) => operand.is_multiple_of(2),
-            Code::AddTo | Code::SubFrom | Code::SubOff | Code::MadBy => operand == 0,
+            NodeOperation::SumBy(_) => operand.is_multiple_of(2),
+            NodeOperation::AddTo | NodeOperation::SubFrom | NodeOperation::SubOff | NodeOperation::MadBy => {
+                operand == 0
+            }
             _ => false,
         }
     }
@@ -45,7 +47,7 @@ pub(crate) struct Fusion<'g> {
     graph: &'g Graph,
     /// How many operations or roots read a node.
     readers: Vec<u32>,
-    fused: BTreeMap<Node, Fused>,
+    fused: BTreeMap<NodeId, Fused>,
 }
 
 impl<'g> Fusion<'g> {
@@ -53,9 +55,9 @@ impl<'g> Fusion<'g> {
     /// constants, are the same in all lanes.
     pub(crate) fn new(
         graph: &'g Graph,
-        roots: &[Node],
-        given: impl Fn(Node) -> bool,
-        shared: impl Fn(Node) -> bool,
+        roots: &[NodeId],
+        given: impl Fn(NodeId) -> bool,
+        shared: impl Fn(NodeId) -> bool,
     ) -> Self {
         let mut readers = vec![0u32; graph.len()];
         for root in roots {
@@ -63,17 +65,17 @@ impl<'g> Fusion<'g> {
             readers[root.0 as usize] += 2;
         }
         for i in (0..graph.len() as u32).rev() {
-            if readers[i as usize] > 0 && !given(Node(i)) {
-                graph.kind(Node(i)).needs(|n| readers[n.0 as usize] += 1);
+            if readers[i as usize] > 0 && !given(NodeId(i)) {
+                graph.kind(NodeId(i)).needs(|n| readers[n.0 as usize] += 1);
             }
         }
         let mut fusion = Self { graph, readers, fused: BTreeMap::new() };
         for i in 0..graph.len() as u32 {
-            if fusion.readers[i as usize] > 0 && !given(Node(i)) {
-                fusion.decide(Node(i), &given);
+            if fusion.readers[i as usize] > 0 && !given(NodeId(i)) {
+                fusion.decide(NodeId(i), &given);
             }
         }
-        let shared = |n: Node| shared(n) || matches!(graph.kind(n), Kind::Constant(_));
+        let shared = |n: NodeId| shared(n) || matches!(graph.kind(n), NodeKind::Constant(_));
         for fused in fusion.fused.values_mut() {
             *fused = with_shared(fused, shared);
         }
@@ -81,24 +83,24 @@ impl<'g> Fusion<'g> {
     }
 
     /// How a node is carried out, if it is a lane operation.
-    pub(crate) fn operation(&self, node: Node) -> Option<&Fused> {
+    pub(crate) fn operation(&self, node: NodeId) -> Option<&Fused> {
         self.fused.get(&node)
     }
 
     /// Calls `visit` with every node that this one reads as it is carried out.
-    pub(crate) fn needs(&self, node: Node, visit: impl FnMut(Node)) {
+    pub(crate) fn needs(&self, node: NodeId, visit: impl FnMut(NodeId)) {
         match self.fused.get(&node) {
             Some(fused) => fused.operands().iter().copied().for_each(visit),
             None => self.graph.kind(node).needs(visit),
         }
     }
 
-    fn decide(&mut self, node: Node, given: &impl Fn(Node) -> bool) {
+    fn decide(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let plain = match self.graph.kind(node) {
-            Kind::Compute(arith, code, args) => Fused::new(arith, code, &args[..code.arity()]),
-            Kind::Dot(arith, terms, a, b) => {
-                let pairs: Vec<Node> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
-                Fused::new(arith, Code::Dot(terms), &pairs)
+            NodeKind::Compute(arith, code, args) => Fused::new(arith, code, &args[..code.arity()]),
+            NodeKind::Dot(arith, terms, a, b) => {
+                let pairs: Vec<NodeId> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
+                Fused::new(arith, NodeOperation::Dot(terms), &pairs)
             }
             _ => return,
         };
@@ -107,64 +109,65 @@ impl<'g> Fusion<'g> {
     }
 
     /// The operation with one of its operands made part of it.
-    fn longer(&self, plain: &Fused, given: &impl Fn(Node) -> bool) -> Option<Fused> {
+    fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         match plain.code {
-            Code::Mad => {
+            NodeOperation::Mad => {
                 if let Some(products) = self.products(k, args[2], given) {
                     return sum(k, &products, &[args[0], args[1]]);
                 }
                 // a b - c d
-                let negated = self.part(k, args[2], given).filter(|part| part.code == Code::Neg)?;
-                let product = self.part(k, negated.args[0], given).filter(|part| part.code == Code::Mul)?;
-                Some(Fused::new(k, Code::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
+                let negated = self.part(k, args[2], given).filter(|part| part.code == NodeOperation::Neg)?;
+                let product = self.part(k, negated.args[0], given).filter(|part| part.code == NodeOperation::Mul)?;
+                Some(Fused::new(k, NodeOperation::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
             }
-            Code::Add => {
+            NodeOperation::Add => {
                 let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
                 if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
             }
-            Code::Or => {
-                let less = |n: Node| self.alone(n, given).filter(|part| part.code == Code::Less);
+            NodeOperation::Or => {
+                let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == NodeOperation::Less);
                 let (mask, part) = match less(args[1]) {
                     Some(part) => (args[0], part),
                     None => (args[1], less(args[0])?),
                 };
-                Some(Fused::new(part.arith, Code::OrLess, &[mask, part.args[0], part.args[1]]))
+                Some(Fused::new(part.arith, NodeOperation::OrLess, &[mask, part.args[0], part.args[1]]))
             }
             _ => None,
         }
     }
 
     /// The operation behind an operand that nothing else reads.
-    fn alone(&self, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
+    fn alone(&self, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         let alone = self.readers[node.0 as usize] == 1 && !given(node);
         self.fused.get(&node).filter(|_| alone)
     }
 
     /// Likewise, in the same arithmetic.
-    fn part(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<&Fused> {
+    fn part(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         self.alone(node, given).filter(|part| part.arith == arith)
     }
 
     /// The factors of the products behind an operand that nothing else reads.
-    fn products(&self, arith: Arith, node: Node, given: &impl Fn(Node) -> bool) -> Option<Vec<Node>> {
+    fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
         let part = self.part(arith, node, given)?;
-        matches!(part.code, Code::Mul | Code::Sum(_)).then(|| part.operands().to_vec())
+        matches!(part.code, NodeOperation::Mul | NodeOperation::Sum(_)).then(|| part.operands().to_vec())
     }
 }
 
 /// Products and one more; `None` if there are too many.
-fn sum(arith: Arith, products: &[Node], last: &[Node]) -> Option<Fused> {
+fn sum(arith: Arith, products: &[NodeId], last: &[NodeId]) -> Option<Fused> {
     let all = [products, last].concat();
-    (last.len() == 2 && all.len() <= OPERANDS).then(|| Fused::new(arith, Code::Sum((all.len() / 2) as u8), &all))
+    (last.len() == 2 && all.len() <= OPERANDS)
+        .then(|| Fused::new(arith, NodeOperation::Sum((all.len() / 2) as u8), &all))
 }
 
 /// The operation with its shared operands read as numbers, where there is one that does.
-fn with_shared(fused: &Fused, shared: impl Fn(Node) -> bool) -> Fused {
+fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
-    let of = |code, operands: &[Node]| Fused::new(k, code, operands);
+    let of = |code, operands: &[NodeId]| Fused::new(k, code, operands);
     match fused.code {
-        Code::Mul | Code::Sum(_) => {
+        NodeOperation::Mul | NodeOperation::Sum(_) => {
             let mut sorted = *fused;
             for pair in sorted.args.chunks_exact_mut(2) {
                 if !shared(pair[0]) {
@@ -173,14 +176,14 @@ fn with_shared(fused: &Fused, shared: impl Fn(Node) -> bool) -> Fused {
             }
             let terms = fused.code.arity() / 2;
             let all = (0..terms).all(|i| shared(sorted.args[2 * i]));
-            if all { Fused { code: Code::SumBy(terms as u8), ..sorted } } else { *fused }
+            if all { Fused { code: NodeOperation::SumBy(terms as u8), ..sorted } } else { *fused }
         }
-        Code::Add if shared(args[0]) => of(Code::AddTo, &args[..2]),
-        Code::Add if shared(args[1]) => of(Code::AddTo, &[args[1], args[0]]),
-        Code::Sub if shared(args[0]) => of(Code::SubFrom, &args[..2]),
-        Code::Sub if shared(args[1]) => of(Code::SubOff, &[args[1], args[0]]),
-        Code::Mad if shared(args[0]) => of(Code::MadBy, &args[..3]),
-        Code::Mad if shared(args[1]) => of(Code::MadBy, &[args[1], args[0], args[2]]),
+        NodeOperation::Add if shared(args[0]) => of(NodeOperation::AddTo, &args[..2]),
+        NodeOperation::Add if shared(args[1]) => of(NodeOperation::AddTo, &[args[1], args[0]]),
+        NodeOperation::Sub if shared(args[0]) => of(NodeOperation::SubFrom, &args[..2]),
+        NodeOperation::Sub if shared(args[1]) => of(NodeOperation::SubOff, &[args[1], args[0]]),
+        NodeOperation::Mad if shared(args[0]) => of(NodeOperation::MadBy, &args[..3]),
+        NodeOperation::Mad if shared(args[1]) => of(NodeOperation::MadBy, &[args[1], args[0], args[2]]),
         _ => *fused,
     }
 }

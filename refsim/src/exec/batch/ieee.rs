@@ -4,6 +4,7 @@
 use super::float::FloatLane;
 use super::lane::Lane;
 use super::odd;
+use crate::exec::lower::pow2;
 use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
 
 pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
@@ -47,26 +48,20 @@ pub(crate) fn path(format: &Format) -> Option<u8> {
     })
 }
 
-/// `2^e`, `e` of a normal double.
-fn power(e: i32) -> f64 {
-    f64::from_bits(((e + 1023) as u64) << 52)
-}
-
 impl<const PATH: u8> IeeeLane<PATH> {
-    /// The arithmetic of `format`, for which [`path`] must have said `PATH`; `None` for fixed point.
-    pub(crate) fn new(format: Format) -> Option<Self> {
-        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+    /// The arithmetic of a float format with these bits, for which [`path`] must have said `PATH`.
+    pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
         let m = u32::from(man_bits);
         let emax = (1 << (exp_bits - 1)) - 1;
-        let lowest = power(1 - emax);
-        let stretch = (power(127 - emax) as f32, power(1023 - emax));
-        Some(Self {
-            general: FloatLane::new(format)?,
+        let lowest = pow2(1 - emax);
+        let stretch = (pow2(127 - emax) as f32, pow2(1023 - emax));
+        Self {
+            general: FloatLane::new(format, exp_bits, man_bits),
             lowest: ((lowest as f32).to_bits(), lowest.to_bits()),
             pivot: ((23 - m) << 23 | 1 << 22, u64::from(52 - m) << 52 | 1 << 51),
             stretch,
             shrink: (1.0 / stretch.0, 1.0 / stretch.1),
-        })
+        }
     }
 
     /// Rounds a single precision number into the format.
@@ -245,7 +240,7 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
 
     #[inline(always)]
     fn scale(&self, a: f32, shift: i32) -> f32 {
-        self.round_f64(f64::from(a) * power(shift))
+        self.round_f64(f64::from(a) * pow2(shift))
     }
 
     #[inline(always)]

@@ -4,7 +4,6 @@ use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, HOST, HOST_NV, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
-use super::ops::Code;
 use crate::num::{Format, Kind, Overflow, Rounding};
 
 /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
@@ -28,28 +27,31 @@ pub(crate) enum AnyLane {
 }
 
 impl AnyLane {
-    /// The arithmetic of `format`; `None` for no format that [`Format`] can be built with.
-    pub(crate) fn new(format: Format) -> Option<Self> {
-        Some(match format.kind {
-            Kind::Fixed { .. } if format.width() > 16 => Self::Fixed32(FixedLane::new(format)?),
-            Kind::Fixed { .. } if format.overflow == Overflow::Wrap => Self::Fixed16Wrap(FixedLane::new(format)?),
-            Kind::Fixed { .. } => match format.rounding {
-                Rounding::NearestEven => Self::Fixed16Even(FixedLane::new(format)?),
-                Rounding::NearestAway => Self::Fixed16Away(FixedLane::new(format)?),
-                Rounding::TowardZero => Self::Fixed16Zero(FixedLane::new(format)?),
-                Rounding::Down => Self::Fixed16Down(FixedLane::new(format)?),
+    /// The arithmetic of a format.
+    pub(crate) fn new(format: Format) -> Self {
+        let f = &format;
+        match format.kind {
+            Kind::Fixed { int_bits: i, frac_bits: b } => {
+                match (format.width() > 16, format.overflow, format.rounding) {
+                    (true, ..) => Self::Fixed32(FixedLane::new(f, i, b)),
+                    (_, Overflow::Wrap, _) => Self::Fixed16Wrap(FixedLane::new(f, i, b)),
+                    (.., Rounding::NearestEven) => Self::Fixed16Even(FixedLane::new(f, i, b)),
+                    (.., Rounding::NearestAway) => Self::Fixed16Away(FixedLane::new(f, i, b)),
+                    (.., Rounding::TowardZero) => Self::Fixed16Zero(FixedLane::new(f, i, b)),
+                    (.., Rounding::Down) => Self::Fixed16Down(FixedLane::new(f, i, b)),
+                }
+            }
+            Kind::Float { exp_bits: x, man_bits: m } => match (ieee::path(f), float::path(f)) {
+                (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(f, x, m)),
+                (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(f, x, m)),
+                (Some(_), _) => Self::IeeeDouble(IeeeLane::new(f, x, m)),
+                (_, HOST) => Self::Host(FloatLane::new(f, x, m)),
+                (_, HOST_NV) => Self::HostNv(FloatLane::new(f, x, m)),
+                (_, SINGLE) => Self::Single(FloatLane::new(f, x, m)),
+                _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(f, x, m)),
+                _ => Self::Double(FloatLane::new(f, x, m)),
             },
-            Kind::Float { .. } => match (ieee::path(&format), float::path(&format)) {
-                (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(format)?),
-                (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(format)?),
-                (Some(_), _) => Self::IeeeDouble(IeeeLane::new(format)?),
-                (_, HOST) => Self::Host(FloatLane::new(format)?),
-                (_, HOST_NV) => Self::HostNv(FloatLane::new(format)?),
-                (_, SINGLE) => Self::Single(FloatLane::new(format)?),
-                _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(format)?),
-                _ => Self::Double(FloatLane::new(format)?),
-            },
-        })
+        }
     }
 }
 
@@ -83,19 +85,6 @@ impl AnyLane {
             L::store(lane.decode(bits))
         }
         with_any_lane!(self, |lane| { decode(lane, bits) })
-    }
-
-    /// Whether `a < b`, `a <= b` or `a == b`, as the code says, of numbers as slots hold them.
-    pub(crate) fn compares(&self, code: Code, a: u32, b: u32) -> bool {
-        fn compares<L: Lane>(lane: &L, code: Code, a: u32, b: u32) -> bool {
-            let (a, b) = (L::load(a), L::load(b));
-            match code {
-                Code::Less => lane.lt(a, b),
-                Code::LessEqual => lane.le(a, b),
-                _ => lane.eq(a, b),
-            }
-        }
-        with_any_lane!(self, |lane| { compares(lane, code, a, b) })
     }
 
     /// The bit pattern of what a slot holds.

@@ -5,7 +5,8 @@
 
 use super::lane::{LANES, Lane};
 use super::ops::LaneOp;
-use super::slots::{Row, Slots, TRUE};
+use super::slots::{Row, Slots};
+use crate::exec::lower::TRUE;
 
 /// A function of pairs of rows.
 #[inline(always)]

@@ -3,9 +3,8 @@
 //!
 //! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`,
 //!   `power`: exact results squeezed into doubles; `lanes`: which format gets which.
-//! - `graph`, `arith`, `macros`, `translate`, `translate_texture`, `fragment`: a program as a graph of component values under a
-//!   device's rules; `fuse`, `schedule`: the graph as steps on `slots`, without what nothing
-//!   reads, and with what only one operation reads as part of that.
+//! - `fuse`, `schedule`: the graph of `super::lower` as steps on `slots`, without what nothing reads, and with what only one
+//!   operation reads as part of that; `formats`: its formats bound to arithmetic.
 //! - `ops`, `loops`, `steps`, `fetch`, `stored`: carrying the steps out, 256 lanes at a time.
 //! - `vertex`, `build`, `surfaces`: from attributes to triangles, in rows.
 //! - `raster`, `shader`, `output`, `store`, `targets`: what happens to a tile around the steps.
@@ -14,34 +13,31 @@
 //! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
 //! vector width is chosen once for each run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
-pub(in crate::exec) mod arith;
 mod build;
 mod cache;
 mod evaluate;
 mod fetch;
 mod fixed;
 mod float;
-pub(in crate::exec) mod flow;
+mod flow;
 mod flow_run;
-pub(in crate::exec) mod fragment;
+mod formats;
 mod fuse;
-pub(in crate::exec) mod graph;
 mod ieee;
 mod lane;
 mod lanes;
 mod loops;
-mod macros;
 mod odd;
-pub(in crate::exec) mod ops;
+mod ops;
 mod output;
 mod pack;
 mod power;
-pub(in crate::exec) mod program;
+mod program;
 mod raster;
 mod schedule;
 mod shader;
 mod simd;
-pub(in crate::exec) mod slots;
+mod slots;
 mod steps;
 mod store;
 mod stored;
@@ -49,8 +45,6 @@ mod surfaces;
 mod targets;
 mod tile;
 mod trace;
-pub(in crate::exec) mod translate;
-mod translate_texture;
 mod vertex;
 mod window;
 

@@ -1,15 +1,15 @@
 //! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets of
 //! signed or small float channels) goes through the output room, fragment by fragment.
 
-use super::arith::Formats;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::{LANES, Lane};
 use super::lanes::with_any_lane;
 use super::simd::SimdLevel;
-use super::slots::{Row, Slot, Slots, TRUE};
+use super::slots::{Row, Slots};
 use super::store::{quantise, write_lane, write_rows};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
+use crate::exec::lower::{Arith, Slot, TRUE};
 use crate::num::{Format, ops};
 use crate::output::{
     AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MOST_TARGETS, OutputRules, OutputState, merge,
@@ -37,7 +37,7 @@ impl Results {
 #[derive(Clone, Copy)]
 pub(crate) struct Shaded<'a> {
     pub(crate) results: &'a Results,
-    pub(crate) formats: &'a Formats,
+    pub(crate) formats: &'a LaneFormats,
     pub(crate) slots: &'a Slots,
     pub(crate) covered: &'a Row,
     /// Interpolated depth.
@@ -194,7 +194,7 @@ impl Output {
     }
 
     /// Takes a fragment through the output room, its tests switched off.
-    fn merge_elsewhere(&self, written: u8, fragment: &Fragment, formats: &Formats, targets: &mut Targets<'_>) {
+    fn merge_elsewhere(&self, written: u8, fragment: &Fragment, formats: &LaneFormats, targets: &mut Targets<'_>) {
         let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
         let main = formats.lane(Arith::Main);
         let colors = fragment.colors.map(|c| c.map(|raw| main.encode(raw)));
@@ -206,7 +206,7 @@ impl Output {
     pub(crate) fn merge_one(
         &self,
         fragment: &Fragment,
-        formats: &Formats,
+        formats: &LaneFormats,
         targets: &mut Targets<'_>,
         counts: &mut FragmentCounts,
     ) {

@@ -4,7 +4,8 @@
 use super::lane::LANES;
 use super::lanes::AnyLane;
 use super::simd::SimdLevel;
-use super::slots::{Row, TRUE};
+use super::slots::Row;
+use crate::exec::lower::TRUE;
 use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;

@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fuse::{Fused, Fusion};
-use super::graph::{Arith, Detail, Graph, Kind, Node};
-use super::ops::{Code, LaneOp, OPERANDS};
-use super::slots::Slot;
+use super::ops::{LaneOp, OPERANDS};
+use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, NodeOperation, Slot};
 
 /// A texture read with its operands in slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,7 +70,7 @@ pub(crate) struct Block {
     /// Slots that the caller fills before each run: `(input component, slot)`.
     pub(crate) inputs: Vec<(u16, Slot)>,
     /// Slots of values given by another block: `(node, slot)`.
-    pub(crate) given: Vec<(Node, Slot)>,
+    pub(crate) given: Vec<(NodeId, Slot)>,
     pub(crate) steps: Vec<Step>,
     /// Where the roots lie at the end, in the order they were asked for.
     pub(crate) roots: Vec<Slot>,
@@ -87,9 +86,9 @@ pub(crate) struct Block {
 /// the last time; constants, inputs, given values and roots keep theirs.
 pub(crate) fn schedule(
     graph: &Graph,
-    roots: &[Node],
-    given: impl Fn(Node) -> bool,
-    placed: &BTreeMap<Node, Slot>,
+    roots: &[NodeId],
+    given: impl Fn(NodeId) -> bool,
+    placed: &BTreeMap<NodeId, Slot>,
     first_slot: usize,
 ) -> Block {
     let fusion = Fusion::new(graph, roots, &given, |n| given(n) && !placed.contains_key(&n));
@@ -107,7 +106,7 @@ pub(crate) fn schedule(
         texels: BTreeMap::new(),
     };
     for &node in &needed {
-        if let Kind::Texel(fetch, component) = graph.kind(node) {
+        if let NodeKind::Texel(fetch, component) = graph.kind(node) {
             maker.texels.entry(fetch).or_default().push((component, node));
         }
     }
@@ -133,17 +132,17 @@ pub(crate) fn schedule(
 fn uses(
     graph: &Graph,
     fusion: &Fusion<'_>,
-    roots: &[Node],
-    given: impl Fn(Node) -> bool,
-) -> (BTreeMap<Node, u32>, Vec<Node>) {
+    roots: &[NodeId],
+    given: impl Fn(NodeId) -> bool,
+) -> (BTreeMap<NodeId, u32>, Vec<NodeId>) {
     let mut live = vec![false; graph.len()];
-    let mut last_use: BTreeMap<Node, u32> = BTreeMap::new();
+    let mut last_use: BTreeMap<NodeId, u32> = BTreeMap::new();
     for &root in roots {
         live[root.0 as usize] = true;
         last_use.insert(root, u32::MAX);
     }
     for i in (0..graph.len() as u32).rev() {
-        let node = Node(i);
+        let node = NodeId(i);
         if live[i as usize] && !given(node) {
             fusion.needs(node, |n| {
                 live[n.0 as usize] = true;
@@ -151,7 +150,7 @@ fn uses(
             });
         }
     }
-    let needed = (0..graph.len() as u32).map(Node).filter(|n| live[n.0 as usize]).collect();
+    let needed = (0..graph.len() as u32).map(NodeId).filter(|n| live[n.0 as usize]).collect();
     (last_use, needed)
 }
 
@@ -159,13 +158,13 @@ struct Scheduler<'g> {
     graph: &'g Graph,
     fusion: Fusion<'g>,
     block: Block,
-    place: BTreeMap<Node, Slot>,
-    last_use: BTreeMap<Node, u32>,
+    place: BTreeMap<NodeId, Slot>,
+    last_use: BTreeMap<NodeId, u32>,
     free: Vec<Slot>,
     /// Slots below are the caller's and keep what they hold.
     first: usize,
     next: usize,
-    texels: BTreeMap<Node, Vec<(u8, Node)>>,
+    texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
     /// Slots that some step reads as a row.
     read: BTreeSet<Slot>,
 }
@@ -177,20 +176,20 @@ impl Scheduler<'_> {
     }
 
     /// Gives a slot to a node that no step computes.
-    fn leaf(&mut self, node: Node, given: &impl Fn(Node) -> bool) {
+    fn leaf(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let slot = match self.graph.kind(node) {
-            Kind::Constant(raw) => {
+            NodeKind::Constant(raw) => {
                 let slot = self.fresh();
                 self.block.constants.push((slot, raw));
                 slot
             }
-            Kind::Held(slot) => slot,
+            NodeKind::Held(slot) => slot,
             _ if given(node) => {
                 let slot = self.fresh();
                 self.block.given.push((node, slot));
                 slot
             }
-            Kind::Input(component) => {
+            NodeKind::Input(component) => {
                 let slot = self.fresh();
                 self.block.inputs.push((component, slot));
                 slot
@@ -210,11 +209,14 @@ impl Scheduler<'_> {
     }
 
     /// Frees the slots of temporaries that `node` reads last.
-    fn release(&mut self, node: Node) {
+    fn release(&mut self, node: NodeId) {
         let mut done = Vec::new();
         let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
         self.fusion.needs(node, |n| {
-            let kept = matches!(graph.kind(n), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
+            let kept = matches!(
+                graph.kind(n),
+                NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) | NodeKind::Fetch(..)
+            );
             if !kept
                 && last_use.get(&n) == Some(&node.0)
                 && let Some(&slot) = place.get(&n)
@@ -232,14 +234,14 @@ impl Scheduler<'_> {
     }
 
     /// The slot of a value whose row is read.
-    fn at(&mut self, node: Node) -> Slot {
+    fn at(&mut self, node: NodeId) -> Slot {
         let slot = self.place.get(&node).copied().unwrap_or_default();
         self.read.insert(slot);
         slot
     }
 
     /// A lane operation with its result.
-    fn operation(&mut self, node: Node, fused: &Fused) {
+    fn operation(&mut self, node: NodeId, fused: &Fused) {
         let mut args = [0; OPERANDS];
         for (i, &operand) in fused.operands().iter().enumerate() {
             args[i] = if fused.is_shared(i) {
@@ -259,49 +261,50 @@ impl Scheduler<'_> {
     }
 
     fn lane_op(&mut self, arith: Arith, op: LaneOp) {
-        let neutral = matches!(op.code, Code::Select | Code::And | Code::Or | Code::AndNot);
+        let neutral =
+            matches!(op.code, NodeOperation::Select | NodeOperation::And | NodeOperation::Or | NodeOperation::AndNot);
         match self.block.steps.last_mut() {
             Some(Step::Lanes(last, ops)) if *last == arith || neutral => ops.push(op),
             _ => self.block.steps.push(Step::Lanes(arith, vec![op])),
         }
     }
 
-    fn place_node(&mut self, node: Node) {
+    fn place_node(&mut self, node: NodeId) {
         if let Some(&fused) = self.fusion.operation(node) {
             return self.operation(node, &fused);
         }
         match self.graph.kind(node) {
-            Kind::Convert(from, target, a) => {
+            NodeKind::Convert(from, target, a) => {
                 let a = self.at(a);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
-                self.lane_op(from, LaneOp { code: Code::Widen, to, args: [a; OPERANDS] });
-                self.lane_op(target, LaneOp { code: Code::Narrow, to, args: [a; OPERANDS] });
+                self.lane_op(from, LaneOp { code: NodeOperation::Widen, to, args: [a; OPERANDS] });
+                self.lane_op(target, LaneOp { code: NodeOperation::Narrow, to, args: [a; OPERANDS] });
             }
-            Kind::Steps(steps, a) => {
+            NodeKind::Steps(steps, a) => {
                 let from = self.at(a);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Unorm { steps, from });
-                self.lane_op(Arith::Main, LaneOp { code: Code::Narrow, to, args: [from; OPERANDS] });
+                self.lane_op(Arith::Main, LaneOp { code: NodeOperation::Narrow, to, args: [from; OPERANDS] });
             }
-            Kind::Circle(arith, sine, a) => {
+            NodeKind::Circle(arith, sine, a) => {
                 let from = self.at(a);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Circle { arith, sine, from, to });
             }
-            Kind::Relative(base, component, address) => {
+            NodeKind::Relative(base, component, address) => {
                 let address = self.at(address);
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(Step::Relative { base, component: component.into(), address, to });
             }
-            Kind::Fetch(sampler, coordinates, detail) => {
+            NodeKind::Fetch(sampler, coordinates, detail) => {
                 let coordinates = coordinates.map(|n| self.at(n));
                 let detail = match detail {
                     Detail::Implicit => FetchDetail::Implicit,
@@ -318,12 +321,12 @@ impl Scheduler<'_> {
                 self.block.steps.push(Step::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
             }
             // Leaves have their places, texels got theirs with the read.
-            Kind::Compute(..)
-            | Kind::Dot(..)
-            | Kind::Texel(..)
-            | Kind::Constant(_)
-            | Kind::Held(_)
-            | Kind::Input(_) => {}
+            NodeKind::Compute(..)
+            | NodeKind::Dot(..)
+            | NodeKind::Texel(..)
+            | NodeKind::Constant(_)
+            | NodeKind::Held(_)
+            | NodeKind::Input(_) => {}
         }
     }
 }

@@ -5,13 +5,13 @@
 //! halves of a quad, or neighbours of a mesh. Lanes are independent, so one pass of the program serves all of them, each
 //! lane with the components of the triangle that covers it. Bits and counts are those of the triangles one by one.
 
-use super::arith::Formats;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::LANES;
 use super::raster::{Frame, Shape, TileWeights, cover, lay_over, quads};
 use super::simd::SimdLevel;
-use super::slots::{Row, Slot, Slots};
+use super::slots::{Row, Slots};
 use super::surfaces::Surfaces;
+use crate::exec::lower::{Arith, Slot};
 use crate::raster::Plane;
 use crate::texture::Region;
 
@@ -181,7 +181,7 @@ impl Shader {
     }
 
     /// Fills the slots of components that vary; false if they hold these values already.
-    pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &Inputs, formats: &Formats) -> bool {
+    pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &Inputs, formats: &LaneFormats) -> bool {
         if self.inputs_hold {
             return false;
         }

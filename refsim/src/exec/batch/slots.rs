@@ -2,9 +2,7 @@
 //! the same in all lanes.
 
 use super::lane::LANES;
-
-/// Index of a slot.
-pub(crate) type Slot = u16;
+use crate::exec::lower::Slot;
 
 /// All lanes of one value. What the 32 bits mean is the business of whoever reads them: host bits of a lane
 /// arithmetic's numbers, a mask (0 or all ones), an integer.
@@ -34,9 +32,6 @@ impl std::ops::DerefMut for Aligned {
         &mut self.0
     }
 }
-
-/// The value of a mask where it holds.
-pub(crate) const TRUE: u32 = u32::MAX;
 
 /// The slots of one batch, and a spare row that results are made in before they change places with what they replace.
 #[derive(Clone, Debug)]

@@ -1,19 +1,19 @@
 //! Carrying out scheduled steps.
 
-use super::arith::Formats;
 use super::fetch::BatchTexture;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::LANES;
 use super::odd;
 use super::ops;
 use super::schedule::{Block, Step};
-use super::slots::{Row, Slot, Slots};
+use super::slots::{Row, Slots};
+use crate::exec::lower::{Arith, Slot};
 use crate::num::ops as definition;
 
 /// What steps need besides slots.
 #[derive(Debug)]
 pub(crate) struct Surroundings<'a> {
-    pub(crate) formats: &'a Formats,
+    pub(crate) formats: &'a LaneFormats,
     /// By sampler.
     pub(crate) textures: &'a [Option<BatchTexture<'a>>],
     /// Float constants as slots hold them.
@@ -56,7 +56,7 @@ pub(crate) fn run_steps(steps: &[Step], around: &Surroundings<'_>, run: &Row, sl
 }
 
 /// Cosines or sines, by the definition itself: no vector code of ours is worth its proof for them.
-fn circle(formats: &Formats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
+fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
     let (format, lane) = (formats.format(arith), formats.lane(arith));
     let value = |bits| if sine { definition::sin(format, bits).bits } else { definition::cos(format, bits).bits };
     let mut last = (0, value(0));
@@ -83,7 +83,7 @@ fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
 }
 
 /// Float constants as slots hold them.
-pub(crate) fn raw_constants(constants: &[[u32; 4]], formats: &Formats) -> Vec<[u32; 4]> {
+pub(crate) fn raw_constants(constants: &[[u32; 4]], formats: &LaneFormats) -> Vec<[u32; 4]> {
     let lane = formats.lane(Arith::Main);
     constants.iter().map(|c| c.map(|bits| lane.decode(bits))).collect()
 }

@@ -1,12 +1,12 @@
 //! Values as what targets store: texels of the targets that are kept in rows, and depth patterns.
 
-use super::arith::Formats;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::{LANES, Lane};
 use super::lanes::with_any_lane;
 use super::output::Survivors;
 use super::slots::Row;
 use super::targets::{Coding, ColorRows, PackedChannel, Packing};
+use crate::exec::lower::Arith;
 use crate::num::Kind;
 use crate::output::DepthFormat;
 use crate::texture::TargetRounding;
@@ -15,7 +15,7 @@ use crate::texture::TargetRounding;
 const FEW: u32 = 24;
 
 /// Writes one texel.
-pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &Formats) {
+pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &LaneFormats) {
     let main = formats.lane(Arith::Main);
     for (word, &bits) in rows.words.iter_mut().zip(&rows.packing.written) {
         word[lane] &= !bits;
@@ -27,7 +27,7 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
 }
 
 /// Writes the texels of the lanes that are left.
-pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&Row; 4], survivors: &Survivors, formats: &Formats) {
+pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&Row; 4], survivors: &Survivors, formats: &LaneFormats) {
     if survivors.count <= FEW {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
             write_lane(rows, &colors.map(|row| row[lane]), lane, formats);
@@ -108,7 +108,7 @@ fn clamped(x: f64) -> f64 {
 /// In doubles: a value of at most 24 significant bits times 2^24 - 1 is exact, and so is adding the half where that
 /// decides anything. Wider values and the other depth formats go through the output room.
 pub(crate) fn quantise(
-    (formats, arith): (&Formats, Arith),
+    (formats, arith): (&LaneFormats, Arith),
     depth: DepthFormat,
     rounding: TargetRounding,
     row: &Row,

@@ -1,12 +1,12 @@
 //! Nearest texels of images that are too large for a table: decoded as they are read, those of the lanes that run.
 
-use super::arith::Formats;
 use super::fetch::{channel_in_slot, channel_of, ratios};
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::LANES;
 use super::lanes::with_any_lane;
 use super::schedule::FetchStep;
 use super::slots::{Row, Slots};
+use crate::exec::lower::Arith;
 use crate::num::Format;
 use crate::texture::{Channel, ChannelValue, ComponentSource, Image, SampleRules, decode_channel};
 
@@ -57,7 +57,7 @@ impl<'a> Stored<'a> {
         index: &Row,
         border: &[[u32; 4]],
         step: &FetchStep,
-        formats: &Formats,
+        formats: &LaneFormats,
         (run, slots): (&Row, &mut Slots),
     ) {
         let lane = formats.lane(Arith::Main);

@@ -5,15 +5,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::arith::Formats;
 use super::cache::{Cache, Pool};
 use super::fetch::BatchTexture;
 use super::flow::FlowPlan;
 use super::flow_run::FlowRun;
-use super::graph::Arith;
+use super::formats::LaneFormats;
 use super::lane::LANES;
 use super::output::{Output, Results, Shaded, Survivors};
-use super::program::{StraightPlan, StraightProgram, has_flow, pixel_formats};
+use super::program::{StraightPlan, StraightProgram};
 use super::raster::Frame;
 use super::schedule::Block;
 use super::shader::{Inputs, Manner, Shader};
@@ -25,6 +24,7 @@ use super::targets::Targets;
 use crate::device::Rules;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::budget::straight_exceeds;
+use crate::exec::lower::{Arith, Formats, has_flow};
 use crate::exec::{
     BUMP_STAGES, BumpStage, Overrun, Projection, ResolvedConstants, TileDraw, TileExecutor, colors_written,
     inputs_read, sample_rules,
@@ -42,7 +42,7 @@ const FEWEST_SHARED: usize = 16;
 /// The batch tile executor of one draw.
 #[derive(Debug)]
 pub struct BatchTiles<'a> {
-    formats: Formats,
+    formats: LaneFormats,
     textures: Vec<Option<BatchTexture<'a>>>,
     constants: Vec<[u32; 4]>,
     output: Output,
@@ -101,7 +101,7 @@ impl<'a> BatchTiles<'a> {
         if !has_flow(program) && straight_exceeds(program, draw.step_budget) {
             return None;
         }
-        let formats = pixel_formats(draw.rules)?;
+        let formats = LaneFormats::new(Formats::pixel(draw.rules));
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
         let code = decoded(program, draw, &formats, &constants);
@@ -396,7 +396,12 @@ struct Key {
 static DECODED: Cache<Key, Decoded> = Cache::new();
 
 /// A pixel program, decoded now or before.
-fn decoded(program: &Program, draw: &TileDraw<'_>, formats: &Formats, constants: &ResolvedConstants) -> Arc<Decoded> {
+fn decoded(
+    program: &Program,
+    draw: &TileDraw<'_>,
+    formats: &LaneFormats,
+    constants: &ResolvedConstants,
+) -> Arc<Decoded> {
     let (rules, bindings) = (draw.rules, &draw.bindings);
     let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
     let matches = |key: &Key| {

@@ -6,23 +6,22 @@
 
 use std::collections::BTreeMap;
 
-use super::arith::Formats;
 use super::fetch::BatchTexture;
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, Watch};
-use super::fragment::of_file;
-use super::graph::{Arith, Node};
+use super::formats::LaneFormats;
 use super::lane::LANES;
 use super::output::Results;
-use super::program::{Ends, decode, has_flow, pixel_formats};
 use super::raster::{Frame, Shape, TileWeights, cover, quads};
 use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
-use super::slots::{Row, Slot, Slots};
+use super::slots::{Row, Slots};
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
 use super::tile::{BatchTiles, overrun};
-use super::translate::{Effect, Translator};
 use crate::event::{FragmentCounts, SAMPLERS};
+use crate::exec::lower::{
+    ACTIVE, Arith, Effect, Ends, Formats, NodeId, Slot, Translator, has_flow, of_file, translate_straight,
+};
 use crate::exec::scalar::{DepthValue, FragmentResult};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::usage::registers_delivered;
@@ -43,25 +42,25 @@ const KEPT: usize = 4096;
 #[derive(Debug)]
 pub struct BatchTracer<'a> {
     tiles: BatchTiles<'a>,
-    formats: Formats,
+    formats: LaneFormats,
     textures: Vec<Option<BatchTexture<'a>>>,
     constants: Vec<[u32; 4]>,
     program: &'a Program,
     reads: ComponentMask,
     delivered: (Vec<Register>, Block),
-    code: Code,
+    code: TracedProgram,
 }
 
 #[derive(Debug)]
-enum Code {
+enum TracedProgram {
     /// Runs over the whole program, each for some instructions; the last one leaves the results.
-    Straight(Vec<Part>, Ends),
+    Straight(Vec<StraightPart>, Ends),
     Flow(FlowPlan),
 }
 
 /// What the roots of a block mean: an instruction's results, component by component.
 #[derive(Debug)]
-struct Part {
+struct StraightPart {
     written: Vec<(usize, Mask, Arith)>,
     block: Block,
 }
@@ -71,14 +70,21 @@ impl<'a> BatchTracer<'a> {
     pub fn new(draw: &TileDraw<'a>) -> Option<Self> {
         let tiles = BatchTiles::new(draw)?;
         let program = crate::exec::program(draw.program);
-        let formats = pixel_formats(draw.rules)?;
+        let formats = LaneFormats::new(Formats::pixel(draw.rules));
         let constants = ResolvedConstants::pixel(program, draw.rules, draw.bindings.constants);
         let rules = sample_rules(draw.rules);
         let reads = inputs_read(program);
-        let translator = || Translator::new(program, draw.rules, formats.clone(), &constants, Some(&draw.bindings));
+        let translator = || Translator::new(program, draw.rules, formats.table(), &constants, Some(&draw.bindings));
         let delivered = delivered(&mut translator(), program);
         let code = if has_flow(program) {
-            Code::Flow(FlowPlan::pixel(program, draw.rules, &formats, &constants, &draw.bindings, draw.step_budget))
+            TracedProgram::Flow(FlowPlan::pixel(
+                program,
+                draw.rules,
+                &formats,
+                &constants,
+                &draw.bindings,
+                draw.step_budget,
+            ))
         } else {
             straight(&mut translator(), program)
         };
@@ -124,7 +130,7 @@ impl<'a> BatchTracer<'a> {
 /// The input registers that hold interpolated values, and a block that computes them.
 fn delivered(t: &mut Translator<'_>, program: &Program) -> (Vec<Register>, Block) {
     let registers = registers_delivered(program);
-    let roots: Vec<Node> = registers.iter().flat_map(|r| [0, 1, 2, 3].map(|c| t.held(r, c))).collect();
+    let roots: Vec<NodeId> = registers.iter().flat_map(|r| [0, 1, 2, 3].map(|c| t.held(r, c))).collect();
     let block = schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0);
     (registers, block)
 }
@@ -141,9 +147,9 @@ fn format_of(program: &Program, at: usize) -> Arith {
     destination.map_or(Arith::Main, |d| of_file(d.register.file))
 }
 
-fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
-    let mut written: Vec<(usize, Mask, Vec<Node>)> = Vec::new();
-    let ends = decode(t, program, |at, effects| {
+fn straight(t: &mut Translator<'_>, program: &Program) -> TracedProgram {
+    let mut written: Vec<(usize, Mask, Vec<NodeId>)> = Vec::new();
+    let ends = translate_straight(t, program, |at, effects| {
         if !program.instructions.get(at).is_some_and(makes_step) {
             return;
         }
@@ -151,7 +157,7 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
             Effect::Write((_, _, component), value, _) => Some((*component, *value)),
             _ => None,
         });
-        let (components, nodes): (Vec<u8>, Vec<Node>) = values.unzip();
+        let (components, nodes): (Vec<u8>, Vec<NodeId>) = values.unzip();
         let mut mask = components.iter().fold(0, |mask, c| mask | 1 << c);
         if let Some(destination) = program.instructions[at].destination
             && destination.register.file == RegisterFile::DepthOut
@@ -167,12 +173,12 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> Code {
     let parts = chunks.into_iter().map(|chunk| {
         let mut roots = ends.roots();
         roots.extend(chunk.iter().flat_map(|(_, _, nodes)| nodes.iter().copied()));
-        Part {
+        StraightPart {
             written: chunk.iter().map(|&(at, mask, _)| (at, mask, format_of(program, at))).collect(),
             block: schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0),
         }
     });
-    Code::Straight(parts.collect(), ends)
+    TracedProgram::Straight(parts.collect(), ends)
 }
 
 /// The rows of one tile that a triangle is followed on.
@@ -186,7 +192,7 @@ struct Rows<'t> {
 }
 
 impl Rows<'_> {
-    fn fill(&mut self, inputs: &[(u16, Slot)], formats: &Formats, slots: &mut Slots) {
+    fn fill(&mut self, inputs: &[(u16, Slot)], formats: &LaneFormats, slots: &mut Slots) {
         self.weights.make(self.triangle, self.frame);
         for &(component, slot) in inputs {
             let single = formats.lane(Arith::Single);
@@ -198,7 +204,7 @@ impl Rows<'_> {
         }
     }
 
-    fn input(&mut self, reads: ComponentMask, formats: &Formats) -> FragmentInput {
+    fn input(&mut self, reads: ComponentMask, formats: &LaneFormats) -> FragmentInput {
         let single = formats.lane(Arith::Single);
         let mut row = [0; LANES];
         self.weights.make(self.triangle, self.frame);
@@ -236,7 +242,7 @@ impl BatchTracer<'_> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    fn run_straight(&self, parts: &[Part], ends: &Ends, rows: &mut Rows<'_>) -> (Vec<Step>, FragmentResult) {
+    fn run_straight(&self, parts: &[StraightPart], ends: &Ends, rows: &mut Rows<'_>) -> (Vec<Step>, FragmentResult) {
         let (mut steps, mut output) = (Vec::new(), FragmentResult::default());
         for part in parts {
             let slots = self.run_block(&part.block, rows);
@@ -294,7 +300,7 @@ impl Watch for LaneWatch<'_> {
     fn before(&mut self, at: usize, slots: &Slots) {
         self.mask = None;
         let Some(instruction) = self.tracer.program.instructions.get(at).filter(|i| makes_step(i)) else { return };
-        if slots.row(super::flow::ACTIVE)[self.lane] == 0 {
+        if slots.row(ACTIVE)[self.lane] == 0 {
             return;
         }
         let mut mask = match (&instruction.destination, instruction.opcode) {
@@ -351,8 +357,8 @@ impl PixelTracer for BatchTracer<'_> {
         let values = block.roots.chunks_exact(4).map(|r| [0, 1, 2, 3].map(|c| self.main(&slots, r[c], rows.lane)));
         let delivered = registers.iter().copied().zip(values).collect();
         let (steps, output) = match &self.code {
-            Code::Straight(parts, ends) => self.run_straight(parts, ends, &mut rows),
-            Code::Flow(plan) => self.run_flow(plan, &mut rows)?,
+            TracedProgram::Straight(parts, ends) => self.run_straight(parts, ends, &mut rows),
+            TracedProgram::Flow(plan) => self.run_flow(plan, &mut rows)?,
         };
         let counts = self.tiles.run_tile(std::slice::from_ref(triangle), &[0], tile)?;
         Ok(Shading { input: rows.input(self.reads, &self.formats), delivered, steps, output, fate: fate(&counts) })

@@ -5,23 +5,23 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::arith::Formats;
 use super::cache::{Cache, Pool};
 use super::flow::FlowPlan;
 use super::flow_run::{FlowRun, first_lanes};
-use super::graph::{Arith, Node};
+use super::formats::LaneFormats;
 use super::lane::{LANES, Lane};
 use super::lanes::{AnyLane, with_any_lane};
-use super::ops::Code;
-use super::program::{has_flow, one, vertex_formats};
 use super::schedule::{Block, schedule};
 use super::simd::SimdLevel;
-use super::slots::{Slot, Slots};
+use super::slots::Slots;
 use super::steps::{Surroundings, fill_constants, raw_constants, run_steps};
-use super::translate::{CONSTANT_INPUTS, Effect, Place, Translator};
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::budget::straight_exceeds;
+use crate::exec::lower::{
+    Arith, CONSTANT_INPUTS, Effect, Formats, NodeId, NodeOperation, RegisterComponent, Slot, Translator, has_flow,
+    translate_instruction,
+};
 use crate::exec::{Constants, ResolvedConstants};
 use crate::isa::{Program, RegisterFile};
 use crate::num::Format;
@@ -80,7 +80,7 @@ impl VertexRows {
 /// A vertex program ready to run on batches; equal to [`crate::exec::scalar::VertexProgram`].
 #[derive(Debug)]
 pub struct BatchVertices {
-    formats: Formats,
+    formats: LaneFormats,
     constants: Vec<[u32; 4]>,
     /// The components that are made, after the position's four.
     components: Vec<usize>,
@@ -120,7 +120,7 @@ static DECODED: Cache<Key, Decoded> = Cache::new();
 fn decoded(
     program: &Program,
     rules: &Rules,
-    formats: &Formats,
+    formats: &LaneFormats,
     constants: &ResolvedConstants,
     (needed, components): (ComponentMask, &[usize]),
     budget: u32,
@@ -159,7 +159,7 @@ impl BatchVertices {
         if !has_flow(program) && straight_exceeds(program, step_budget) {
             return None;
         }
-        let formats = vertex_formats(rules.vertex_format)?;
+        let formats = LaneFormats::new(Formats::vertex(rules.vertex_format));
         let constants = ResolvedConstants::vertex(program, rules, constants);
         let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
         let code = decoded(program, rules, &formats, &constants, (needed, &components), step_budget);
@@ -273,7 +273,7 @@ impl BatchVertices {
                 run.run(slots, &mut [0; SAMPLERS]);
                 out.executed += run.executed;
                 out.cut.extend(run.cut.iter().map(|&(lane, instruction)| (first + lane, instruction)));
-                let places: Vec<Place> = outputs(&self.components).collect();
+                let places: Vec<RegisterComponent> = outputs(&self.components).collect();
                 self.each_row(out, |i, row| {
                     let place = places[i];
                     row.extend(self.held(plan.register(place.0, place.1, place.2), place, slots, count));
@@ -283,7 +283,7 @@ impl BatchVertices {
     }
 
     /// What a register component of a program with flow control holds at the end.
-    fn held(&self, slot: Option<Slot>, place: Place, slots: &Slots, count: usize) -> Vec<u32> {
+    fn held(&self, slot: Option<Slot>, place: RegisterComponent, slots: &Slots, count: usize) -> Vec<u32> {
         let Some(slot) = slot else { return vec![0; count] };
         let main = self.formats.lane(Arith::Main);
         let color = place.0 == RegisterFile::DiffuseOut;
@@ -309,7 +309,7 @@ impl BatchVertices {
 }
 
 /// The output register components of a position and of components, in their order.
-fn outputs(components: &[usize]) -> impl Iterator<Item = Place> {
+fn outputs(components: &[usize]) -> impl Iterator<Item = RegisterComponent> {
     let position = (0..4).map(|c| (RegisterFile::PositionOut, 0, c));
     position.chain(components.iter().map(|&component| match component {
         FOG_COMPONENT => (RegisterFile::FogOut, 0, 0),
@@ -325,18 +325,18 @@ fn outputs(components: &[usize]) -> impl Iterator<Item = Place> {
 fn straight(
     program: &Program,
     rules: &Rules,
-    formats: &Formats,
+    formats: &LaneFormats,
     constants: &ResolvedConstants,
     (open, components): (bool, &[usize]),
 ) -> VertexCode {
-    let mut t = Translator::new(program, rules, formats.clone(), constants, None);
+    let mut t = Translator::new(program, rules, formats.table(), constants, None);
     t.open_constants = open;
     let mut cost = 0;
     for instruction in &program.instructions {
         let slots = instruction.opcode.info().slot_cost(program.version);
         cost += u64::from(slots.arithmetic) + u64::from(slots.texture);
         let mut effects = Vec::new();
-        one(&mut t, instruction, &mut effects);
+        translate_instruction(&mut t, instruction, &mut effects);
         for effect in effects {
             if let Effect::Write(place, value, _) = effect {
                 t.registers.insert(place, value);
@@ -344,11 +344,11 @@ fn straight(
         }
     }
     let zero = t.make.zero();
-    let roots: Vec<Node> = outputs(components)
+    let roots: Vec<NodeId> = outputs(components)
         .map(|place| {
             let value = t.registers.get(&place).copied().unwrap_or(zero);
             let value = match place.0 {
-                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, Code::Saturate, value),
+                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, NodeOperation::Saturate, value),
                 _ => value,
             };
             t.make.convert(Arith::Main, Arith::Single, value)

@@ -3,8 +3,7 @@
 use super::kernel::{DrawWords, with_entry};
 use super::program::{TRACE_WORDS, trace_delivered, trace_steps};
 use crate::device::Rules;
-use crate::exec::batch::graph::Arith;
-use crate::exec::batch::program::pixel_formats;
+use crate::exec::lower::{Arith, Formats};
 use crate::exec::scalar::{DepthValue, FragmentResult};
 use crate::exec::{CheckedProgram, Shading, program};
 use crate::isa::Opcode;
@@ -136,17 +135,17 @@ impl<'w> Record<'w> {
     }
 
     fn output(&self, checked: &CheckedProgram, rules: &Rules) -> FragmentResult {
-        let Some(formats) = pixel_formats(rules) else { return FragmentResult::default() };
-        let main = formats.lane(Arith::Main);
+        let formats = Formats::pixel(rules);
+        let main = |raw| formats.encode(Arith::Main, raw);
         let words = &self.words[RESULTS..HEAD];
         let (depth, is_main) = (words[1], words[2] == 1);
         // One instruction decides depth in single precision, always.
         let single = program(checked).instructions.iter().any(|i| i.opcode == Opcode::TexM3x2Depth);
         FragmentResult {
             killed: words[0] == 1,
-            colors: std::array::from_fn(|target| std::array::from_fn(|c| main.encode(words[3 + 4 * target + c]))),
+            colors: std::array::from_fn(|target| std::array::from_fn(|c| main(words[3 + 4 * target + c]))),
             depth: match (is_main, single) {
-                (true, _) => Some(DepthValue { format: rules.format, bits: main.encode(depth) }),
+                (true, _) => Some(DepthValue { format: rules.format, bits: main(depth) }),
                 (false, true) => Some(DepthValue { format: Format::FP32, bits: depth }),
                 (false, false) => None,
             },

@@ -15,7 +15,7 @@ mod text;
 mod trace;
 
 use crate::device::Rules;
-use crate::exec::batch::program::{pixel_formats, vertex_formats};
+use crate::exec::lower::Formats;
 use crate::exec::wgsl::number::{NativeOperations, NumberMode};
 use crate::exec::{CheckedProgram, Constants, PixelBindings, ResolvedConstants, program};
 use crate::num::Format;
@@ -116,8 +116,7 @@ impl PixelShader {
         bindings: &PixelBindings<'_>,
         traced: bool,
     ) -> Result<Self, ProgramError> {
-        let formats = pixel_formats(rules).ok_or(ProgramError::Format { format: rules.format })?;
-        Ok(Self { lowered: Lowered::pixel(program(checked), rules, &formats, bindings, traced) })
+        Ok(Self { lowered: Lowered::pixel(program(checked), rules, Formats::pixel(rules), bindings, traced) })
     }
 
     /// The words for [`machine`].
@@ -157,11 +156,10 @@ impl VertexShader {
     /// # Errors
     /// [`ProgramError::Format`].
     pub fn new(checked: &CheckedProgram, rules: &Rules, constants: &Constants) -> Result<Self, ProgramError> {
-        let format = rules.vertex_format;
-        let formats = vertex_formats(format).ok_or(ProgramError::Format { format })?;
+        let formats = Formats::vertex(rules.vertex_format);
         let source = program(checked);
         let constants = ResolvedConstants::vertex(source, rules, constants);
-        Ok(Self { lowered: Lowered::vertex(source, rules, &formats, &constants) })
+        Ok(Self { lowered: Lowered::vertex(source, rules, formats, &constants) })
     }
 
     /// The words for [`machine`].

@@ -1,14 +1,11 @@
 //! Programs on their way to a GPU: the batch executor's graph, and what becomes of its values.
 
 use crate::device::Rules;
-use crate::exec::batch::arith::Formats;
-use crate::exec::batch::flow::{ACTIVE, DECIDED, KILLED, Part, Parts};
-use crate::exec::batch::graph::{Arith, Graph, Kind, Node};
-use crate::exec::batch::ops::Code;
-use crate::exec::batch::program::{Ends, decode, has_flow, one};
-use crate::exec::batch::slots::{Slot, TRUE};
-use crate::exec::batch::translate::{Effect, Place, Translator};
 use crate::exec::budget::loop_counter;
+use crate::exec::lower::{
+    ACTIVE, Arith, DECIDED, Effect, Ends, Formats, Graph, KILLED, MaskedInstruction, MaskedProgram, NodeId, NodeKind,
+    NodeOperation, RegisterComponent, Slot, TRUE, Translator, has_flow, translate_instruction, translate_straight,
+};
 use crate::exec::usage::registers_delivered;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
@@ -39,11 +36,11 @@ pub(super) enum Use {
 #[derive(Clone, Debug)]
 pub(super) struct Sink {
     pub(super) what: Use,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<NodeId>,
 }
 
 impl Sink {
-    fn new(what: Use, nodes: impl Into<Vec<Node>>) -> Self {
+    fn new(what: Use, nodes: impl Into<Vec<NodeId>>) -> Self {
         Self { what, nodes: nodes.into() }
     }
 }
@@ -106,16 +103,16 @@ impl Lowered {
     pub(super) fn pixel(
         program: &Program,
         rules: &Rules,
-        formats: &Formats,
+        formats: Formats,
         bindings: &PixelBindings<'_>,
         traced: bool,
     ) -> Self {
         let constants = ResolvedConstants::pixel(program, rules, bindings.constants);
-        let mut t = Translator::new(program, rules, formats.clone(), &constants, Some(bindings));
+        let mut t = Translator::new(program, rules, formats, &constants, Some(bindings));
         let body = match has_flow(program) {
             false => straight(&mut t, program, traced),
             true => {
-                let parts = Parts::new(program, &mut t);
+                let parts = MaskedProgram::new(program, &mut t);
                 let end = color_sinks(&mut t, program, &parts.registers);
                 flow(&mut t, program, parts, end, traced)
             }
@@ -124,13 +121,13 @@ impl Lowered {
     }
 
     /// A vertex program.
-    pub(super) fn vertex(program: &Program, rules: &Rules, formats: &Formats, constants: &ResolvedConstants) -> Self {
-        let mut t = Translator::new(program, rules, formats.clone(), constants, None);
+    pub(super) fn vertex(program: &Program, rules: &Rules, formats: Formats, constants: &ResolvedConstants) -> Self {
+        let mut t = Translator::new(program, rules, formats, constants, None);
         let body = match has_flow(program) {
             false => {
                 for instruction in &program.instructions {
                     let mut effects = Vec::new();
-                    one(&mut t, instruction, &mut effects);
+                    translate_instruction(&mut t, instruction, &mut effects);
                     for effect in effects {
                         if let Effect::Write(place, value, _) = effect {
                             t.registers.insert(place, value);
@@ -143,9 +140,9 @@ impl Lowered {
                 Body::Straight { sinks, fetches: Vec::new(), cost }
             }
             true => {
-                let parts = Parts::new(program, &mut t);
+                let parts = MaskedProgram::new(program, &mut t);
                 let end = output_sinks(&mut t, |t, place| {
-                    parts.registers.get(&place).map(|&slot| t.make.graph.node(Kind::Held(slot)))
+                    parts.registers.get(&place).map(|&slot| t.make.graph.node(NodeKind::Held(slot)))
                 });
                 flow(&mut t, program, parts, end, false)
             }
@@ -153,24 +150,28 @@ impl Lowered {
         Self::finish(t, body, constants, formats)
     }
 
-    fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: &Formats) -> Self {
+    fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: Formats) -> Self {
         let graph = t.make.graph;
-        let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(Node(i)), Kind::Relative(..)));
-        let main = formats.lane(Arith::Main);
-        let table = constants.float.iter().filter(|_| relative).map(|c| c.map(|bits| main.decode(bits))).collect();
-        Self { graph, formats: formats.clone(), body, table }
+        let relative = (0..graph.len() as u32).any(|i| matches!(graph.kind(NodeId(i)), NodeKind::Relative(..)));
+        let table = constants
+            .float
+            .iter()
+            .filter(|_| relative)
+            .map(|c| c.map(|bits| formats.decode(Arith::Main, bits)))
+            .collect();
+        Self { graph, formats, body, table }
     }
 }
 
 fn straight(t: &mut Translator<'_>, program: &Program, traced: bool) -> Body {
     let mut taps = if traced { delivered_sinks(t, program) } else { Vec::new() };
-    let mut written: Vec<(usize, Vec<u8>, Vec<Node>)> = Vec::new();
-    let ends = decode(t, program, |at, effects| {
+    let mut written: Vec<(usize, Vec<u8>, Vec<NodeId>)> = Vec::new();
+    let ends = translate_straight(t, program, |at, effects| {
         let values = effects.iter().filter_map(|effect| match effect {
             Effect::Write((_, _, component), value, _) => Some((*component, *value)),
             _ => None,
         });
-        let (components, nodes): (Vec<u8>, Vec<Node>) = values.unzip();
+        let (components, nodes): (Vec<u8>, Vec<NodeId>) = values.unzip();
         written.push((at, components, nodes));
     });
     if traced {
@@ -204,21 +205,21 @@ fn end_sinks(t: &mut Translator<'_>, ends: &Ends) -> Vec<Sink> {
 }
 
 /// Where a pixel program with flow control leaves its results.
-fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<Place, Slot>) -> Vec<Sink> {
+fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<RegisterComponent, Slot>) -> Vec<Sink> {
     let mut sinks = Vec::new();
     let named = colors_written(program);
     for target in (0u16..4).filter(|i| named >> i & 1 == 1) {
         for component in 0u16..4 {
             if let Some(&slot) = registers.get(&(RegisterFile::ColorOut, target, component as u8)) {
-                let held = t.make.graph.node(Kind::Held(slot));
+                let held = t.make.graph.node(NodeKind::Held(slot));
                 sinks.push(Sink::new(Use::Color(target, component), [held]));
             }
         }
     }
-    let killed = t.make.graph.node(Kind::Held(KILLED));
+    let killed = t.make.graph.node(NodeKind::Held(KILLED));
     sinks.push(Sink::new(Use::Killed, [killed]));
     if let Some(&slot) = registers.get(&(RegisterFile::DepthOut, 0, 0)) {
-        let nodes = [slot, DECIDED].map(|slot| t.make.graph.node(Kind::Held(slot)));
+        let nodes = [slot, DECIDED].map(|slot| t.make.graph.node(NodeKind::Held(slot)));
         sinks.push(Sink::new(Use::Depth(Arith::Main), nodes));
     }
     sinks
@@ -226,7 +227,10 @@ fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<P
 
 /// The words of a vertex: position, two colours clamped to [0, 1], eight sets of coordinates, fog, point size; single
 /// precision. What the program does not write stays zero.
-fn output_sinks(t: &mut Translator<'_>, mut held: impl FnMut(&mut Translator<'_>, Place) -> Option<Node>) -> Vec<Sink> {
+fn output_sinks(
+    t: &mut Translator<'_>,
+    mut held: impl FnMut(&mut Translator<'_>, RegisterComponent) -> Option<NodeId>,
+) -> Vec<Sink> {
     let vector = |file, index: u16| (0u8..4).map(move |c| (file, index, c));
     let places = vector(RegisterFile::PositionOut, 0)
         .chain((0u16..2).flat_map(|i| vector(RegisterFile::DiffuseOut, i)))
@@ -236,7 +240,7 @@ fn output_sinks(t: &mut Translator<'_>, mut held: impl FnMut(&mut Translator<'_>
     for (word, place) in (0u16..).zip(places) {
         let Some(mut node) = held(t, place) else { continue };
         if place.0 == RegisterFile::DiffuseOut {
-            node = t.make.unary(Arith::Main, Code::Saturate, node);
+            node = t.make.unary(Arith::Main, NodeOperation::Saturate, node);
         }
         let single = t.make.convert(Arith::Main, Arith::Single, node);
         sinks.push(Sink::new(Use::Output(word), [single]));
@@ -244,9 +248,9 @@ fn output_sinks(t: &mut Translator<'_>, mut held: impl FnMut(&mut Translator<'_>
     sinks
 }
 
-fn flow(t: &mut Translator<'_>, program: &Program, parts: Parts, end: Vec<Sink>, traced: bool) -> Body {
+fn flow(t: &mut Translator<'_>, program: &Program, parts: MaskedProgram, end: Vec<Sink>, traced: bool) -> Body {
     let map = FlowMap::new(program);
-    let Parts { parts, registers: _, first_free } = parts;
+    let MaskedProgram { parts, registers: _, first_free } = parts;
     let mut steps = Vec::with_capacity(parts.len());
     for (at, (instruction, part)) in program.instructions.iter().zip(parts).enumerate() {
         let sampler = part.sampler;
@@ -280,12 +284,18 @@ fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
 }
 
 /// What an instruction under lane masks does with its results.
-fn merges(t: &mut Translator<'_>, at: usize, instruction: &Instruction, part: Part, traced: bool) -> Vec<Sink> {
+fn merges(
+    t: &mut Translator<'_>,
+    at: usize,
+    instruction: &Instruction,
+    part: MaskedInstruction,
+    traced: bool,
+) -> Vec<Sink> {
     let (mut sinks, mut values, mut masks) = (Vec::new(), Vec::new(), Vec::new());
     for (&root, &to) in part.roots.iter().zip(&part.to) {
-        let old = t.make.graph.node(Kind::Held(to));
+        let old = t.make.graph.node(NodeKind::Held(to));
         match t.make.graph.kind(root) {
-            Kind::Compute(_, Code::Select, [mask, value, kept]) if kept == old => {
+            NodeKind::Compute(_, NodeOperation::Select, [mask, value, kept]) if kept == old => {
                 values.push(value);
                 masks.push(mask);
                 sinks.push(Sink::new(Use::Merge(to), [value, mask]));

@@ -4,10 +4,7 @@ use super::ProgramError;
 use super::codes::{immediate, operation};
 use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Use};
 use super::operations as op;
-use crate::exec::batch::arith::Formats;
-use crate::exec::batch::graph::{Arith, Detail, Graph, Kind, Node};
-use crate::exec::batch::ops::Code;
-use crate::exec::batch::slots::Slot;
+use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, NodeOperation, Slot};
 use crate::exec::wgsl::number::{Operation, source_word};
 use std::collections::BTreeMap;
 
@@ -89,12 +86,12 @@ pub(super) struct Assembler<'g> {
 
 /// The values of one block on their way through slots.
 pub(super) struct Places {
-    at: BTreeMap<Node, u16>,
+    at: BTreeMap<NodeId, u16>,
     /// Reads still to come.
-    left: BTreeMap<Node, u32>,
+    left: BTreeMap<NodeId, u32>,
     free: Vec<u16>,
     next: usize,
-    texels: BTreeMap<Node, Vec<(u8, Node)>>,
+    texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
 }
 
 impl Places {
@@ -105,7 +102,7 @@ impl Places {
         })
     }
 
-    pub(super) fn of(&self, node: Node) -> u16 {
+    pub(super) fn of(&self, node: NodeId) -> u16 {
         self.at.get(&node).copied().unwrap_or(NONE)
     }
 }
@@ -141,28 +138,28 @@ impl Assembler<'_> {
     /// Computes what the sinks need and gives it to them, each as soon as it has everything.
     pub(super) fn block(&mut self, sinks: &[Sink]) -> Places {
         let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
-        let needed: Vec<Node> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| Node(i)).collect();
+        let needed: Vec<NodeId> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| NodeId(i)).collect();
         let next = usize::from(self.first);
         let mut places =
             Places { at: BTreeMap::new(), left: BTreeMap::new(), free: Vec::new(), next, texels: BTreeMap::new() };
-        let mut reads = |n: Node| *places.left.entry(n).or_default() += 1;
+        let mut reads = |n: NodeId| *places.left.entry(n).or_default() += 1;
         for &node in &needed {
             self.graph.kind(node).needs(&mut reads);
         }
         sinks.iter().flat_map(|s| s.nodes.iter().copied()).for_each(reads);
         for &node in &needed {
-            if let Kind::Texel(fetch, component) = self.graph.kind(node) {
+            if let NodeKind::Texel(fetch, component) = self.graph.kind(node) {
                 places.texels.entry(fetch).or_default().push((component, node));
             }
             self.leaf(node, &mut places);
         }
         // A sink is served after the last of its values. Merges come last, in order.
-        let mut order: Vec<(Option<Node>, &Sink)> = Vec::with_capacity(sinks.len());
+        let mut order: Vec<(Option<NodeId>, &Sink)> = Vec::with_capacity(sinks.len());
         let mut traced = None;
         for sink in sinks {
             let mut last = sink.nodes.iter().copied().max();
             match sink.what {
-                Use::Merge(_) | Use::Move(_) | Use::Condition => last = Some(Node(u32::MAX)),
+                Use::Merge(_) | Use::Move(_) | Use::Condition => last = Some(NodeId(u32::MAX)),
                 Use::Trace(..) => {
                     last = last.max(traced);
                     traced = last;
@@ -192,37 +189,39 @@ impl Assembler<'_> {
         places
     }
 
-    fn leaf(&mut self, node: Node, places: &mut Places) {
+    fn leaf(&mut self, node: NodeId, places: &mut Places) {
         let at = match self.graph.kind(node) {
-            Kind::Constant(raw) => self.constant(raw),
-            Kind::Held(slot) => slot,
-            Kind::Input(component) => FIRST_INPUT + component,
+            NodeKind::Constant(raw) => self.constant(raw),
+            NodeKind::Held(slot) => slot,
+            NodeKind::Input(component) => FIRST_INPUT + component,
             _ => return,
         };
         places.at.insert(node, at);
     }
 
     /// One read of each of these values is done; slots nobody reads any more are free.
-    fn release(&self, nodes: &[Node], places: &mut Places) {
+    fn release(&self, nodes: &[NodeId], places: &mut Places) {
         for node in nodes {
             let Some(left) = places.left.get_mut(node) else { continue };
             *left = left.saturating_sub(1);
-            let kept =
-                matches!(self.graph.kind(*node), Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) | Kind::Fetch(..));
+            let kept = matches!(
+                self.graph.kind(*node),
+                NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) | NodeKind::Fetch(..)
+            );
             if *left == 0 && !kept && places.of(*node) != NONE {
                 places.free.push(places.of(*node));
             }
         }
     }
 
-    fn release_operands(&self, node: Node, places: &mut Places) {
+    fn release_operands(&self, node: NodeId, places: &mut Places) {
         let mut operands = Vec::new();
         self.graph.kind(node).needs(|n| operands.push(n));
         self.release(&operands, places);
     }
 
     /// A slot for the value, after its operands were read for the last time.
-    fn result(&mut self, node: Node, places: &mut Places) -> u16 {
+    fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);
         let to = places.fresh();
         places.at.insert(node, to);
@@ -237,10 +236,10 @@ impl Assembler<'_> {
         self.emit(op::BITWISE | variant << 16, to, args);
     }
 
-    fn node(&mut self, node: Node, places: &mut Places) {
+    fn node(&mut self, node: NodeId, places: &mut Places) {
         match self.graph.kind(node) {
-            Kind::Compute(k, code, args) => self.compute(node, k, code, args.map(|n| places.of(n)), places),
-            Kind::Dot(k, terms, a, b) => {
+            NodeKind::Compute(k, code, args) => self.compute(node, k, code, args.map(|n| places.of(n)), places),
+            NodeKind::Dot(k, terms, a, b) => {
                 let mut operands = [0; 8];
                 for i in 0..usize::from(terms.min(4)) {
                     (operands[2 * i], operands[2 * i + 1]) = (places.of(a[i]), places.of(b[i]));
@@ -250,48 +249,48 @@ impl Assembler<'_> {
                 self.words.push(op::DOT | k.number() << 8 | u32::from(terms) << 16);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
-            Kind::Convert(from, into, a) => {
+            NodeKind::Convert(from, into, a) => {
                 let source = self.constant(source_word(&self.formats.format(from)));
                 self.alu(node, into, Operation::Convert, [places.of(a), source, source], places);
             }
-            Kind::Steps(steps, a) => {
+            NodeKind::Steps(steps, a) => {
                 let steps = self.constant(steps);
                 self.alu(node, Arith::Main, Operation::Steps, [places.of(a), steps, steps], places);
             }
-            Kind::Relative(base, component, a) => {
+            NodeKind::Relative(base, component, a) => {
                 let a = places.of(a);
                 let to = self.result(node, places);
                 self.words.extend([op::RELATIVE | u32::from(component) << 16, pair(to, a), base.cast_unsigned()]);
             }
-            Kind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
-            Kind::Circle(k, sine, a) => {
+            NodeKind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
+            NodeKind::Circle(k, sine, a) => {
                 let a = places.of(a);
                 self.alu(node, k, if sine { Operation::Sin } else { Operation::Cos }, [a; 3], places);
             }
-            Kind::Texel(..) | Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
+            NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
         }
     }
 
-    fn alu(&mut self, node: Node, k: Arith, operation: Operation, args: [u16; 3], places: &mut Places) {
+    fn alu(&mut self, node: NodeId, k: Arith, operation: Operation, args: [u16; 3], places: &mut Places) {
         let to = self.result(node, places);
         self.emit(op::ALU | k.number() << 8 | operation.word() << 16, to, args);
     }
 
-    fn compute(&mut self, node: Node, k: Arith, code: Code, args: [u16; 3], places: &mut Places) {
+    fn compute(&mut self, node: NodeId, k: Arith, code: NodeOperation, args: [u16; 3], places: &mut Places) {
         let a = args[0];
         match code {
-            Code::And | Code::Or | Code::AndNot | Code::Select => {
+            NodeOperation::And | NodeOperation::Or | NodeOperation::AndNot | NodeOperation::Select => {
                 let variant = match code {
-                    Code::And => op::AND,
-                    Code::Or => op::OR,
-                    Code::AndNot => op::AND_NOT,
+                    NodeOperation::And => op::AND,
+                    NodeOperation::Or => op::OR,
+                    NodeOperation::AndNot => op::AND_NOT,
                     _ => op::SELECT,
                 };
                 let to = self.result(node, places);
                 self.bitwise(variant, to, args);
             }
-            Code::DifferenceX | Code::DifferenceY => {
-                let quad = if code == Code::DifferenceX { 1 } else { 2 };
+            NodeOperation::DifferenceX | NodeOperation::DifferenceY => {
+                let quad = if code == NodeOperation::DifferenceX { 1 } else { 2 };
                 let to = self.result(node, places);
                 self.emit(op::ALU | k.number() << 8 | quad << 12 | Operation::Sub.word() << 16, to, [a; 3]);
             }
@@ -305,7 +304,7 @@ impl Assembler<'_> {
         }
     }
 
-    fn fetch(&mut self, node: Node, sampler: u8, coordinates: [Node; 4], detail: Detail, places: &mut Places) {
+    fn fetch(&mut self, node: NodeId, sampler: u8, coordinates: [NodeId; 4], detail: Detail, places: &mut Places) {
         let [u, v, w, q] = coordinates.map(|n| places.of(n));
         let (number, more) = match detail {
             Detail::Implicit => (0, vec![]),

@@ -2,8 +2,7 @@
 
 use super::codes::{immediate, operation};
 use super::lower::{Body, Lowered, Sink, Use};
-use crate::exec::batch::graph::{Arith, Detail, Kind, Node};
-use crate::exec::batch::ops::Code;
+use crate::exec::lower::{Arith, Detail, NodeId, NodeKind, NodeOperation};
 use crate::exec::wgsl::number::{NativeOperations, NumberMode, Operation, format_words, source_word};
 use crate::num::Format;
 use std::collections::BTreeMap;
@@ -29,9 +28,9 @@ pub(super) fn unroll(program: &Lowered, mode: NumberMode, native: NativeOperatio
     // The first word stays zero.
     let mut writer = Writer { program, native, text: String::new(), words: vec![0], soft_calls: 0, reads: 0 };
     let live = program.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
-    let needed: Vec<Node> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| Node(i)).collect();
+    let needed: Vec<NodeId> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| NodeId(i)).collect();
     for &node in &needed {
-        if let Kind::Constant(raw) = program.graph.kind(node) {
+        if let NodeKind::Constant(raw) = program.graph.kind(node) {
             let _ = writeln!(writer.text, "    let v{} = p_constant({}u);", node.0, writer.words.len());
             writer.words.push(raw);
         }
@@ -87,7 +86,7 @@ fn name(k: Arith) -> &'static str {
     }
 }
 
-fn v(node: Node) -> String {
+fn v(node: NodeId) -> String {
     format!("v{}", node.0)
 }
 
@@ -102,17 +101,17 @@ impl Writer<'_> {
         format!("p_alu({}, {}, {})", operation.constant(), name(k), args.join(", "))
     }
 
-    fn node(&mut self, node: Node, table: usize) {
+    fn node(&mut self, node: NodeId, table: usize) {
         let value = match self.program.graph.kind(node) {
-            Kind::Constant(_) | Kind::Held(_) => return,
-            Kind::Circle(k, sine, a) => {
+            NodeKind::Constant(_) | NodeKind::Held(_) => return,
+            NodeKind::Circle(k, sine, a) => {
                 let operation = if sine { Operation::Sin } else { Operation::Cos };
                 self.soft(operation, k, [&v(a), &v(a), &v(a)])
             }
-            Kind::Input(component) => format!("q_input[{component}]"),
-            Kind::Texel(fetch, component) => format!("t{}[{component}]", fetch.0),
-            Kind::Compute(k, code, args) => self.compute(k, code, args.map(v)),
-            Kind::Dot(k, terms, a, b) => {
+            NodeKind::Input(component) => format!("q_input[{component}]"),
+            NodeKind::Texel(fetch, component) => format!("t{}[{component}]", fetch.0),
+            NodeKind::Compute(k, code, args) => self.compute(k, code, args.map(v)),
+            NodeKind::Dot(k, terms, a, b) => {
                 self.soft_calls += 1;
                 let [a, b] = [a, b].map(|x| {
                     let rows =
@@ -121,19 +120,19 @@ impl Writer<'_> {
                 });
                 format!("p_dot({}, {terms}u, {a}, {b})", name(k))
             }
-            Kind::Convert(from, into, a) => {
+            NodeKind::Convert(from, into, a) => {
                 let source = format!("vec4<u32>({}u)", source_word(&self.program.formats.format(from)));
                 self.soft(Operation::Convert, into, [&v(a), &source, &source])
             }
-            Kind::Steps(steps, a) => {
+            NodeKind::Steps(steps, a) => {
                 let steps = format!("vec4<u32>({steps}u)");
                 self.soft(Operation::Steps, Arith::Main, [&v(a), &steps, &steps])
             }
-            Kind::Relative(base, component, a) => {
+            NodeKind::Relative(base, component, a) => {
                 let count = self.program.table.len();
                 format!("p_relative({table}u, {count}, {base}, {component}u, {})", v(a))
             }
-            Kind::Fetch(sampler, coordinates, detail) => {
+            NodeKind::Fetch(sampler, coordinates, detail) => {
                 let call = self.fetch(sampler, coordinates, detail);
                 let _ = writeln!(self.text, "    let t{} = {call};", node.0);
                 return;
@@ -142,7 +141,7 @@ impl Writer<'_> {
         let _ = writeln!(self.text, "    let v{} = {value};", node.0);
     }
 
-    fn fetch(&mut self, sampler: u8, coordinates: [Node; 4], detail: Detail) -> String {
+    fn fetch(&mut self, sampler: u8, coordinates: [NodeId; 4], detail: Detail) -> String {
         self.reads += 1;
         let zero = "vec4<u32>(0u)".to_owned();
         let (number, bias, gradients) = match detail {
@@ -154,20 +153,24 @@ impl Writer<'_> {
         format!("texture_read({sampler}u, {coordinates}, {number}u, {bias}, array<vec4<u32>, 8>({gradients}), q_run)")
     }
 
-    fn compute(&mut self, k: Arith, code: Code, [a, b, c]: [String; 3]) -> String {
+    fn compute(&mut self, k: Arith, code: NodeOperation, [a, b, c]: [String; 3]) -> String {
         match code {
-            Code::And => return format!("{a} & {b}"),
-            Code::Or => return format!("{a} | {b}"),
-            Code::AndNot => return format!("{b} & ~{a}"),
-            Code::Select => return format!("p_select({a}, {b}, {c})"),
+            NodeOperation::And => return format!("{a} & {b}"),
+            NodeOperation::Or => return format!("{a} | {b}"),
+            NodeOperation::AndNot => return format!("{b} & ~{a}"),
+            NodeOperation::Select => return format!("p_select({a}, {b}, {c})"),
             _ => {}
         }
         if let Some(native) = self.own(k, code, [&a, &b, &c]) {
             return native;
         }
         match code {
-            Code::DifferenceX => self.soft(Operation::Sub, k, [&format!("{a}.yyww"), &format!("{a}.xxzz"), &a]),
-            Code::DifferenceY => self.soft(Operation::Sub, k, [&format!("{a}.zwzw"), &format!("{a}.xyxy"), &a]),
+            NodeOperation::DifferenceX => {
+                self.soft(Operation::Sub, k, [&format!("{a}.yyww"), &format!("{a}.xxzz"), &a])
+            }
+            NodeOperation::DifferenceY => {
+                self.soft(Operation::Sub, k, [&format!("{a}.zwzw"), &format!("{a}.xyxy"), &a])
+            }
             _ => match operation(code) {
                 Some(operation) => {
                     let rest = immediate(code).map_or_else(|| a.clone(), |word| format!("vec4<u32>({word}u)"));
@@ -181,7 +184,7 @@ impl Writer<'_> {
     }
 
     /// An operation in the device's own single precision, if it is exact there.
-    fn own(&self, k: Arith, code: Code, [a, b, c]: [&str; 3]) -> Option<String> {
+    fn own(&self, k: Arith, code: NodeOperation, [a, b, c]: [&str; 3]) -> Option<String> {
         if !self.is_native(k) {
             return None;
         }
@@ -189,36 +192,36 @@ impl Writer<'_> {
         let (add, multiply) = (has(NativeOperations::ADD), has(NativeOperations::MUL));
         let floor = has(NativeOperations::FLOOR);
         Some(match code {
-            Code::Add if add => format!("p_add({a}, {b})"),
-            Code::Sub if add => format!("p_sub({a}, {b})"),
-            Code::Mul if multiply => format!("p_mul({a}, {b})"),
-            Code::Mad if add && multiply => format!("p_add(p_mul({a}, {b}), {c})"),
-            Code::Div if has(NativeOperations::DIV) => format!("p_div({a}, {b})"),
-            Code::Rcp if has(NativeOperations::DIV) => format!("p_div(vec4<u32>(0x3f800000u), {a})"),
-            Code::Floor if floor => format!("p_floor({a})"),
-            Code::Frc if floor && add => format!("p_sub({a}, p_floor({a}))"),
-            Code::Scale(shift) if multiply => {
+            NodeOperation::Add if add => format!("p_add({a}, {b})"),
+            NodeOperation::Sub if add => format!("p_sub({a}, {b})"),
+            NodeOperation::Mul if multiply => format!("p_mul({a}, {b})"),
+            NodeOperation::Mad if add && multiply => format!("p_add(p_mul({a}, {b}), {c})"),
+            NodeOperation::Div if has(NativeOperations::DIV) => format!("p_div({a}, {b})"),
+            NodeOperation::Rcp if has(NativeOperations::DIV) => format!("p_div(vec4<u32>(0x3f800000u), {a})"),
+            NodeOperation::Floor if floor => format!("p_floor({a})"),
+            NodeOperation::Frc if floor && add => format!("p_sub({a}, p_floor({a}))"),
+            NodeOperation::Scale(shift) if multiply => {
                 format!("p_mul({a}, vec4<u32>({}u))", (127 + i32::from(shift)) << 23)
             }
-            Code::DifferenceX if add => format!("p_sub({a}.yyww, {a}.xxzz)"),
-            Code::DifferenceY if add => format!("p_sub({a}.zwzw, {a}.xyxy)"),
-            Code::Min => format!("p_min({a}, {b})"),
-            Code::Max => format!("p_max({a}, {b})"),
-            Code::Neg => format!("p_neg({a})"),
-            Code::Abs => format!("p_abs({a})"),
-            Code::Saturate => format!("p_saturate({a})"),
-            Code::Factor => format!("p_factor({a}, {b})"),
-            Code::SelectNonNegative => format!("p_non_negative({a}, {b}, {c})"),
-            Code::SelectAboveHalf => format!("p_above_half({a}, {b}, {c})"),
-            Code::Less => format!("p_less({a}, {b})"),
-            Code::LessEqual => format!("p_less_equal({a}, {b})"),
-            Code::Equal => format!("p_equal({a}, {b})"),
+            NodeOperation::DifferenceX if add => format!("p_sub({a}.yyww, {a}.xxzz)"),
+            NodeOperation::DifferenceY if add => format!("p_sub({a}.zwzw, {a}.xyxy)"),
+            NodeOperation::Min => format!("p_min({a}, {b})"),
+            NodeOperation::Max => format!("p_max({a}, {b})"),
+            NodeOperation::Neg => format!("p_neg({a})"),
+            NodeOperation::Abs => format!("p_abs({a})"),
+            NodeOperation::Saturate => format!("p_saturate({a})"),
+            NodeOperation::Factor => format!("p_factor({a}, {b})"),
+            NodeOperation::SelectNonNegative => format!("p_non_negative({a}, {b}, {c})"),
+            NodeOperation::SelectAboveHalf => format!("p_above_half({a}, {b}, {c})"),
+            NodeOperation::Less => format!("p_less({a}, {b})"),
+            NodeOperation::LessEqual => format!("p_less_equal({a}, {b})"),
+            NodeOperation::Equal => format!("p_equal({a}, {b})"),
             _ => return None,
         })
     }
 
     /// A value on its way out, with the one NaN.
-    fn clean(&self, k: Arith, node: Node) -> String {
+    fn clean(&self, k: Arith, node: NodeId) -> String {
         if self.is_native(k) { format!("p_clean({})", v(node)) } else { v(node) }
     }
 

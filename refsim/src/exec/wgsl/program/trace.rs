@@ -1,9 +1,7 @@
 //! What a followed lane put down, as steps.
 
 use crate::device::Rules;
-use crate::exec::batch::fragment::of_file;
-use crate::exec::batch::graph::Arith;
-use crate::exec::batch::program::pixel_formats;
+use crate::exec::lower::{Arith, Formats, of_file};
 use crate::exec::trace::as_written;
 use crate::exec::usage::registers_delivered;
 use crate::exec::{CheckedProgram, Step, program};
@@ -18,19 +16,19 @@ pub const TRACE_WORDS: usize = 6;
 /// as [`crate::exec::Shading`] holds them.
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
-    let Some(formats) = pixel_formats(rules) else { return Vec::new() };
+    let formats = Formats::pixel(rules);
     let fragment = source.version.is_fragment_program();
     let step = |words: &[u32]| {
         let (instruction, mask) = (words[0] as usize, Mask((words[1] & 15) as u8));
         let destination = source.instructions.get(instruction).and_then(|i| i.destination);
         let arith = destination.map_or(Arith::Main, |d| of_file(d.register.file));
-        let (lane_of, format) = (formats.lane(arith), formats.format(arith));
+        let format = formats.format(arith);
         let is_predicate = destination.is_some_and(|d| d.register.file == RegisterFile::Predicate);
         let value = [2, 3, 4, 5].map(|i| match words[i] {
             raw if is_predicate => u32::from(raw != 0),
             // A packed word is shown as the number that it is a pattern of.
-            raw if fragment => ops::convert(&format, format, lane_of.encode(raw)).bits,
-            raw => lane_of.encode(raw),
+            raw if fragment => ops::convert(&format, format, formats.encode(arith, raw)).bits,
+            raw => formats.encode(arith, raw),
         });
         as_written(Step { instruction, lane, mask, value, flags: Flags::empty() }, source)
     };
@@ -41,12 +39,13 @@ pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane:
 /// The input registers as instructions read them, out of the same words, as [`crate::exec::Shading`] holds them.
 pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -> Vec<(Register, [u32; 4])> {
     let source = program(checked);
-    let Some(formats) = pixel_formats(rules) else { return Vec::new() };
-    let main = formats.lane(Arith::Main);
+    let formats = Formats::pixel(rules);
     let first = source.instructions.len();
     let told = |at: usize| words.chunks_exact(TRACE_WORDS).find(|words| words[0] as usize == at);
     let registers = (first..).zip(registers_delivered(source));
     registers
-        .filter_map(|(at, register)| told(at).map(|words| (register, [2, 3, 4, 5].map(|i| main.encode(words[i])))))
+        .filter_map(|(at, register)| {
+            told(at).map(|words| (register, [2, 3, 4, 5].map(|i| formats.encode(Arith::Main, words[i]))))
+        })
         .collect()
 }

@@ -1,14 +1,14 @@
 //! Operations of several rounded steps, as graph nodes. The sequences are those that the scalar executor documents.
 
-use super::arith::{Maker, Vector};
-use super::graph::{Arith, Kind, Node};
-use super::ops::Code;
+use super::arith::{Maker, NodeVector};
+use super::code::NodeOperation;
+use super::graph::{Arith, NodeId, NodeKind};
 use crate::isa::Opcode;
 use crate::num;
 
 impl Maker<'_> {
     /// What an arithmetic operation makes of its operands; operands that it lacks are zeros.
-    pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[Vector; 3], bump: &Vector) -> Vector {
+    pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[NodeVector; 3], bump: &NodeVector) -> NodeVector {
         let [a, b, c] = *s;
         match opcode {
             Opcode::Mov => a,
@@ -23,23 +23,23 @@ impl Maker<'_> {
                 let dot = self.dot(k, 2, &a, &b);
                 [self.add(k, dot, c[0]); 4]
             }
-            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, Code::SelectAboveHalf, a[i], b[i], c[i])),
-            Opcode::Cmp => std::array::from_fn(|i| self.compute(k, Code::SelectNonNegative, a[i], b[i], c[i])),
+            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, NodeOperation::SelectAboveHalf, a[i], b[i], c[i])),
+            Opcode::Cmp => std::array::from_fn(|i| self.compute(k, NodeOperation::SelectNonNegative, a[i], b[i], c[i])),
             Opcode::Bem => self.bem(k, &a, &b, bump),
-            Opcode::Abs => a.map(|x| self.unary(k, Code::Abs, x)),
-            Opcode::Min => std::array::from_fn(|i| self.binary(k, Code::Min, a[i], b[i])),
-            Opcode::Max => std::array::from_fn(|i| self.binary(k, Code::Max, a[i], b[i])),
-            Opcode::Sge => std::array::from_fn(|i| self.flag(k, Code::LessEqual, b[i], a[i])),
-            Opcode::Slt => std::array::from_fn(|i| self.flag(k, Code::Less, a[i], b[i])),
-            Opcode::Frc => a.map(|x| self.unary(k, Code::Frc, x)),
-            Opcode::Rcp => [self.unary(k, Code::Rcp, a[0]); 4],
-            Opcode::Rsq => [self.unary(k, Code::Rsq, a[0]); 4],
-            Opcode::Exp => [self.unary(k, Code::Exp2, a[0]); 4],
-            Opcode::Log => [self.unary(k, Code::Log2, a[0]); 4],
+            Opcode::Abs => a.map(|x| self.unary(k, NodeOperation::Abs, x)),
+            Opcode::Min => std::array::from_fn(|i| self.binary(k, NodeOperation::Min, a[i], b[i])),
+            Opcode::Max => std::array::from_fn(|i| self.binary(k, NodeOperation::Max, a[i], b[i])),
+            Opcode::Sge => std::array::from_fn(|i| self.flag(k, NodeOperation::LessEqual, b[i], a[i])),
+            Opcode::Slt => std::array::from_fn(|i| self.flag(k, NodeOperation::Less, a[i], b[i])),
+            Opcode::Frc => a.map(|x| self.unary(k, NodeOperation::Frc, x)),
+            Opcode::Rcp => [self.unary(k, NodeOperation::Rcp, a[0]); 4],
+            Opcode::Rsq => [self.unary(k, NodeOperation::Rsq, a[0]); 4],
+            Opcode::Exp => [self.unary(k, NodeOperation::Exp2, a[0]); 4],
+            Opcode::Log => [self.unary(k, NodeOperation::Log2, a[0]); 4],
             Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
             Opcode::Expp => {
-                let floor = self.unary(k, Code::Floor, a[3]);
-                let [x, y, z] = [(Code::Exp2, floor), (Code::Frc, a[3]), (Code::Exp2, a[3])]
+                let floor = self.unary(k, NodeOperation::Floor, a[3]);
+                let [x, y, z] = [(NodeOperation::Exp2, floor), (NodeOperation::Frc, a[3]), (NodeOperation::Exp2, a[3])]
                     .map(|(code, n)| self.unary(k, code, n));
                 [x, y, z, self.one(k)]
             }
@@ -50,7 +50,7 @@ impl Maker<'_> {
             Opcode::SinCos => self.sincos(k, a[0], &b, &c),
             Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
             Opcode::Lit => self.lit(k, &a),
-            Opcode::Flr => a.map(|x| self.unary(k, Code::Floor, x)),
+            Opcode::Flr => a.map(|x| self.unary(k, NodeOperation::Floor, x)),
             Opcode::Cos => [self.circle(k, false, a[0]); 4],
             Opcode::Sin => [self.circle(k, true, a[0]); 4],
             Opcode::Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
@@ -59,14 +59,14 @@ impl Maker<'_> {
                 [self.add(k, dot, b[3]); 4]
             }
             Opcode::Swz => a,
-            Opcode::Seq => std::array::from_fn(|i| self.flag(k, Code::Equal, a[i], b[i])),
+            Opcode::Seq => std::array::from_fn(|i| self.flag(k, NodeOperation::Equal, a[i], b[i])),
             Opcode::Sne => std::array::from_fn(|i| {
-                let same = self.holds(k, Code::Equal, a[i], b[i]);
+                let same = self.holds(k, NodeOperation::Equal, a[i], b[i]);
                 let (one, zero) = (self.one(k), self.zero());
                 self.select(same, zero, one)
             }),
-            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, Code::Less, b[i], a[i])),
-            Opcode::Sle => std::array::from_fn(|i| self.flag(k, Code::LessEqual, a[i], b[i])),
+            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, NodeOperation::Less, b[i], a[i])),
+            Opcode::Sle => std::array::from_fn(|i| self.flag(k, NodeOperation::LessEqual, a[i], b[i])),
             Opcode::Str => [self.one(k); 4],
             Opcode::Rfl => self.rfl(k, &a, &b),
             Opcode::X2d => self.x2d(k, &a, &b, &c),
@@ -75,14 +75,14 @@ impl Maker<'_> {
     }
 
     /// One where a comparison holds, else zero.
-    fn flag(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+    fn flag(&mut self, k: Arith, code: NodeOperation, a: NodeId, b: NodeId) -> NodeId {
         let holds = self.holds(k, code, a, b);
         let (one, zero) = (self.one(k), self.zero());
         self.select(holds, one, zero)
     }
 
-    fn bem(&mut self, k: Arith, base: &Vector, offset: &Vector, m: &Vector) -> Vector {
-        let mut row = |base: Node, r: Node, g: Node| {
+    fn bem(&mut self, k: Arith, base: &NodeVector, offset: &NodeVector, m: &NodeVector) -> NodeVector {
+        let mut row = |base: NodeId, r: NodeId, g: NodeId| {
             let first = self.mad(k, r, offset[0], base);
             self.mad(k, g, offset[1], first)
         };
@@ -90,25 +90,25 @@ impl Maker<'_> {
         [u, v, self.zero(), self.zero()]
     }
 
-    fn pow(&mut self, k: Arith, base: Node, exponent: Node) -> Node {
-        let log = self.unary(k, Code::Log2, base);
+    fn pow(&mut self, k: Arith, base: NodeId, exponent: NodeId) -> NodeId {
+        let log = self.unary(k, NodeOperation::Log2, base);
         let product = self.mul(k, exponent, log);
-        self.unary(k, Code::Exp2, product)
+        self.unary(k, NodeOperation::Exp2, product)
     }
 
-    fn logp(&mut self, k: Arith, w: Node) -> Vector {
-        let magnitude = self.unary(k, Code::Abs, w);
-        let log = self.unary(k, Code::Log2, magnitude);
-        let exponent = self.unary(k, Code::Floor, log);
+    fn logp(&mut self, k: Arith, w: NodeId) -> NodeVector {
+        let magnitude = self.unary(k, NodeOperation::Abs, w);
+        let log = self.unary(k, NodeOperation::Log2, magnitude);
+        let exponent = self.unary(k, NodeOperation::Floor, log);
         let back = self.neg(k, exponent);
-        let scale = self.unary(k, Code::Exp2, back);
+        let scale = self.unary(k, NodeOperation::Exp2, back);
         let mantissa = self.mul(k, magnitude, scale);
         let (zero, one) = (self.zero(), self.one(k));
-        let is_zero = self.holds(k, Code::Equal, magnitude, zero);
+        let is_zero = self.holds(k, NodeOperation::Equal, magnitude, zero);
         [self.select(is_zero, log, exponent), self.select(is_zero, one, mantissa), log, one]
     }
 
-    fn crs(&mut self, k: Arith, a: &Vector, b: &Vector) -> Vector {
+    fn crs(&mut self, k: Arith, a: &NodeVector, b: &NodeVector) -> NodeVector {
         let mut component = |i: usize, j: usize| {
             let product = self.mul(k, a[j], b[i]);
             let negated = self.neg(k, product);
@@ -118,26 +118,26 @@ impl Maker<'_> {
         [x, y, z, self.zero()]
     }
 
-    fn nrm(&mut self, k: Arith, a: &Vector) -> Vector {
+    fn nrm(&mut self, k: Arith, a: &NodeVector) -> NodeVector {
         let d = self.dot(k, 3, a, a);
         let zero = self.zero();
-        let is_zero = self.holds(k, Code::Equal, d, zero);
+        let is_zero = self.holds(k, NodeOperation::Equal, d, zero);
         let largest = self.pattern(k, self.formats.format(k).max_finite());
-        let root = self.unary(k, Code::Rsq, d);
+        let root = self.unary(k, NodeOperation::Rsq, d);
         let factor = self.select(is_zero, largest, root);
         a.map(|x| self.mul(k, x, factor))
     }
 
-    fn sgn(&mut self, k: Arith, a: Node) -> Node {
+    fn sgn(&mut self, k: Arith, a: NodeId) -> NodeId {
         let (zero, one) = (self.zero(), self.one(k));
         let minus = self.neg(k, one);
-        let above = self.holds(k, Code::Less, zero, a);
-        let below = self.holds(k, Code::Less, a, zero);
+        let above = self.holds(k, NodeOperation::Less, zero, a);
+        let below = self.holds(k, NodeOperation::Less, a, zero);
         let rest = self.select(below, minus, zero);
         self.select(above, one, rest)
     }
 
-    fn sincos(&mut self, k: Arith, x: Node, p: &Vector, r: &Vector) -> Vector {
+    fn sincos(&mut self, k: Arith, x: NodeId, p: &NodeVector, r: &NodeVector) -> NodeVector {
         let q = self.mul(k, x, x);
         let mut s = self.mad(k, q, p[0], p[3]);
         s = self.mad(k, s, q, r[0]);
@@ -153,11 +153,11 @@ impl Maker<'_> {
         [self.sub(k, r[2], twice), sine, self.zero(), self.zero()]
     }
 
-    fn circle(&mut self, k: Arith, sine: bool, angle: Node) -> Node {
-        self.graph.node(Kind::Circle(k, sine, angle))
+    fn circle(&mut self, k: Arith, sine: bool, angle: NodeId) -> NodeId {
+        self.graph.node(NodeKind::Circle(k, sine, angle))
     }
 
-    fn rfl(&mut self, k: Arith, axis: &Vector, direction: &Vector) -> Vector {
+    fn rfl(&mut self, k: Arith, axis: &NodeVector, direction: &NodeVector) -> NodeVector {
         let along = self.dot(k, 3, axis, direction);
         let twice = self.add(k, along, along);
         let square = self.dot(k, 3, axis, axis);
@@ -170,8 +170,8 @@ impl Maker<'_> {
         [x, y, z, self.zero()]
     }
 
-    fn x2d(&mut self, k: Arith, a: &Vector, b: &Vector, c: &Vector) -> Vector {
-        let mut row = |base: Node, i: usize| {
+    fn x2d(&mut self, k: Arith, a: &NodeVector, b: &NodeVector, c: &NodeVector) -> NodeVector {
+        let mut row = |base: NodeId, i: usize| {
             let first = self.mad(k, b[0], c[i], base);
             self.mad(k, b[1], c[i + 1], first)
         };
@@ -179,16 +179,16 @@ impl Maker<'_> {
         [x, y, x, y]
     }
 
-    fn lit(&mut self, k: Arith, a: &Vector) -> Vector {
+    fn lit(&mut self, k: Arith, a: &NodeVector) -> NodeVector {
         let limit_bits = num::from_ratio(self.formats.format(k), false, 32767, 256).bits;
         let limit = self.pattern(k, limit_bits);
         let lowest = self.neg(k, limit);
-        let clamped = self.binary(k, Code::Max, a[3], lowest);
-        let exponent = self.binary(k, Code::Min, clamped, limit);
+        let clamped = self.binary(k, NodeOperation::Max, a[3], lowest);
+        let exponent = self.binary(k, NodeOperation::Min, clamped, limit);
         let (zero, one) = (self.zero(), self.one(k));
-        let lit = self.holds(k, Code::Less, zero, a[0]);
-        let shines = self.holds(k, Code::Less, zero, a[1]);
-        let both = self.binary(Arith::Single, Code::And, lit, shines);
+        let lit = self.holds(k, NodeOperation::Less, zero, a[0]);
+        let shines = self.holds(k, NodeOperation::Less, zero, a[1]);
+        let both = self.binary(Arith::Single, NodeOperation::And, lit, shines);
         let power = self.pow(k, a[1], exponent);
         [one, self.select(lit, a[0], zero), self.select(both, power, zero), one]
     }

@@ -1,54 +1,14 @@
 //! Instructions as graph nodes: the arithmetic ones, under the rules of a device.
 
-use super::graph::{Arith, Graph, Kind, Node};
-use super::lanes::AnyLane;
-use super::ops::Code;
-use super::simd::SimdLevel;
-use super::slots::TRUE;
+use super::code::NodeOperation;
+use super::formats::Formats;
+use super::graph::TRUE;
+use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, Rules};
-use crate::exec::FragmentFormats;
-use crate::num::{self, DotOrder, Format, Overflow};
+use crate::num::{self, DotOrder};
 
 /// Four components.
-pub(crate) type Vector = [Node; 4];
-
-/// The formats of a program and their arithmetic.
-#[derive(Clone, Debug)]
-pub(crate) struct Formats {
-    formats: [Format; 6],
-    lanes: [AnyLane; 6],
-    simd: SimdLevel,
-}
-
-impl Formats {
-    /// Of registers in `main`, with `_pp` arithmetic in `partial`.
-    pub(crate) fn new(main: Format, partial: Option<Format>) -> Option<Self> {
-        let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
-        let wrapped = main.with_overflow(Overflow::Wrap);
-        let formats = [main, partial.unwrap_or(main), Format::FP32, wrapped, half, fixed];
-        let lanes = formats.map(AnyLane::new);
-        let [Some(a), Some(b), Some(c), Some(d), Some(e), Some(f)] = lanes else { return None };
-        Some(Self { formats, lanes: [a, b, c, d, e, f], simd: SimdLevel::widest() })
-    }
-
-    pub(crate) fn format(&self, arith: Arith) -> Format {
-        self.formats[arith as usize]
-    }
-
-    pub(crate) fn lane(&self, arith: Arith) -> &AnyLane {
-        &self.lanes[arith as usize]
-    }
-
-    /// The vector instructions to use.
-    pub(crate) fn simd(&self) -> SimdLevel {
-        self.simd
-    }
-
-    /// Chooses vector instructions; `None` for the widest there are.
-    pub(crate) fn set_simd(&mut self, level: Option<SimdLevel>) {
-        self.simd = level.unwrap_or(SimdLevel::widest());
-    }
-}
+pub(crate) type NodeVector = [NodeId; 4];
 
 /// Makes nodes. The methods are the operations of the instruction set in one format, with the rounding sequence that
 /// the rules ask for.
@@ -66,121 +26,121 @@ impl<'a> Maker<'a> {
     }
 
     /// A bit pattern of a format in every lane.
-    pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> Node {
-        let raw = self.formats.lane(k).decode(bits);
+    pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> NodeId {
+        let raw = self.formats.decode(k, bits);
         self.graph.constant(raw)
     }
 
-    pub(crate) fn zero(&mut self) -> Node {
+    pub(crate) fn zero(&mut self) -> NodeId {
         self.graph.constant(0)
     }
 
-    pub(crate) fn one(&mut self, k: Arith) -> Node {
+    pub(crate) fn one(&mut self, k: Arith) -> NodeId {
         self.pattern(k, self.formats.format(k).one())
     }
 
-    fn half(&mut self, k: Arith) -> Node {
+    fn half(&mut self, k: Arith) -> NodeId {
         self.pattern(k, num::from_ratio(self.formats.format(k), false, 1, 2).bits)
     }
 
-    pub(crate) fn compute(&mut self, k: Arith, code: Code, a: Node, b: Node, c: Node) -> Node {
+    pub(crate) fn compute(&mut self, k: Arith, code: NodeOperation, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         if let Some(known) = self.known_mask(k, code, a, b) {
             return known;
         }
-        self.graph.node(Kind::Compute(k, code, [a, b, c]))
+        self.graph.node(NodeKind::Compute(k, code, [a, b, c]))
     }
 
     /// A mask that needs no computing: of constants, or of masks that say nothing new.
-    fn known_mask(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Option<Node> {
-        let constant = |n: Node| match self.graph.kind(n) {
-            Kind::Constant(raw) => Some(raw),
+    fn known_mask(&mut self, k: Arith, code: NodeOperation, a: NodeId, b: NodeId) -> Option<NodeId> {
+        let constant = |n: NodeId| match self.graph.kind(n) {
+            NodeKind::Constant(raw) => Some(raw),
             _ => None,
         };
         match code {
-            Code::Less | Code::LessEqual | Code::Equal => {
-                let holds = self.formats.lane(k).compares(code, constant(a)?, constant(b)?);
+            NodeOperation::Less | NodeOperation::LessEqual | NodeOperation::Equal => {
+                let holds = self.formats.compares(k, code, constant(a)?, constant(b)?);
                 Some(self.graph.constant(if holds { TRUE } else { 0 }))
             }
-            Code::Or if constant(b) == Some(0) || self.graph.includes(a, b) => Some(a),
-            Code::Or if constant(a) == Some(0) => Some(b),
-            Code::And if constant(b) == Some(TRUE) => Some(a),
-            Code::And if constant(a) == Some(TRUE) => Some(b),
+            NodeOperation::Or if constant(b) == Some(0) || self.graph.includes(a, b) => Some(a),
+            NodeOperation::Or if constant(a) == Some(0) => Some(b),
+            NodeOperation::And if constant(b) == Some(TRUE) => Some(a),
+            NodeOperation::And if constant(a) == Some(TRUE) => Some(b),
             _ => None,
         }
     }
 
-    pub(crate) fn unary(&mut self, k: Arith, code: Code, a: Node) -> Node {
+    pub(crate) fn unary(&mut self, k: Arith, code: NodeOperation, a: NodeId) -> NodeId {
         self.compute(k, code, a, a, a)
     }
 
-    pub(crate) fn binary(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+    pub(crate) fn binary(&mut self, k: Arith, code: NodeOperation, a: NodeId, b: NodeId) -> NodeId {
         self.compute(k, code, a, b, a)
     }
 
     /// `a` of format `from` rounded into `to`.
-    pub(crate) fn convert(&mut self, from: Arith, to: Arith, a: Node) -> Node {
+    pub(crate) fn convert(&mut self, from: Arith, to: Arith, a: NodeId) -> NodeId {
         if self.formats.format(from) == self.formats.format(to) {
             return a;
         }
         // Single precision holds every number of a format of up to 24 significant bits: there and back is the same number,
         // which also fits the format's wrapping twin.
-        if let Kind::Convert(origin, Arith::Single, number) = self.graph.kind(a)
+        if let NodeKind::Convert(origin, Arith::Single, number) = self.graph.kind(a)
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
             && (!self.formats.format(origin).is_fixed() || self.formats.format(origin).width() <= 24)
         {
             return number;
         }
-        self.graph.node(Kind::Convert(from, to, a))
+        self.graph.node(NodeKind::Convert(from, to, a))
     }
 
     /// The factors of a product.
-    fn factors(&mut self, k: Arith, a: Node, b: Node) -> (Node, Node) {
+    fn factors(&mut self, k: Arith, a: NodeId, b: NodeId) -> (NodeId, NodeId) {
         if !self.legacy_zero || k == Arith::Single {
             return (a, b);
         }
-        (self.binary(k, Code::Factor, a, b), self.binary(k, Code::Factor, b, a))
+        (self.binary(k, NodeOperation::Factor, a, b), self.binary(k, NodeOperation::Factor, b, a))
     }
 
-    pub(crate) fn add(&mut self, k: Arith, a: Node, b: Node) -> Node {
-        self.binary(k, Code::Add, a, b)
+    pub(crate) fn add(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(k, NodeOperation::Add, a, b)
     }
 
-    pub(crate) fn sub(&mut self, k: Arith, a: Node, b: Node) -> Node {
-        self.binary(k, Code::Sub, a, b)
+    pub(crate) fn sub(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(k, NodeOperation::Sub, a, b)
     }
 
-    pub(crate) fn mul(&mut self, k: Arith, a: Node, b: Node) -> Node {
+    pub(crate) fn mul(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
         let (a, b) = self.factors(k, a, b);
-        self.binary(k, Code::Mul, a, b)
+        self.binary(k, NodeOperation::Mul, a, b)
     }
 
-    pub(crate) fn div(&mut self, k: Arith, a: Node, b: Node) -> Node {
-        self.binary(k, Code::Div, a, b)
+    pub(crate) fn div(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
+        self.binary(k, NodeOperation::Div, a, b)
     }
 
-    pub(crate) fn neg(&mut self, k: Arith, a: Node) -> Node {
-        self.unary(k, Code::Neg, a)
+    pub(crate) fn neg(&mut self, k: Arith, a: NodeId) -> NodeId {
+        self.unary(k, NodeOperation::Neg, a)
     }
 
     /// A product rounded, and a sum rounded.
-    fn mul_add(&mut self, k: Arith, a: Node, b: Node, c: Node) -> Node {
+    fn mul_add(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         let (a, b) = self.factors(k, a, b);
-        self.compute(k, Code::Mad, a, b, c)
+        self.compute(k, NodeOperation::Mad, a, b, c)
     }
 
-    pub(crate) fn mad(&mut self, k: Arith, a: Node, b: Node, c: Node) -> Node {
+    pub(crate) fn mad(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         match self.rules.mad {
             MadMode::TwoRoundings => self.mul_add(k, a, b, c),
             MadMode::Fused => {
                 let (a, b) = self.factors(k, a, b);
-                self.compute(k, Code::FusedMad, a, b, c)
+                self.compute(k, NodeOperation::FusedMad, a, b, c)
             }
         }
     }
 
     /// The dot product of the first `terms` components, 1 to 4.
-    pub(crate) fn dot(&mut self, k: Arith, terms: usize, a: &[Node], b: &[Node]) -> Node {
+    pub(crate) fn dot(&mut self, k: Arith, terms: usize, a: &[NodeId], b: &[NodeId]) -> NodeId {
         match self.rules.dot {
             DotOrder::Sequential => {
                 let mut sum = self.mul(k, a[0], b[0]);
@@ -190,7 +150,7 @@ impl<'a> Maker<'a> {
                 sum
             }
             DotOrder::Tree => {
-                let mut level: Vec<Node> = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
+                let mut level: Vec<NodeId> = (0..terms).map(|i| self.mul(k, a[i], b[i])).collect();
                 while level.len() > 1 {
                     level =
                         level.chunks(2).map(|p| if p.len() == 2 { self.add(k, p[0], p[1]) } else { p[0] }).collect();
@@ -203,12 +163,12 @@ impl<'a> Maker<'a> {
                 for i in 0..terms {
                     (left[i], right[i]) = self.factors(k, a[i], b[i]);
                 }
-                self.graph.node(Kind::Dot(k, terms as u8, left, right))
+                self.graph.node(NodeKind::Dot(k, terms as u8, left, right))
             }
         }
     }
 
-    pub(crate) fn lrp(&mut self, k: Arith, factor: Node, a: Node, b: Node) -> Node {
+    pub(crate) fn lrp(&mut self, k: Arith, factor: NodeId, a: NodeId, b: NodeId) -> NodeId {
         match self.rules.lrp {
             LrpMode::SubMulAdd => {
                 let difference = self.sub(k, a, b);
@@ -225,17 +185,17 @@ impl<'a> Maker<'a> {
     }
 
     /// `condition ? a : b` of a mask.
-    pub(crate) fn select(&mut self, condition: Node, a: Node, b: Node) -> Node {
-        self.compute(Arith::Single, Code::Select, condition, a, b)
+    pub(crate) fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
+        self.compute(Arith::Single, NodeOperation::Select, condition, a, b)
     }
 
     /// The mask of a comparison with both operands in `k`.
-    pub(crate) fn holds(&mut self, k: Arith, code: Code, a: Node, b: Node) -> Node {
+    pub(crate) fn holds(&mut self, k: Arith, code: NodeOperation, a: NodeId, b: NodeId) -> NodeId {
         self.binary(k, code, a, b)
     }
 
     /// A component after its source modifier.
-    pub(crate) fn modified(&mut self, k: Arith, modifier: crate::isa::Modifier, x: Node) -> Node {
+    pub(crate) fn modified(&mut self, k: Arith, modifier: crate::isa::Modifier, x: NodeId) -> NodeId {
         use crate::isa::Modifier as M;
         let biased = |maker: &mut Self| {
             let half = maker.half(k);
@@ -244,9 +204,9 @@ impl<'a> Maker<'a> {
         match modifier {
             M::None | M::Dz | M::Dw | M::Not => x,
             M::Negate => self.neg(k, x),
-            M::Absolute => self.unary(k, Code::Abs, x),
+            M::Absolute => self.unary(k, NodeOperation::Abs, x),
             M::AbsoluteNegate => {
-                let magnitude = self.unary(k, Code::Abs, x);
+                let magnitude = self.unary(k, NodeOperation::Abs, x);
                 self.neg(k, magnitude)
             }
             M::Invert => {
@@ -260,16 +220,16 @@ impl<'a> Maker<'a> {
             }
             M::Bx2 => {
                 let b = biased(self);
-                self.unary(k, Code::Scale(1), b)
+                self.unary(k, NodeOperation::Scale(1), b)
             }
             M::Bx2Negate => {
                 let b = biased(self);
-                let doubled = self.unary(k, Code::Scale(1), b);
+                let doubled = self.unary(k, NodeOperation::Scale(1), b);
                 self.neg(k, doubled)
             }
-            M::X2 => self.unary(k, Code::Scale(1), x),
+            M::X2 => self.unary(k, NodeOperation::Scale(1), x),
             M::X2Negate => {
-                let doubled = self.unary(k, Code::Scale(1), x);
+                let doubled = self.unary(k, NodeOperation::Scale(1), x);
                 self.neg(k, doubled)
             }
         }

@@ -1,8 +1,8 @@
 //! Texture instructions as graph nodes.
 
-use super::arith::Vector;
-use super::graph::{Arith, Detail, Kind, Node};
-use super::ops::Code;
+use super::arith::NodeVector;
+use super::code::NodeOperation;
+use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{Effect, Translator};
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::exec::Projection;
@@ -39,23 +39,23 @@ impl Translator<'_> {
     }
 
     /// Coordinate set `number`, single precision.
-    fn set(&mut self, number: u16) -> Vector {
+    fn set(&mut self, number: u16) -> NodeVector {
         std::array::from_fn(|c| self.coordinate(number, c))
     }
 
-    fn single(&mut self, x: Node) -> Node {
+    fn single(&mut self, x: NodeId) -> NodeId {
         self.make.convert(Arith::Main, S, x)
     }
 
-    fn main(&mut self, x: Node) -> Node {
+    fn main(&mut self, x: NodeId) -> NodeId {
         self.make.convert(S, Arith::Main, x)
     }
 
-    fn in_single(&mut self, source: &Source) -> Vector {
+    fn in_single(&mut self, source: &Source) -> NodeVector {
         self.operand(Arith::Main, source).map(|x| self.single(x))
     }
 
-    fn address_of(&mut self, source: &Source) -> Vector {
+    fn address_of(&mut self, source: &Source) -> NodeVector {
         if source.register.file == RegisterFile::Texture {
             let set = self.set(source.register.index);
             source.swizzle.0.map(|c| set[usize::from(c & 3)])
@@ -65,7 +65,7 @@ impl Translator<'_> {
     }
 
     /// The operand of `texld` and `texcrd` in ps_1_4: with `_dz` and `_dw` divided, 1 where the divisor is zero.
-    fn selected(&mut self, source: &Source) -> Vector {
+    fn selected(&mut self, source: &Source) -> NodeVector {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(&plain);
         let divisor = match source.modifier {
@@ -74,7 +74,7 @@ impl Translator<'_> {
             _ => return [x, y, z, w],
         };
         let (zero, one) = (self.make.zero(), self.make.one(S));
-        let is_zero = self.make.holds(S, Code::Equal, divisor, zero);
+        let is_zero = self.make.holds(S, NodeOperation::Equal, divisor, zero);
         let [x, y] = [x, y].map(|c| {
             let quotient = self.make.div(S, c, divisor);
             self.make.select(is_zero, one, quotient)
@@ -83,12 +83,12 @@ impl Translator<'_> {
     }
 
     /// One row of a texture matrix.
-    fn row(&mut self, stage: u16, source: &Source) -> Node {
+    fn row(&mut self, stage: u16, source: &Source) -> NodeId {
         let (own, vector) = (self.set(stage), self.in_single(source));
         self.make.dot(S, 3, &own, &vector)
     }
 
-    fn coordinates_of(&mut self, instruction: &Instruction, destination: &Destination) -> Vector {
+    fn coordinates_of(&mut self, instruction: &Instruction, destination: &Destination) -> NodeVector {
         let stage = destination.register.index;
         let (zero, one) = (self.make.zero(), self.make.one(S));
         let Some(source) = instruction.sources.first() else { return self.projected(stage) };
@@ -134,7 +134,7 @@ impl Translator<'_> {
     }
 
     /// The coordinates of a stage after its projection.
-    fn projected(&mut self, stage: u16) -> Vector {
+    fn projected(&mut self, stage: u16) -> NodeVector {
         let [x, y, z, w] = self.set(stage);
         match self.bindings.and_then(|b| b.projections.get(usize::from(stage)).copied()).unwrap_or_default() {
             Projection::None => [x, y, z, w],
@@ -143,11 +143,11 @@ impl Translator<'_> {
         }
     }
 
-    fn bumped(&mut self, source: &Source, stage: u16) -> Vector {
+    fn bumped(&mut self, source: &Source, stage: u16) -> NodeVector {
         let own = self.projected(stage);
         let offset = self.in_single(source);
         let m = self.bump(stage).matrix.map(|bits| self.make.pattern(S, bits));
-        let mut moved = |base: Node, r: Node, g: Node| {
+        let mut moved = |base: NodeId, r: NodeId, g: NodeId| {
             let first = self.make.mul(S, r, offset[0]);
             let sum = self.make.add(S, base, first);
             let second = self.make.mul(S, g, offset[1]);
@@ -156,7 +156,7 @@ impl Translator<'_> {
         [moved(own[0], m[0], m[2]), moved(own[1], m[1], m[3]), own[2], own[3]]
     }
 
-    fn reflected(&mut self, n: [Node; 3], e: [Node; 3]) -> Vector {
+    fn reflected(&mut self, n: [NodeId; 3], e: [NodeId; 3]) -> NodeVector {
         let ne = self.make.dot(S, 3, &n, &e);
         let nn = self.make.dot(S, 3, &n, &n);
         let q = self.make.div(S, ne, nn);
@@ -168,7 +168,7 @@ impl Translator<'_> {
         [x, y, z, self.make.one(S)]
     }
 
-    fn with_texel(&mut self, instruction: &Instruction, destination: &Destination) -> Vector {
+    fn with_texel(&mut self, instruction: &Instruction, destination: &Destination) -> NodeVector {
         let stage = match instruction.sources.get(1) {
             Some(sampler) if self.program.version.is_ps_2() => usize::from(sampler.register.index),
             _ => usize::from(destination.register.index),
@@ -193,7 +193,7 @@ impl Translator<'_> {
         texel
     }
 
-    pub(super) fn fetch(&mut self, stage: usize, coordinates: Vector, detail: Detail) -> Vector {
+    pub(super) fn fetch(&mut self, stage: usize, coordinates: NodeVector, detail: Detail) -> NodeVector {
         self.fetches.push(stage);
         let binding = self.bindings.and_then(|b| b.samplers.get(stage)).and_then(Option::as_ref);
         let Some(binding) = binding else {
@@ -208,11 +208,11 @@ impl Translator<'_> {
         };
         let zero = self.make.zero();
         let coordinates = std::array::from_fn(|i| if i < axes { coordinates[i] } else { zero });
-        let fetch = self.make.graph.node(Kind::Fetch(stage as u8, coordinates, detail));
-        std::array::from_fn(|c| self.make.graph.node(Kind::Texel(fetch, c as u8)))
+        let fetch = self.make.graph.node(NodeKind::Fetch(stage as u8, coordinates, detail));
+        std::array::from_fn(|c| self.make.graph.node(NodeKind::Texel(fetch, c as u8)))
     }
 
-    fn brightened(&mut self, source: &Source, stage: u16, texel: Vector) -> Vector {
+    fn brightened(&mut self, source: &Source, stage: u16, texel: NodeVector) -> NodeVector {
         let blue = self.in_single(source)[2];
         let bump = self.bump(stage);
         let scale = self.make.pattern(S, bump.luminance_scale);
@@ -223,7 +223,7 @@ impl Translator<'_> {
         texel.map(|x| self.make.mul(Arith::Main, x, factor))
     }
 
-    fn without_texel(&mut self, instruction: &Instruction, destination: &Destination) -> Vector {
+    fn without_texel(&mut self, instruction: &Instruction, destination: &Destination) -> NodeVector {
         let stage = destination.register.index;
         match (instruction.opcode, instruction.sources.first()) {
             (Opcode::TexCrd, Some(source)) => self.selected(source).map(|x| {
@@ -246,7 +246,7 @@ impl Translator<'_> {
             }
             _ => {
                 let [x, y, z, _] = self.set(stage).map(|x| {
-                    let clamped = self.make.unary(S, Code::Saturate, x);
+                    let clamped = self.make.unary(S, NodeOperation::Saturate, x);
                     self.main(clamped)
                 });
                 [x, y, z, self.make.one(Arith::Main)]
@@ -259,7 +259,7 @@ impl Translator<'_> {
         let w = self.row(destination.register.index, source);
         let (zero, one) = (self.make.zero(), self.make.one(S));
         let quotient = self.make.div(S, self.padded[0], w);
-        let is_zero = self.make.holds(S, Code::Equal, w, zero);
+        let is_zero = self.make.holds(S, NodeOperation::Equal, w, zero);
         effects.push(Effect::Depth(S, self.make.select(is_zero, one, quotient)));
         self.pads = 0;
     }
@@ -271,10 +271,10 @@ impl Translator<'_> {
         let (zero, one) = (self.make.zero(), self.make.one(k));
         let divisor = match self.make.rules.texdepth_denominator {
             TexdepthDenominator::Raw => g,
-            TexdepthDenominator::Min1 => self.make.binary(k, Code::Min, g, one),
+            TexdepthDenominator::Min1 => self.make.binary(k, NodeOperation::Min, g, one),
         };
         let quotient = self.make.div(k, r, divisor);
-        let is_zero = self.make.holds(k, Code::Equal, divisor, zero);
+        let is_zero = self.make.holds(k, NodeOperation::Equal, divisor, zero);
         effects.push(Effect::Depth(k, self.make.select(is_zero, one, quotient)));
     }
 
@@ -290,9 +290,9 @@ impl Translator<'_> {
             } else {
                 (Arith::Main, self.held(&register, c))
             };
-            let mut below = self.make.holds(k, Code::Less, value, zero);
+            let mut below = self.make.holds(k, NodeOperation::Less, value, zero);
             if let Some(allowed) = self.predicate(instruction, c) {
-                below = self.make.binary(S, Code::And, below, allowed);
+                below = self.make.binary(S, NodeOperation::And, below, allowed);
             }
             effects.push(Effect::Kill(below));
         }

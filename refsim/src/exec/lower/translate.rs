@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::arith::{Formats, Maker, Vector};
+use super::arith::{Maker, NodeVector};
+use super::code::NodeOperation;
+use super::formats::Formats;
 use super::fragment::CodeNodes;
-use super::graph::{Arith, Kind, Node};
-use super::ops::Code;
-use super::slots::{Slot, TRUE};
+use super::graph::{Arith, NodeId, NodeKind};
+use super::graph::{Slot, TRUE};
 use crate::device::{ColorIterator, ResultRange, Rules};
 use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
@@ -15,17 +16,17 @@ use crate::isa::{
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
-pub(crate) type Place = (RegisterFile, u16, u8);
+pub(crate) type RegisterComponent = (RegisterFile, u16, u8);
 
 /// What an instruction does besides computing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effect {
     /// Writes a component of a register; the second node, if there is one, is the predicate's mask.
-    Write(Place, Node, Option<Node>),
+    Write(RegisterComponent, NodeId, Option<NodeId>),
     /// Kills where the mask holds.
-    Kill(Node),
+    Kill(NodeId),
     /// Decides the depth.
-    Depth(Arith, Node),
+    Depth(Arith, NodeId),
 }
 
 /// Makes the nodes of one program.
@@ -36,16 +37,16 @@ pub(crate) struct Translator<'a> {
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
     /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds is
     /// not known here.
-    pub(crate) registers: BTreeMap<Place, Node>,
+    pub(crate) registers: BTreeMap<RegisterComponent, NodeId>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
     /// Dot products left by `texm3x2pad` and `texm3x3pad`, and how many are waiting.
-    pub(crate) padded: [Node; 2],
+    pub(crate) padded: [NodeId; 2],
     pub(crate) pads: usize,
     /// Condition codes of an OpenGL program.
     pub(crate) codes: [CodeNodes; 4],
     /// What may be any 32 bits, and not a number as arithmetic leaves it.
-    pub(crate) words: BTreeSet<Node>,
+    pub(crate) words: BTreeSet<NodeId>,
     /// Texture reads by sampler, one an instruction.
     pub(crate) fetches: Vec<usize>,
     /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program; else they are part of
@@ -93,35 +94,35 @@ impl<'a> Translator<'a> {
     }
 
     /// An interpolated coordinate, single precision; zero past the last set.
-    pub(crate) fn coordinate(&mut self, set: u16, component: usize) -> Node {
+    pub(crate) fn coordinate(&mut self, set: u16, component: usize) -> NodeId {
         if set >= 8 {
             return self.make.zero();
         }
         let number = TEXCOORD_COMPONENT + 4 * usize::from(set) + component;
-        self.make.graph.node(Kind::Input(number as u16))
+        self.make.graph.node(NodeKind::Input(number as u16))
     }
 
     /// A colour as the program gets it: clamped, through the iterator's precision, in the register format.
-    fn color(&mut self, number: u16, component: usize) -> Node {
+    fn color(&mut self, number: u16, component: usize) -> NodeId {
         if number >= 2 {
             return self.make.zero();
         }
         let input = COLOR_COMPONENT + 4 * usize::from(number) + component;
-        let node = self.make.graph.node(Kind::Input(input as u16));
+        let node = self.make.graph.node(NodeKind::Input(input as u16));
         match self.make.rules.color_iterator {
             ColorIterator::Unorm(width) => {
                 let steps = (1u32 << width.clamp(1, 16)) - 1;
-                self.make.graph.node(Kind::Steps(steps, node))
+                self.make.graph.node(NodeKind::Steps(steps, node))
             }
             ColorIterator::Full => {
-                let clamped = self.make.unary(Arith::Single, Code::Saturate, node);
+                let clamped = self.make.unary(Arith::Single, NodeOperation::Saturate, node);
                 self.make.convert(Arith::Single, Arith::Main, clamped)
             }
         }
     }
 
     /// What a component of a register holds, in the register format.
-    pub(crate) fn held(&mut self, register: &Register, component: usize) -> Node {
+    pub(crate) fn held(&mut self, register: &Register, component: usize) -> NodeId {
         let place = (register.file, register.index, component as u8);
         if let Some(&node) = self.registers.get(&place) {
             return node;
@@ -129,19 +130,19 @@ impl<'a> Translator<'a> {
         match register.file {
             RegisterFile::Input if self.is_pixel() => self.color(register.index, component),
             RegisterFile::Input if register.index < 16 => {
-                let node = self.make.graph.node(Kind::Input(4 * register.index + component as u16));
+                let node = self.make.graph.node(NodeKind::Input(4 * register.index + component as u16));
                 self.make.convert(Arith::Single, Arith::Main, node)
             }
             RegisterFile::FogIn => match component {
                 0 => {
-                    let node = self.make.graph.node(Kind::Input(FOG_COMPONENT as u16));
+                    let node = self.make.graph.node(NodeKind::Input(FOG_COMPONENT as u16));
                     self.make.convert(Arith::Single, Arith::Main, node)
                 }
                 3 => self.make.one(Arith::Main),
                 _ => self.make.zero(),
             },
             RegisterFile::WindowPosition => {
-                let node = self.make.graph.node(Kind::Input((POSITION_COMPONENT + component) as u16));
+                let node = self.make.graph.node(NodeKind::Input((POSITION_COMPONENT + component) as u16));
                 self.make.convert(Arith::Single, Arith::Main, node)
             }
             RegisterFile::Texture if self.program.version.reads_coordinates() => {
@@ -153,11 +154,11 @@ impl<'a> Translator<'a> {
         }
     }
 
-    fn constant(&mut self, register: &Register, component: usize) -> Node {
+    fn constant(&mut self, register: &Register, component: usize) -> NodeId {
         let address = match register.relative {
             None if self.open_constants => {
                 let input = CONSTANT_INPUTS + 4 * register.index + component as u16;
-                return self.make.graph.node(Kind::Input(input));
+                return self.make.graph.node(NodeKind::Input(input));
             }
             None => {
                 let bits = self.constants.float.get(usize::from(register.index)).map_or(0, |c| c[component]);
@@ -168,11 +169,11 @@ impl<'a> Translator<'a> {
                 self.registers.get(&(RegisterFile::Address, 0, c & 3)).copied().unwrap_or(zero)
             }
             Some(Relative::Loop) => match self.loop_counter {
-                Some(slot) => self.make.graph.node(Kind::Held(slot)),
+                Some(slot) => self.make.graph.node(NodeKind::Held(slot)),
                 None => self.make.zero(),
             },
         };
-        self.make.graph.node(Kind::Relative(i32::from(register.index), component as u8, address))
+        self.make.graph.node(NodeKind::Relative(i32::from(register.index), component as u8, address))
     }
 
     /// The format that an instruction computes in.
@@ -181,7 +182,7 @@ impl<'a> Translator<'a> {
     }
 
     /// All components of an operand in format `k`, after swizzle and modifier.
-    pub(crate) fn operand(&mut self, k: Arith, source: &Source) -> Vector {
+    pub(crate) fn operand(&mut self, k: Arith, source: &Source) -> NodeVector {
         std::array::from_fn(|i| {
             let raw = self.held(&source.register, usize::from(source.swizzle.0[i] & 3));
             let converted = self.make.convert(Arith::Main, k, raw);
@@ -190,14 +191,15 @@ impl<'a> Translator<'a> {
     }
 
     /// A component of a result on its way into a register.
-    fn finished(&mut self, k: Arith, destination: &Destination, x: Node) -> Node {
-        let shifted = if destination.shift == 0 { x } else { self.make.unary(k, Code::Scale(destination.shift), x) };
-        let clamped = if destination.saturate { self.make.unary(k, Code::Saturate, shifted) } else { shifted };
+    fn finished(&mut self, k: Arith, destination: &Destination, x: NodeId) -> NodeId {
+        let shifted =
+            if destination.shift == 0 { x } else { self.make.unary(k, NodeOperation::Scale(destination.shift), x) };
+        let clamped = if destination.saturate { self.make.unary(k, NodeOperation::Saturate, shifted) } else { shifted };
         self.make.convert(k, Arith::Main, clamped)
     }
 
     /// The mask of a predicate for a component, `None` where there is no predicate.
-    pub(crate) fn predicate(&mut self, instruction: &Instruction, component: usize) -> Option<Node> {
+    pub(crate) fn predicate(&mut self, instruction: &Instruction, component: usize) -> Option<NodeId> {
         let predicate = instruction.predicate?;
         let register = Register::new(RegisterFile::Predicate, 0);
         let bit = self.held(&register, usize::from(predicate.swizzle.0[component] & 3));
@@ -205,24 +207,24 @@ impl<'a> Translator<'a> {
     }
 
     /// The complement of a mask.
-    pub(crate) fn inverted(&mut self, mask: Node) -> Node {
+    pub(crate) fn inverted(&mut self, mask: NodeId) -> NodeId {
         let all = self.make.graph.constant(TRUE);
-        self.make.binary(Arith::Single, Code::AndNot, mask, all)
+        self.make.binary(Arith::Single, NodeOperation::AndNot, mask, all)
     }
 
     /// A result on its way into a pixel register, clamped to [-1, 1] where the rules ask for it.
-    fn in_range(&mut self, x: Node) -> Node {
+    fn in_range(&mut self, x: NodeId) -> NodeId {
         if !self.is_pixel() || self.make.rules.result_range == ResultRange::Format {
             return x;
         }
         let one = self.make.one(Arith::Main);
         let minus = self.make.neg(Arith::Main, one);
-        let below = self.make.binary(Arith::Main, Code::Min, x, one);
-        self.make.binary(Arith::Main, Code::Max, below, minus)
+        let below = self.make.binary(Arith::Main, NodeOperation::Min, x, one);
+        self.make.binary(Arith::Main, NodeOperation::Max, below, minus)
     }
 
     /// Writes of the components in the destination's mask.
-    pub(crate) fn writes(&mut self, instruction: &Instruction, mut value: Vector, effects: &mut Vec<Effect>) {
+    pub(crate) fn writes(&mut self, instruction: &Instruction, mut value: NodeVector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
         if !matches!(file, RegisterFile::Predicate | RegisterFile::Address) {
@@ -252,15 +254,16 @@ impl<'a> Translator<'a> {
             *slot = self.operand(k, source);
         }
         let raw = match instruction.opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.unary(k, Code::DifferenceX, x)),
-            Opcode::Dsy => s[0].map(|x| self.make.unary(k, Code::DifferenceY, x)),
+            Opcode::Dsx => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceX, x)),
+            Opcode::Dsy => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceY, x)),
             Opcode::Setp => {
                 let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
                 let value = std::array::from_fn(|i| self.comparison(k, comparison, s[0][i], s[1][i]));
                 return self.writes(instruction, value, effects);
             }
             opcode if opcode == Opcode::Mova || destination.register.file == RegisterFile::Address => {
-                let code = if opcode == Opcode::Mova { Code::AddressNearest } else { Code::AddressFloor };
+                let code =
+                    if opcode == Opcode::Mova { NodeOperation::AddressNearest } else { NodeOperation::AddressFloor };
                 let value = s[0].map(|x| self.make.unary(Arith::Main, code, x));
                 return self.writes(instruction, value, effects);
             }
@@ -281,7 +284,14 @@ impl<'a> Translator<'a> {
         self.writes(instruction, value, effects);
     }
 
-    fn matrix(&mut self, k: Arith, instruction: &Instruction, vector: &Vector, rows: u16, terms: usize) -> Vector {
+    fn matrix(
+        &mut self,
+        k: Arith,
+        instruction: &Instruction,
+        vector: &NodeVector,
+        rows: u16,
+        terms: usize,
+    ) -> NodeVector {
         let mut product = [self.make.zero(); 4];
         if let Some(source) = instruction.sources.get(1) {
             for row in 0..rows {
@@ -299,20 +309,20 @@ impl<'a> Translator<'a> {
     }
 
     /// The mask of a comparison of two numbers.
-    pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: Node, b: Node) -> Node {
+    pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
         let (code, a, b) = match comparison {
-            Comparison::Gt => (Code::Less, b, a),
-            Comparison::Lt => (Code::Less, a, b),
-            Comparison::Ge => (Code::LessEqual, b, a),
-            Comparison::Le => (Code::LessEqual, a, b),
-            Comparison::Eq | Comparison::Ne => (Code::Equal, a, b),
+            Comparison::Gt => (NodeOperation::Less, b, a),
+            Comparison::Lt => (NodeOperation::Less, a, b),
+            Comparison::Ge => (NodeOperation::LessEqual, b, a),
+            Comparison::Le => (NodeOperation::LessEqual, a, b),
+            Comparison::Eq | Comparison::Ne => (NodeOperation::Equal, a, b),
         };
         let holds = self.make.holds(k, code, a, b);
         if comparison == Comparison::Ne { self.inverted(holds) } else { holds }
     }
 
     /// The mask of a flow instruction's condition.
-    pub(crate) fn condition(&mut self, instruction: &Instruction) -> Node {
+    pub(crate) fn condition(&mut self, instruction: &Instruction) -> NodeId {
         let [a, b] = [instruction.sources.first(), instruction.sources.get(1)];
         match instruction.opcode {
             Opcode::IfC | Opcode::BreakC => {
@@ -327,7 +337,7 @@ impl<'a> Translator<'a> {
     }
 
     /// The mask of a boolean operand.
-    fn truth(&mut self, source: Option<&Source>) -> Node {
+    fn truth(&mut self, source: Option<&Source>) -> NodeId {
         let Some(source) = source else { return self.make.zero() };
         let value = match source.register.file {
             RegisterFile::Predicate => {

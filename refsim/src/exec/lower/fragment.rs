@@ -1,10 +1,10 @@
 //! OpenGL's fragment programs as graph nodes: three precisions, condition codes, packing. What the instructions mean is
 //! written at the scalar executor's `fragment`.
 
-use super::arith::Vector;
-use super::graph::{Arith, Detail, Kind, Node};
-use super::ops::Code;
-use super::slots::TRUE;
+use super::arith::NodeVector;
+use super::code::NodeOperation;
+use super::graph::TRUE;
+use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{Effect, Translator};
 use crate::isa::{
     Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
@@ -13,9 +13,9 @@ use crate::isa::{
 /// A condition code as masks: less than, equal to, greater than zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CodeNodes {
-    less: Node,
-    equal: Node,
-    greater: Node,
+    less: NodeId,
+    equal: NodeId,
+    greater: NodeId,
 }
 
 /// The arithmetic of a precision.
@@ -48,7 +48,7 @@ impl Translator<'_> {
     }
 
     /// An operand in the format of its file: swizzled, absolute, negated.
-    fn loaded(&mut self, source: &Source, negate: u8) -> Vector {
+    fn loaded(&mut self, source: &Source, negate: u8) -> NodeVector {
         let k = of_file(source.register.file);
         std::array::from_fn(|i| {
             let raw = match source.swizzle.0[i] {
@@ -65,22 +65,22 @@ impl Translator<'_> {
     }
 
     /// An operand in the format of the operation.
-    fn fragment_operand(&mut self, source: &Source, to: Arith, negate: u8) -> Vector {
+    fn fragment_operand(&mut self, source: &Source, to: Arith, negate: u8) -> NodeVector {
         let from = of_file(source.register.file);
         self.loaded(source, negate).map(|x| self.make.convert(from, to, x))
     }
 
     /// What may be any bits, as the number that they are a pattern of.
-    pub(crate) fn number(&mut self, node: Node) -> Node {
+    pub(crate) fn number(&mut self, node: NodeId) -> NodeId {
         if !self.words.contains(&node) {
             return node;
         }
-        self.make.graph.node(Kind::Convert(Arith::Main, Arith::Main, node))
+        self.make.graph.node(NodeKind::Convert(Arith::Main, Arith::Main, node))
     }
 
     /// The bits of what a full precision register holds.
-    fn word(&mut self, node: Node) -> Node {
-        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, Code::ToBits, node) }
+    fn word(&mut self, node: NodeId) -> NodeId {
+        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, NodeOperation::ToBits, node) }
     }
 
     /// Whether full precision registers hold any 32 bits.
@@ -90,7 +90,7 @@ impl Translator<'_> {
     }
 
     /// What is carried as bits: packed words, and what a plain `MOV` finds in `R#`.
-    fn carried(&mut self, instruction: &Instruction) -> Option<Vector> {
+    fn carried(&mut self, instruction: &Instruction) -> Option<NodeVector> {
         let destination = instruction.destination?;
         let source = instruction.sources.first()?;
         if destination.register.file.is_half() || destination.saturate {
@@ -110,32 +110,32 @@ impl Translator<'_> {
     }
 
     /// A word as full precision registers keep it.
-    fn kept(&mut self, word: Node) -> Node {
+    fn kept(&mut self, word: NodeId) -> NodeId {
         if self.keeps_words() {
             self.words.insert(word);
             return word;
         }
         let mask = self.make.formats.format(Arith::Main).mask();
         let mask = self.make.graph.constant(mask);
-        let low = self.make.binary(Arith::Single, Code::And, word, mask);
-        self.make.unary(Arith::Main, Code::FromBits, low)
+        let low = self.make.binary(Arith::Single, NodeOperation::And, word, mask);
+        self.make.unary(Arith::Main, NodeOperation::FromBits, low)
     }
 
     /// The word that a packing instruction makes.
-    fn packed(&mut self, opcode: Opcode, source: &Source) -> Node {
+    fn packed(&mut self, opcode: Opcode, source: &Source) -> NodeId {
         let value = self.fragment_operand(source, Arith::Main, 0);
         let mut word = self.make.zero();
         if opcode == Opcode::Pk2h {
             for (i, shift) in [0, 16].into_iter().enumerate() {
                 let half = self.make.convert(Arith::Main, Arith::Half, value[i]);
-                word = self.make.binary(Arith::Half, Code::JoinPattern(shift), word, half);
+                word = self.make.binary(Arith::Half, NodeOperation::JoinPattern(shift), word, half);
             }
             return word;
         }
-        let (parts, code): (u8, fn(u8) -> Code) = match opcode {
-            Opcode::Pk2us => (2, Code::JoinShort),
-            Opcode::Pk4ub => (4, Code::JoinByte),
-            _ => (4, Code::JoinSignedByte),
+        let (parts, code): (u8, fn(u8) -> NodeOperation) = match opcode {
+            Opcode::Pk2us => (2, NodeOperation::JoinShort),
+            Opcode::Pk4ub => (4, NodeOperation::JoinByte),
+            _ => (4, NodeOperation::JoinSignedByte),
         };
         for i in 0..parts {
             let single = self.make.convert(Arith::Main, Arith::Single, value[usize::from(i)]);
@@ -144,7 +144,7 @@ impl Translator<'_> {
         word
     }
 
-    fn unpacked(&mut self, opcode: Opcode, source: &Source) -> Vector {
+    fn unpacked(&mut self, opcode: Opcode, source: &Source) -> NodeVector {
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         let word = match plain {
             true => {
@@ -153,20 +153,20 @@ impl Translator<'_> {
             }
             false => {
                 let value = self.fragment_operand(source, Arith::Main, 0)[0];
-                self.make.unary(Arith::Main, Code::ToBits, value)
+                self.make.unary(Arith::Main, NodeOperation::ToBits, value)
             }
         };
         let mut part = |code| self.make.unary(Arith::Main, code, word);
         match opcode {
             Opcode::Up2us => {
-                let (x, y) = (part(Code::SplitShort(0)), part(Code::SplitShort(16)));
+                let (x, y) = (part(NodeOperation::SplitShort(0)), part(NodeOperation::SplitShort(16)));
                 [x, y, x, y]
             }
-            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(Code::SplitByte(shift))),
-            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(Code::SplitSignedByte(shift))),
+            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(NodeOperation::SplitByte(shift))),
+            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(NodeOperation::SplitSignedByte(shift))),
             _ => {
                 let [x, y] = [0, 16].map(|shift| {
-                    let half = self.make.unary(Arith::Half, Code::SplitPattern(shift), word);
+                    let half = self.make.unary(Arith::Half, NodeOperation::SplitPattern(shift), word);
                     self.make.convert(Arith::Half, Arith::Main, half)
                 });
                 [x, y, x, y]
@@ -175,19 +175,19 @@ impl Translator<'_> {
     }
 
     /// The result in the format of the destination.
-    fn fragment_arithmetic(&mut self, instruction: &Instruction) -> Vector {
+    fn fragment_arithmetic(&mut self, instruction: &Instruction) -> NodeVector {
         let Some(destination) = instruction.destination else { return [self.make.zero(); 4] };
         let k = arith(instruction.precision());
         let raw = self.fragment_raw(instruction, k);
         let to = of_file(destination.register.file);
         raw.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(k, Code::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.unary(k, NodeOperation::Saturate, x) } else { x };
             self.make.convert(k, to, clamped)
         })
     }
 
     /// The result in the format of the operation.
-    fn fragment_raw(&mut self, instruction: &Instruction, k: Arith) -> Vector {
+    fn fragment_raw(&mut self, instruction: &Instruction, k: Arith) -> NodeVector {
         let zero = self.make.zero();
         let opcode = instruction.opcode;
         match (opcode, instruction.sources.first()) {
@@ -207,20 +207,20 @@ impl Translator<'_> {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
         }
         if opcode == Opcode::Rsq && self.program.version == Version::ArbFp1_0 {
-            s[0] = s[0].map(|x| self.make.unary(k, Code::Abs, x));
+            s[0] = s[0].map(|x| self.make.unary(k, NodeOperation::Abs, x));
         }
         match opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.unary(k, Code::DifferenceX, x)),
-            Opcode::Dsy => s[0].map(|x| self.make.unary(k, Code::DifferenceY, x)),
+            Opcode::Dsx => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceX, x)),
+            Opcode::Dsy => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceY, x)),
             Opcode::Cmp => std::array::from_fn(|i| {
-                let below = self.make.holds(k, Code::Less, s[0][i], zero);
+                let below = self.make.holds(k, NodeOperation::Less, s[0][i], zero);
                 self.make.select(below, s[1][i], s[2][i])
             }),
             _ => self.make.operation(k, opcode, &s, &[zero; 4]),
         }
     }
 
-    fn fragment_texture(&mut self, instruction: &Instruction) -> Vector {
+    fn fragment_texture(&mut self, instruction: &Instruction) -> NodeVector {
         let zero = self.make.zero();
         let (Some(destination), [source, sampler, rest @ ..]) = (instruction.destination, &*instruction.sources) else {
             return [zero; 4];
@@ -240,13 +240,14 @@ impl Translator<'_> {
         let texel = self.fetch(usize::from(sampler.register.index), coordinates, detail);
         let to = of_file(destination.register.file);
         texel.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(Arith::Main, Code::Saturate, x) } else { x };
+            let clamped =
+                if destination.saturate { self.make.unary(Arith::Main, NodeOperation::Saturate, x) } else { x };
             self.make.convert(Arith::Main, to, clamped)
         })
     }
 
     /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
-    fn place(&mut self, source: &Source) -> Vector {
+    fn place(&mut self, source: &Source) -> NodeVector {
         if source.register.file == RegisterFile::Texture {
             return source.swizzle.0.map(|c| {
                 let own = self.coordinate(source.register.index, usize::from(c & 3));
@@ -258,10 +259,10 @@ impl Translator<'_> {
     }
 
     /// The mask of a condition for a component.
-    fn passes(&mut self, condition: &Condition, component: usize) -> Node {
+    fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);
-        let mut either = |a, b| self.make.binary(Arith::Single, Code::Or, a, b);
+        let mut either = |a, b| self.make.binary(Arith::Single, NodeOperation::Or, a, b);
         match condition.test {
             ConditionTest::Eq => code.equal,
             ConditionTest::Lt => code.less,
@@ -275,17 +276,17 @@ impl Translator<'_> {
     }
 
     /// `condition ? a : b`, where constants and equals need no choosing.
-    fn chosen(&mut self, condition: Node, a: Node, b: Node) -> Node {
+    fn chosen(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         match self.make.graph.kind(condition) {
-            Kind::Constant(TRUE) => a,
-            Kind::Constant(0) => b,
+            NodeKind::Constant(TRUE) => a,
+            NodeKind::Constant(0) => b,
             _ if a == b => a,
             _ => self.make.select(condition, a, b),
         }
     }
 
     /// Of two values of a register the one that a condition chooses; words stay words.
-    fn merged(&mut self, condition: Node, new: Node, old: Node) -> Node {
+    fn merged(&mut self, condition: NodeId, new: NodeId, old: NodeId) -> NodeId {
         let words = self.words.contains(&new) || self.words.contains(&old);
         if !words {
             return self.chosen(condition, new, old);
@@ -297,7 +298,7 @@ impl Translator<'_> {
     }
 
     /// Writes under mask and condition, and the condition codes.
-    fn fragment_writes(&mut self, instruction: &Instruction, value: Vector, effects: &mut Vec<Effect>) {
+    fn fragment_writes(&mut self, instruction: &Instruction, value: NodeVector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
         let condition = instruction.fragment.condition;
@@ -329,13 +330,13 @@ impl Translator<'_> {
         }
     }
 
-    fn update(&mut self, k: Arith, component: usize, allowed: Node, value: Node) {
+    fn update(&mut self, k: Arith, component: usize, allowed: NodeId, value: NodeId) {
         let value = self.number(value);
         let zero = self.make.zero();
         let new = CodeNodes {
-            less: self.make.holds(k, Code::Less, value, zero),
-            equal: self.make.holds(k, Code::Equal, value, zero),
-            greater: self.make.holds(k, Code::Less, zero, value),
+            less: self.make.holds(k, NodeOperation::Less, value, zero),
+            equal: self.make.holds(k, NodeOperation::Equal, value, zero),
+            greater: self.make.holds(k, NodeOperation::Less, zero, value),
         };
         let old = self.codes[component];
         self.codes[component] = CodeNodes {
@@ -362,14 +363,14 @@ impl Translator<'_> {
             let zero = self.make.zero();
             let k = of_file(source.register.file);
             for x in self.loaded(source, 0) {
-                let below = self.make.holds(k, Code::Less, x, zero);
+                let below = self.make.holds(k, NodeOperation::Less, x, zero);
                 effects.push(Effect::Kill(below));
             }
         }
     }
 
     /// The colour at the end, in the register format.
-    pub(crate) fn fragment_color(&mut self, half: bool) -> Vector {
+    pub(crate) fn fragment_color(&mut self, half: bool) -> NodeVector {
         let file = if half { RegisterFile::HalfColorOut } else { RegisterFile::ColorOut };
         std::array::from_fn(|c| {
             let zero = self.make.zero();

@@ -6,12 +6,17 @@
 
 use std::collections::BTreeMap;
 
-use super::ops::Code;
-use super::slots::Slot;
+use super::code::NodeOperation;
+
+/// Index of a slot: where an executor keeps a value for all its lanes.
+pub(in crate::exec) type Slot = u16;
+
+/// The value of a mask where it holds.
+pub(in crate::exec) const TRUE: u32 = u32::MAX;
 
 /// A value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct Node(pub(crate) u32);
+pub(crate) struct NodeId(pub(crate) u32);
 
 /// In which number format a value is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,14 +55,14 @@ pub(crate) enum Detail {
     /// From differences across the quad.
     Implicit,
     /// Likewise, plus a bias.
-    Biased(Node),
+    Biased(NodeId),
     /// From derivatives given by the program.
-    Gradients([Node; 4], [Node; 4]),
+    Gradients([NodeId; 4], [NodeId; 4]),
 }
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum NodeKind {
     /// The same host bits in every lane.
     Constant(u32),
     /// What a fixed slot holds when the block starts: a register of a program with flow control.
@@ -65,39 +70,39 @@ pub(crate) enum Kind {
     /// An interpolated component, or a component of a vertex attribute; single precision.
     Input(u16),
     /// An operation.
-    Compute(Arith, Code, [Node; 3]),
+    Compute(Arith, NodeOperation, [NodeId; 3]),
     /// A dot product of so many terms, rounded once.
-    Dot(Arith, u8, [Node; 4], [Node; 4]),
+    Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
     /// A value of one format rounded into another.
-    Convert(Arith, Arith, Node),
+    Convert(Arith, Arith, NodeId),
     /// A single precision value clamped to [0, 1], rounded to so many steps, and then into the register format.
-    Steps(u32, Node),
+    Steps(u32, NodeId),
     /// A texture read: sampler, single precision coordinates, detail.
-    Fetch(u8, [Node; 4], Detail),
+    Fetch(u8, [NodeId; 4], Detail),
     /// The cosine, or the sine, of an angle: format, whether it is the sine, angle.
-    Circle(Arith, bool, Node),
+    Circle(Arith, bool, NodeId),
     /// A component of a texture read's result.
-    Texel(Node, u8),
+    Texel(NodeId, u8),
     /// A float constant with a relative number: `c[index + a]`, component, `a` an integer.
-    Relative(i32, u8, Node),
+    Relative(i32, u8, NodeId),
 }
 
-impl Kind {
+impl NodeKind {
     /// Calls `visit` with every node that this one needs.
-    pub(crate) fn needs(&self, mut visit: impl FnMut(Node)) {
+    pub(crate) fn needs(&self, mut visit: impl FnMut(NodeId)) {
         match *self {
-            Kind::Constant(_) | Kind::Held(_) | Kind::Input(_) => {}
-            Kind::Compute(_, code, args) => args.into_iter().take(code.arity()).for_each(visit),
-            Kind::Dot(_, terms, a, b) => {
+            NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
+            NodeKind::Compute(_, code, args) => args.into_iter().take(code.arity()).for_each(visit),
+            NodeKind::Dot(_, terms, a, b) => {
                 a.into_iter().take(terms.into()).for_each(&mut visit);
                 b.into_iter().take(terms.into()).for_each(visit);
             }
-            Kind::Circle(_, _, a)
-            | Kind::Convert(_, _, a)
-            | Kind::Steps(_, a)
-            | Kind::Texel(a, _)
-            | Kind::Relative(_, _, a) => visit(a),
-            Kind::Fetch(_, coordinates, detail) => {
+            NodeKind::Circle(_, _, a)
+            | NodeKind::Convert(_, _, a)
+            | NodeKind::Steps(_, a)
+            | NodeKind::Texel(a, _)
+            | NodeKind::Relative(_, _, a) => visit(a),
+            NodeKind::Fetch(_, coordinates, detail) => {
                 coordinates.into_iter().for_each(&mut visit);
                 match detail {
                     Detail::Implicit => {}
@@ -109,56 +114,39 @@ impl Kind {
     }
 }
 
-impl Code {
-    /// How many operands the operation reads.
-    pub(crate) fn arity(self) -> usize {
-        match self {
-            Code::JoinPattern(_) | Code::JoinShort(_) | Code::JoinByte(_) | Code::JoinSignedByte(_) => 2,
-            Code::Add | Code::Sub | Code::Mul | Code::Div | Code::Min | Code::Max | Code::Factor => 2,
-            Code::Less | Code::LessEqual | Code::Equal | Code::And | Code::Or | Code::AndNot => 2,
-            Code::Mad | Code::FusedMad | Code::SelectNonNegative | Code::SelectAboveHalf | Code::Select => 3,
-            Code::AddTo | Code::SubFrom | Code::SubOff => 2,
-            Code::MadBy | Code::OrLess => 3,
-            Code::Difference => 4,
-            Code::Dot(terms) | Code::Sum(terms) | Code::SumBy(terms) => 2 * usize::from(terms),
-            _ => 1,
-        }
-    }
-}
-
 /// The nodes, each after those it needs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
-    kinds: Vec<Kind>,
-    known: BTreeMap<Kind, Node>,
+    kinds: Vec<NodeKind>,
+    known: BTreeMap<NodeKind, NodeId>,
 }
 
 impl Graph {
     /// The node of this kind; the one there is, if there is one.
-    pub(crate) fn node(&mut self, kind: Kind) -> Node {
+    pub(crate) fn node(&mut self, kind: NodeKind) -> NodeId {
         *self.known.entry(kind).or_insert_with(|| {
             self.kinds.push(kind);
-            Node((self.kinds.len() - 1) as u32)
+            NodeId((self.kinds.len() - 1) as u32)
         })
     }
 
-    pub(crate) fn constant(&mut self, raw: u32) -> Node {
-        self.node(Kind::Constant(raw))
+    pub(crate) fn constant(&mut self, raw: u32) -> NodeId {
+        self.node(NodeKind::Constant(raw))
     }
 
     /// Whether mask `a` is `b`, or one of several that are or'ed together of which `b` is one.
-    pub(crate) fn includes(&self, mut a: Node, b: Node) -> bool {
+    pub(crate) fn includes(&self, mut a: NodeId, b: NodeId) -> bool {
         while a != b {
             match self.kind(a) {
-                Kind::Compute(_, Code::Or, [_, right, _]) if right == b => return true,
-                Kind::Compute(_, Code::Or, [left, ..]) => a = left,
+                NodeKind::Compute(_, NodeOperation::Or, [_, right, _]) if right == b => return true,
+                NodeKind::Compute(_, NodeOperation::Or, [left, ..]) => a = left,
                 _ => return false,
             }
         }
         true
     }
 
-    pub(crate) fn kind(&self, node: Node) -> Kind {
+    pub(crate) fn kind(&self, node: NodeId) -> NodeKind {
         self.kinds[node.0 as usize]
     }
 
@@ -167,7 +155,7 @@ impl Graph {
     }
 
     /// For each node whether a root needs it.
-    pub(crate) fn live(&self, roots: impl IntoIterator<Item = Node>) -> Vec<bool> {
+    pub(crate) fn live(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<bool> {
         let mut live = vec![false; self.kinds.len()];
         for root in roots {
             live[root.0 as usize] = true;
@@ -185,12 +173,12 @@ impl Graph {
         let mut uniform = Vec::with_capacity(self.kinds.len());
         for kind in &self.kinds {
             let same = match *kind {
-                Kind::Constant(_) => true,
-                Kind::Input(component) => input(component),
+                NodeKind::Constant(_) => true,
+                NodeKind::Input(component) => input(component),
                 // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a zero,
                 // whose sign depends on the format.)
-                Kind::Compute(_, Code::DifferenceX | Code::DifferenceY, _) => false,
-                Kind::Held(_) | Kind::Fetch(..) | Kind::Relative(..) => false,
+                NodeKind::Compute(_, NodeOperation::DifferenceX | NodeOperation::DifferenceY, _) => false,
+                NodeKind::Held(_) | NodeKind::Fetch(..) | NodeKind::Relative(..) => false,
                 _ => {
                     let mut all = true;
                     kind.needs(|n| all &= uniform[n.0 as usize]);

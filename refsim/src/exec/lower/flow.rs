@@ -1,0 +1,123 @@
+//! Programs with flow control as nodes: an instruction at a time, each merged into registers under the mask of active
+//! lanes, and its predicate.
+
+use std::collections::BTreeMap;
+
+use super::code::NodeOperation;
+use super::graph::{Arith, NodeId, NodeKind, Slot};
+use super::program::translate_instruction;
+use super::translate::{Effect, RegisterComponent, Translator};
+use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
+
+/// Slots with a fixed meaning; registers follow.
+pub(crate) const ACTIVE: Slot = 0;
+pub(crate) const KILLED: Slot = 1;
+pub(crate) const DECIDED: Slot = 2;
+pub(crate) const COUNTER: Slot = 3;
+const FIRST_REGISTER: Slot = 4;
+
+/// Every register component that a program writes.
+fn written(program: &Program) -> Vec<RegisterComponent> {
+    let mut out = Vec::new();
+    for instruction in &program.instructions {
+        let Some(destination) = &instruction.destination else { continue };
+        let (file, index) = (destination.register.file, destination.register.index);
+        match file {
+            RegisterFile::DepthOut => out.push((file, 0, 0)),
+            _ if instruction.opcode == Opcode::TexKill => {}
+            _ => out.extend(destination.mask.components().map(|c| (file, index, c as u8))),
+        }
+    }
+    out
+}
+
+/// The instructions of a program as graph nodes, each merged into registers that have slots of their own.
+pub(crate) struct MaskedProgram {
+    /// One for each instruction.
+    pub(crate) parts: Vec<MaskedInstruction>,
+    /// The slot of each register component that the program writes.
+    pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
+    /// The first slot that no register has.
+    pub(crate) first_free: Slot,
+}
+
+impl MaskedProgram {
+    pub(crate) fn new(program: &Program, t: &mut Translator<'_>) -> Self {
+        let mut registers = BTreeMap::new();
+        let mut next = FIRST_REGISTER;
+        for place in written(program) {
+            registers.entry(place).or_insert_with(|| {
+                let node = t.make.graph.node(NodeKind::Held(next));
+                t.registers.insert(place, node);
+                next += 1;
+                next - 1
+            });
+        }
+        t.loop_counter = Some(COUNTER);
+        let parts = program.instructions.iter().map(|i| part(t, i, &registers)).collect();
+        Self { parts, registers, first_free: next }
+    }
+}
+
+/// What an instruction computes and where it goes.
+pub(crate) struct MaskedInstruction {
+    pub(crate) roots: Vec<NodeId>,
+    pub(crate) to: Vec<Slot>,
+    pub(crate) sampler: Option<usize>,
+}
+
+fn part(
+    t: &mut Translator<'_>,
+    instruction: &Instruction,
+    registers: &BTreeMap<RegisterComponent, Slot>,
+) -> MaskedInstruction {
+    const MASK: Arith = Arith::Single;
+    let active = t.make.graph.node(NodeKind::Held(ACTIVE));
+    let mut part = MaskedInstruction { roots: Vec::new(), to: Vec::new(), sampler: None };
+    if instruction.opcode.info().class == OpcodeClass::Flow {
+        if matches!(instruction.opcode, Opcode::If | Opcode::IfC | Opcode::BreakC | Opcode::BreakP | Opcode::CallNz) {
+            let condition = t.condition(instruction);
+            part.roots.push(t.make.binary(MASK, NodeOperation::And, active, condition));
+        }
+        return part;
+    }
+    let mut effects = Vec::new();
+    t.fetches.clear();
+    translate_instruction(t, instruction, &mut effects);
+    part.sampler = t.fetches.first().copied();
+    for effect in effects {
+        match effect {
+            Effect::Write(place, value, predicate) => {
+                let Some(&slot) = registers.get(&place) else { continue };
+                let allowed = predicate.map_or(active, |p| t.make.binary(MASK, NodeOperation::And, active, p));
+                let old = t.make.graph.node(NodeKind::Held(slot));
+                part.roots.push(t.make.select(allowed, value, old));
+                part.to.push(slot);
+                if place.0 == RegisterFile::DepthOut {
+                    let decided = t.make.graph.node(NodeKind::Held(DECIDED));
+                    part.roots.push(t.make.binary(MASK, NodeOperation::Or, decided, allowed));
+                    part.to.push(DECIDED);
+                }
+            }
+            Effect::Kill(mask) => {
+                // Several components of one instruction: the masks add up before they reach the slot.
+                let killing = t.make.binary(MASK, NodeOperation::And, active, mask);
+                let before = match part.to.iter().position(|&s| s == KILLED) {
+                    Some(i) => part.roots[i],
+                    None => t.make.graph.node(NodeKind::Held(KILLED)),
+                };
+                let all = t.make.binary(MASK, NodeOperation::Or, before, killing);
+                match part.to.iter().position(|&s| s == KILLED) {
+                    Some(i) => part.roots[i] = all,
+                    None => {
+                        part.roots.push(all);
+                        part.to.push(KILLED);
+                    }
+                }
+            }
+            // No version with flow control decides depth but by oDepth.
+            Effect::Depth(..) => {}
+        }
+    }
+    part
+}
