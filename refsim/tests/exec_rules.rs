@@ -4,7 +4,7 @@
 mod running;
 
 use refsim::device::{Profile, TexkillComponents};
-use refsim::exec::scalar::DepthValue;
+use refsim::exec::DepthValue;
 use refsim::exec::{BumpStage, Constants, PixelBindings, Projection, SamplerBinding};
 use refsim::num::{Flags, Format};
 use refsim::raster::FragmentInput;

@@ -3,7 +3,7 @@
 //! [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
 //! `batch` runs whole tiles in vector code of the host; `tests/agree` holds them together. They share what is not
 //! arithmetic: the jump structure ([`FlowMap`]), constants as registers hold them ([`ResolvedConstants`]), bindings,
-//! and the seam through which the machine drives them ([`TileExecutor`]). They share no operation body.
+//! and what they are told of a draw ([`TileDraw`]) and leave of a fragment ([`FragmentResult`]). They share no operation body.
 
 pub mod batch;
 mod bindings;
@@ -15,6 +15,7 @@ mod fragment;
 pub mod gpu;
 mod lower;
 mod observer;
+mod result;
 pub mod scalar;
 mod tile;
 mod trace;
@@ -27,7 +28,8 @@ pub use constants::{Constants, ResolvedConstants, delivered_color, unorm_steps};
 pub use flow::FlowMap;
 pub use fragment::FragmentFormats;
 pub use observer::{NoObserver, Observer, Step, TextureRead, Trace};
-pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
+pub use result::{DepthValue, FragmentResult};
+pub use tile::{TILE, TileDraw, output_rules};
 pub use trace::{PixelTracer, Shading};
 pub use usage::{colors_written, inputs_read};
 pub use wgsl::NumberMode;

@@ -1,14 +1,12 @@
-//! The seam between the machine and the pixel executors.
+//! What the machine tells a pixel executor of a draw.
 //!
-//! The machine cuts the targets into tiles, hands each to a [`TileExecutor`] with the triangles that may touch it, and
-//! adds up what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any
-//! order with the same result.
+//! The machine cuts the targets into tiles, hands each to the executor with the triangles that may touch it, and adds up
+//! what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any order with the
+//! same result.
 
-use super::{CheckedProgram, Overrun, PixelBindings};
+use super::{CheckedProgram, PixelBindings};
 use crate::device::Rules;
-use crate::event::FragmentCounts;
-use crate::output::{OutputRules, OutputState, TargetTile};
-use crate::raster::TriangleSetup;
+use crate::output::{OutputRules, OutputState};
 
 /// Side of a tile in pixels. Tiles start at multiples of it; those at the far edges of the targets are smaller.
 pub const TILE: u32 = 16;
@@ -33,23 +31,6 @@ impl TileDraw<'_> {
     pub fn output_rules(&self) -> OutputRules {
         output_rules(self.rules)
     }
-}
-
-/// Shades the fragments of one tile.
-pub trait TileExecutor: Send + Sync {
-    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle
-    /// that does not touch the tile may be among them. Per pixel the order of the triangles is kept.
-    ///
-    /// Returns what became of the fragments; helper lanes are not counted.
-    ///
-    /// # Errors
-    /// The first fragment, as [`Overrun`]s order, that does not end within the step budget. The tile is of no use then.
-    fn run_tile(
-        &self,
-        triangles: &[TriangleSetup],
-        order: &[u32],
-        tile: &mut TargetTile,
-    ) -> Result<FragmentCounts, Overrun>;
 }
 
 /// What a device says about targets, out of its rules.

@@ -4,8 +4,7 @@
 //! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets. An executor joins by implementing
 //! the trait; `crate::machine` chooses.
 
-use super::scalar::FragmentResult;
-use super::{Overrun, Step};
+use super::{FragmentResult, Overrun, Step};
 use crate::isa::{Program, Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::output::{FragmentFate, TargetTile};

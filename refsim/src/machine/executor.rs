@@ -2,6 +2,7 @@
 
 use super::{Machine, MachineError};
 use crate::device::Profile;
+use crate::exec::batch::BatchExecutor;
 #[cfg(feature = "wgpu")]
 use crate::exec::{gpu::Gpu, wgsl::NumberMode};
 use std::sync::Arc;
@@ -19,11 +20,16 @@ pub enum ExecutorKind {
     Wgpu,
 }
 
-/// An executor with what it needs, for code that makes machines of its own.
+/// An executor with what it needs, for code that makes machines of its own: they share what it has decoded.
 #[derive(Clone, Debug)]
 pub enum Executor {
     /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has, in integer mode.
-    Kind(ExecutorKind),
+    Kind {
+        /// The kind.
+        kind: ExecutorKind,
+        /// The programs and textures that batches have been decoded for.
+        batch: BatchExecutor,
+    },
     /// An opened GPU.
     #[cfg(feature = "wgpu")]
     Gpu {
@@ -38,7 +44,7 @@ impl Executor {
     /// Its kind.
     pub fn kind(&self) -> ExecutorKind {
         match self {
-            Self::Kind(kind) => *kind,
+            Self::Kind { kind, .. } => *kind,
             #[cfg(feature = "wgpu")]
             Self::Gpu { .. } => ExecutorKind::Wgpu,
         }
@@ -50,7 +56,7 @@ impl Executor {
     /// If a GPU is to shade and refuses.
     pub fn machine(&self, profile: impl Into<Arc<Profile>>) -> Result<Machine, MachineError> {
         match self {
-            Self::Kind(kind) => Ok(Machine::new(profile, *kind)),
+            Self::Kind { kind, batch } => Ok(Machine { batch: batch.clone(), ..Machine::new(profile, *kind) }),
             #[cfg(feature = "wgpu")]
             Self::Gpu { gpu, mode } => Machine::with_gpu(profile, Arc::clone(gpu), *mode),
         }
@@ -59,7 +65,7 @@ impl Executor {
 
 impl Default for Executor {
     fn default() -> Self {
-        Self::Kind(ExecutorKind::default())
+        ExecutorKind::default().into()
     }
 }
 
@@ -71,6 +77,6 @@ impl From<&Self> for Executor {
 
 impl From<ExecutorKind> for Executor {
     fn from(kind: ExecutorKind) -> Self {
-        Self::Kind(kind)
+        Self::Kind { kind, batch: BatchExecutor::default() }
     }
 }

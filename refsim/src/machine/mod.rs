@@ -33,7 +33,7 @@ use std::sync::Arc;
 
 use crate::device::Profile;
 use crate::event::DrawEvents;
-use crate::exec::batch::{BatchTiles, SimdLevel};
+use crate::exec::batch::{BatchExecutor, BatchTiles, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use crate::isa::Stage;
@@ -46,7 +46,7 @@ use validate::Plan;
 pub struct Machine {
     profile: Arc<Profile>,
     executor: ExecutorKind,
-    simd: Option<SimdLevel>,
+    batch: BatchExecutor,
     pool: Option<rayon::ThreadPool>,
     memory: Memory,
     recorder: Recorder,
@@ -58,7 +58,7 @@ impl Machine {
         Self {
             profile: profile.into(),
             executor,
-            simd: None,
+            batch: BatchExecutor::default(),
             pool: None,
             memory: Memory::default(),
             recorder: Recorder::default(),
@@ -94,7 +94,7 @@ impl Machine {
     /// Which vector instructions the batch executor uses: `None`, as in a new machine, for the widest that the processor
     /// has; a level that it lacks stands for what it has of it. The level changes nothing but the time a draw takes.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
-        self.simd = level;
+        self.batch.set_simd_level(level);
     }
 
     /// Draws.
@@ -128,7 +128,7 @@ impl Machine {
         plan: &Plan,
     ) -> Result<DrawEvents, MachineError> {
         self.memory.name_textures(&call.samplers);
-        let (memory, profile, kind) = (&self.memory, &self.profile, (executor_kind, self.simd));
+        let (memory, profile, kind) = (&self.memory, &self.profile, (executor_kind, &self.batch));
         let work = || {
             let executor = executor(kind, &tile_draw(profile, memory, call));
             walk::draw(memory, profile, call, plan, kind, &executor)
@@ -151,11 +151,11 @@ enum Tiles<'a> {
 }
 
 /// The tile executor of a draw.
-fn executor<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Tiles<'a> {
+fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Tiles<'a> {
     match kind {
         ExecutorKind::Scalar => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
-        ExecutorKind::Batch => match BatchTiles::new(draw) {
-            Some(tiles) => Tiles::Batch(Box::new(tiles.with_simd_level(simd))),
+        ExecutorKind::Batch => match batch.tiles(draw) {
+            Some(tiles) => Tiles::Batch(Box::new(tiles)),
             None => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
         },
         // Draws of such a machine go another way.

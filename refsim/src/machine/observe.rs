@@ -100,7 +100,7 @@ impl Machine {
         observer.begin();
         let mut watch = Watch { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
         let tiles = ScalarTiles::new(&draw);
-        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, None), ComponentMask::ALL);
+        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, &self.batch), ComponentMask::ALL);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let region = plan.raster.scissor;
         let empty = region.width == 0 || region.height == 0;

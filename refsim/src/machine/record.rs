@@ -255,7 +255,7 @@ impl Machine {
 
     /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading them.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
-        let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, None), ComponentMask::NONE);
+        let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), ComponentMask::NONE);
         let mut outlines = BTreeMap::new();
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let (mut first, mut quads) = (0, 0);

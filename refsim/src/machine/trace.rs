@@ -6,7 +6,7 @@ use super::validate::Plan;
 use super::vertices::{VertexStage, raster_rules};
 use super::walk::{ROUND, load};
 use super::{DrawCall, ExecutorKind, Machine, MachineError, tile_draw, validate};
-use crate::exec::batch::{BatchTracer, SimdLevel};
+use crate::exec::batch::BatchExecutor;
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
 use crate::isa::Stage;
@@ -84,14 +84,14 @@ impl Machine {
             if overrun {
                 // Which it was the batch executor finds out.
                 followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
-                let tracer = tracer((ExecutorKind::Batch, None), &tile_draw(&self.profile, &self.memory, call));
+                let tracer = tracer((ExecutorKind::Batch, &self.batch), &tile_draw(&self.profile, &self.memory, call));
                 self.follow(call, &plan, tracer.as_ref(), &mut followed)?;
                 return Err(self.disagreement());
             }
             return Ok(followed.into_iter().map(|pixel| pixel.fragments).collect());
         }
         let mut work = || {
-            let tracer = tracer((self.executor, self.simd), &tile_draw(&self.profile, &self.memory, call));
+            let tracer = tracer((self.executor, &self.batch), &tile_draw(&self.profile, &self.memory, call));
             self.follow(call, &plan, tracer.as_ref(), &mut followed)
         };
         match &self.pool {
@@ -175,11 +175,11 @@ impl Machine {
     }
 
     /// Who processes vertices: for a GPU the batch executor.
-    fn vertex_executor(&self) -> (ExecutorKind, Option<SimdLevel>) {
+    fn vertex_executor(&self) -> (ExecutorKind, &BatchExecutor) {
         match self.executor {
             #[cfg(feature = "wgpu")]
-            ExecutorKind::Wgpu => (ExecutorKind::Batch, None),
-            kind => (kind, self.simd),
+            ExecutorKind::Wgpu => (ExecutorKind::Batch, &self.batch),
+            kind => (kind, &self.batch),
         }
     }
 
@@ -250,11 +250,11 @@ impl Followed {
 }
 
 /// Who follows fragments for an executor.
-fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
+fn tracer<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
-        ExecutorKind::Batch => match BatchTracer::new(draw) {
-            Some(tracer) => Box::new(tracer.with_simd_level(simd)),
+        ExecutorKind::Batch => match batch.tracer(draw) {
+            Some(tracer) => Box::new(tracer),
             None => Box::new(ScalarTiles::new(draw)),
         },
         // A GPU follows pixels another way.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::device::Profile;
 use crate::event::PrimitiveCounts;
-use crate::exec::batch::{BatchVertices, SimdLevel, VertexRows};
+use crate::exec::batch::{BatchExecutor, BatchVertices, VertexRows};
 use crate::exec::scalar::VertexProgram;
 use crate::exec::{CheckedProgram, NoObserver};
 use crate::isa::Stage;
@@ -50,7 +50,7 @@ impl<'a> VertexStage<'a> {
     pub(super) fn new(
         call: &'a DrawCall<'a>,
         profile: &'a Profile,
-        (kind, simd): (ExecutorKind, Option<SimdLevel>),
+        (kind, batch): (ExecutorKind, &BatchExecutor),
         needed: ComponentMask,
     ) -> Self {
         match &call.vertices {
@@ -59,9 +59,9 @@ impl<'a> VertexStage<'a> {
                 let (rules, budget) = (&profile.rules, profile.limits.step_budget(Stage::Vertex));
                 let shader = Shader { program, streams, budget };
                 if kind == ExecutorKind::Batch
-                    && let Some(batch) = BatchVertices::new(program, rules, constants, needed, budget)
+                    && let Some(vertices) = batch.vertices((program, constants), rules, needed, budget)
                 {
-                    return Self::Batch(shader, Box::new(batch.with_simd_level(simd)));
+                    return Self::Batch(shader, Box::new(vertices));
                 }
                 Self::Program(shader, Box::new(VertexProgram::new(program, rules, constants).within(budget)))
             }

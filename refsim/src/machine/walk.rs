@@ -6,8 +6,8 @@ use super::vertices::{VertexStage, raster_rules, set_up};
 use super::{DrawCall, ExecutorKind, MachineError, Tiles};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
-use crate::exec::batch::{Instances, SimdLevel, Surfaces};
-use crate::exec::{Overrun, TILE, TileExecutor, program};
+use crate::exec::batch::{BatchExecutor, Instances, Surfaces};
+use crate::exec::{Overrun, TILE, program};
 use crate::isa::Stage;
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
@@ -39,7 +39,7 @@ pub(super) fn draw(
     profile: &Profile,
     call: &DrawCall<'_>,
     plan: &Plan,
-    kind: (ExecutorKind, Option<SimdLevel>),
+    kind: (ExecutorKind, &BatchExecutor),
     executor: &Tiles<'_>,
 ) -> Result<Drawn, MachineError> {
     let needed = match executor {

@@ -3,7 +3,8 @@
 
 use refsim::asm::assemble;
 use refsim::device::{Profile, Rules};
-use refsim::exec::scalar::{FragmentResult, PixelProgram, VertexProgram, VertexResult};
+use refsim::exec::FragmentResult;
+use refsim::exec::scalar::{PixelProgram, VertexProgram, VertexResult};
 use refsim::exec::{CheckedProgram, Constants, PixelBindings, Step, Trace};
 use refsim::isa::Program;
 use refsim::num::{Format, ops};

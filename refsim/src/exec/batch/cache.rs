@@ -1,5 +1,5 @@
-//! What was decoded stays decoded: programs as plans, kept over draws and machines for as long as they are among the last
-//! few in use. A key is compared in full, so a hit is what decoding would give again. Rows that a worker has done with are
+//! What was decoded stays decoded: programs as plans, textures as tables, kept over draws, and over the machines that share
+//! an executor, for as long as they are among the last few in use. A key is compared in full, so a hit is what decoding would give again. Rows that a worker has done with are
 //! kept for the next.
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,11 +14,13 @@ pub(crate) struct Cache<K, V> {
     entries: Mutex<Vec<(K, Arc<V>)>>,
 }
 
-impl<K, V> Cache<K, V> {
-    pub(crate) const fn new() -> Self {
-        Self { entries: Mutex::new(Vec::new()) }
+impl<K, V> Default for Cache<K, V> {
+    fn default() -> Self {
+        Self { entries: Mutex::default() }
     }
+}
 
+impl<K, V> Cache<K, V> {
     /// The value whose key `matches`, or a new one.
     pub(crate) fn get(&self, matches: impl Fn(&K) -> bool, make: impl FnOnce() -> (K, V)) -> Arc<V> {
         if let Some(value) = self.find(matches) {

@@ -26,8 +26,7 @@ mod texture;
 mod tile;
 mod vertex;
 
-pub use pixel::{DepthValue, FragmentResult, PixelProgram};
-
+pub use pixel::PixelProgram;
 pub use tile::ScalarTiles;
 pub use vertex::{VertexProgram, VertexResult};
 

@@ -5,7 +5,7 @@ use super::prepared::Prepared;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::usage::registers_delivered;
-use crate::exec::{CheckedProgram, NoObserver, Observer, PixelBindings, delivered_color};
+use crate::exec::{CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, PixelBindings, delivered_color};
 use crate::isa::{Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMPONENT, TEXCOORD_COMPONENT};
@@ -13,27 +13,6 @@ use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMP
 /// A pixel program ready to run on fragments.
 pub struct PixelProgram<'a> {
     prepared: Prepared<'a>,
-}
-
-/// Depth that a program decided: a pattern and its format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DepthValue {
-    /// Format of the pattern: the register format, or single precision for `texm3x2depth`.
-    pub format: Format,
-    /// The pattern.
-    pub bits: u32,
-}
-
-/// What a pixel program made of one fragment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FragmentResult {
-    /// Whether `texkill` removed it. The other fields are filled in all the same.
-    pub killed: bool,
-    /// `oC0` to `oC3` in the register format. In ps_1_x the first is r0 clamped to [0, 1]. What the program does not
-    /// write is zero.
-    pub colors: [[u32; 4]; 4],
-    /// Depth, if the program decides it.
-    pub depth: Option<DepthValue>,
 }
 
 impl<'a> PixelProgram<'a> {

@@ -1,11 +1,11 @@
 //! The reference executor on a tile: triangle by triangle, quad by quad, fragment by fragment.
 
-use super::pixel::{DepthValue, FragmentResult, PixelProgram};
+use super::pixel::PixelProgram;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::trace::{as_written, canonical};
 use crate::exec::{
-    CheckedProgram, NoObserver, Observer, Overrun, PixelTracer, Shading, TileDraw, TileExecutor, Trace, colors_written,
-    program,
+    CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, Overrun, PixelTracer, Shading, TileDraw, Trace,
+    colors_written, program,
 };
 use crate::num::Format;
 use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, TargetTile, merge};
@@ -43,7 +43,7 @@ impl<'a> ScalarTiles<'a> {
     /// Draws the part of one triangle that lies in a region of a tile, with an observer.
     ///
     /// # Errors
-    /// As [`TileExecutor::run_tile`]; the triangle counts as number 0.
+    /// As [`Self::run_tile`]; the triangle counts as number 0.
     pub fn run_region<O: Observer>(
         &self,
         triangle: &TriangleSetup,
@@ -104,8 +104,15 @@ impl<'a> ScalarTiles<'a> {
     }
 }
 
-impl TileExecutor for ScalarTiles<'_> {
-    fn run_tile(
+impl ScalarTiles<'_> {
+    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle that does
+    /// not touch the tile may be among them. Per pixel the order of the triangles is kept.
+    ///
+    /// Returns what became of the fragments; helper lanes are not counted.
+    ///
+    /// # Errors
+    /// The first fragment, as [`Overrun`]s order, that does not end within the step budget. The tile is of no use then.
+    pub fn run_tile(
         &self,
         triangles: &[TriangleSetup],
         order: &[u32],

@@ -4,6 +4,7 @@ use super::shader::shader;
 use super::{Card, batches};
 use crate::device::Profile;
 use crate::event::{DrawEvents, FragmentCounts};
+use crate::exec::batch::BatchExecutor;
 use crate::exec::budget::enforced;
 use crate::exec::gpu::{AdapterKind, Gpu, GpuError, Shader};
 use crate::exec::wgsl::NumberMode;
@@ -67,7 +68,7 @@ impl Machine {
             Some(card) => card,
             None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
         };
-        let drawn = card.draw(&self.memory, &self.profile, call, plan, budget);
+        let drawn = card.draw((&self.memory, &self.profile), &self.batch, call, plan, budget);
         self.memory.card = Some(card);
         match drawn {
             Ok(Some(events)) => return Ok(events),
@@ -80,8 +81,9 @@ impl Machine {
             }
         }
         self.memory.forget_drawn(&call.targets, call.depth_buffer)?;
-        let tiles = executor((ExecutorKind::Batch, None), &tile_draw(&self.profile, &self.memory, call));
-        walk::draw(&self.memory, &self.profile, call, plan, (ExecutorKind::Batch, None), &tiles)?;
+        let kind = (ExecutorKind::Batch, &self.batch);
+        let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
+        walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
         Err(self.disagreement())
     }
 
@@ -128,14 +130,14 @@ impl Card {
     /// Draws; `None` if a fragment did not end within the step budget.
     fn draw(
         &mut self,
-        memory: &Memory,
-        profile: &Profile,
+        (memory, profile): (&Memory, &Profile),
+        batch: &BatchExecutor,
         call: &DrawCall<'_>,
         plan: &Plan,
         step_budget: Option<u32>,
     ) -> Result<Option<DrawEvents>, MachineError> {
         let needed = inputs_read(program(call.pixel_program));
-        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, None), needed);
+        let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, batch), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let mut words = self.place(memory, profile, call, step_budget)?;
         let (shader, samplers) = shader(self, memory, profile, call, false)?;

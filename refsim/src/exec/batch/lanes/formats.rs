@@ -1,0 +1,39 @@
+//! A program's formats bound to lane arithmetic.
+
+use super::any::AnyLane;
+use super::simd::SimdLevel;
+use crate::exec::lower::{Arith, Formats};
+use crate::num::Format;
+
+/// The formats of a program, the arithmetic of each, and the vector instructions that it uses.
+#[derive(Clone, Debug)]
+pub(crate) struct LaneFormats {
+    table: Formats,
+    lanes: [AnyLane; 6],
+    simd: SimdLevel,
+}
+
+impl LaneFormats {
+    /// Those of a program with these formats.
+    pub(crate) fn new(table: Formats, simd: SimdLevel) -> Self {
+        Self { table, lanes: table.all().map(AnyLane::new), simd }
+    }
+
+    /// The formats without arithmetic.
+    pub(crate) fn table(&self) -> Formats {
+        self.table
+    }
+
+    pub(crate) fn format(&self, arith: Arith) -> Format {
+        self.table.format(arith)
+    }
+
+    pub(crate) fn lane(&self, arith: Arith) -> &AnyLane {
+        &self.lanes[arith as usize]
+    }
+
+    /// The vector instructions to use.
+    pub(crate) fn simd(&self) -> SimdLevel {
+        self.simd
+    }
+}

@@ -1,0 +1,96 @@
+//! What an arithmetic has to offer so that the tile interpreter can run programs in it.
+
+use std::fmt::Debug;
+
+/// Lanes of a batch: the fragments of one 16x16 tile, lane `16 y + x`.
+pub(crate) const LANES: usize = 256;
+
+/// All lanes of one value. What the 32 bits mean is the business of whoever reads them: host bits of a lane
+/// arithmetic's numbers, a mask (0 or all ones), an integer.
+pub(crate) type LaneRow = [u32; LANES];
+
+/// The arithmetic of one number format, written a lane at a time.
+///
+/// Every method is the exact real result rounded once into the format, as `refsim::num` defines it; none of the
+/// code is shared with `num`, so that agreement of the two proves something. The methods that matter for speed
+/// have no branches that depend on the data: called in a plain loop over a fixed array, the compiler turns them
+/// into vector code for whatever instruction set the loop was dispatched to.
+///
+/// Registers hold `T`: the number itself, as a host integer or a host float that holds every value of the format
+/// exactly. Bits are made only when a value leaves the executor ([`Lane::encode`]); a NaN is one value here.
+pub(crate) trait Lane: Copy + Send + Sync {
+    /// What a register component holds.
+    type T: Copy + Default + Send + Sync + Debug + PartialEq;
+
+    /// The number behind a bit pattern of the format.
+    fn decode(&self, bits: u32) -> Self::T;
+    /// The bit pattern of a number; NaN gives the canonical one.
+    fn encode(&self, x: Self::T) -> u32;
+    /// The number that a slot holds.
+    fn load(raw: u32) -> Self::T;
+    /// The number as a slot holds it: its host bits, whatever the format.
+    fn store(x: Self::T) -> u32;
+    /// The number as a double, always exact.
+    fn to_f64(&self, x: Self::T) -> f64;
+    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
+    fn round_f64(&self, x: f64) -> Self::T;
+
+    /// `a + b`
+    fn add(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// `a - b`
+    fn sub(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// `a b`
+    fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// Products added in order, each product and each sum rounded; `N` at least 1.
+    #[inline(always)]
+    fn sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
+        let mut sum = self.mul(a[0], b[0]);
+        for k in 1..N {
+            sum = self.add(sum, self.mul(a[k], b[k]));
+        }
+        sum
+    }
+    /// `a b + c`, rounded once.
+    fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
+    /// The sum of `N` products, rounded once.
+    fn exact_dot<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T;
+    /// `a / b`
+    fn div(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// Square root.
+    fn sqrt(&self, a: Self::T) -> Self::T;
+    /// `1 / a`
+    fn rcp(&self, a: Self::T) -> Self::T;
+    /// `1 / sqrt(a)`
+    fn rsq(&self, a: Self::T) -> Self::T;
+    /// `2^a`
+    fn exp2(&self, a: Self::T) -> Self::T;
+    /// The logarithm of `a` to base 2.
+    fn log2(&self, a: Self::T) -> Self::T;
+
+    /// The smaller one.
+    fn min(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// The larger one.
+    fn max(&self, a: Self::T, b: Self::T) -> Self::T;
+    /// The largest integer not above `a`.
+    fn floor(&self, a: Self::T) -> Self::T;
+    /// `a - floor(a)`
+    fn frc(&self, a: Self::T) -> Self::T;
+    /// `-a`
+    fn neg(&self, a: Self::T) -> Self::T;
+    /// `|a|`
+    fn abs(&self, a: Self::T) -> Self::T;
+    /// `a 2^shift`, `shift` within -3 to 3.
+    fn scale(&self, a: Self::T, shift: i32) -> Self::T;
+    /// `a` clamped to [0, 1].
+    fn saturate(&self, a: Self::T) -> Self::T;
+    /// `a < b`; false for NaN.
+    fn lt(&self, a: Self::T, b: Self::T) -> bool;
+    /// `a <= b`; false for NaN.
+    fn le(&self, a: Self::T, b: Self::T) -> bool;
+    /// `a == b` as numbers; false for NaN.
+    fn eq(&self, a: Self::T, b: Self::T) -> bool;
+    /// `a > 1/2`, the half exact; false for NaN.
+    fn above_half(&self, a: Self::T) -> bool;
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
+    fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
+}

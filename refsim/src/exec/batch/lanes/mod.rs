@@ -1,0 +1,22 @@
+//! The arithmetic of number formats, a lane at a time, and the vector instructions that it is compiled for.
+//!
+//! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`, `power`:
+//!   exact results squeezed into doubles; `any`: which format gets which; `formats`: those of a program.
+//! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
+
+mod any;
+mod evaluate;
+mod fixed;
+mod float;
+mod formats;
+mod ieee;
+mod lane;
+pub(crate) mod odd;
+mod power;
+mod simd;
+
+pub(crate) use any::{AnyLane, with_any_lane};
+pub use evaluate::{LaneOperation, convert, evaluate};
+pub(crate) use formats::LaneFormats;
+pub(crate) use lane::{LANES, Lane, LaneRow};
+pub use simd::SimdLevel;

@@ -1,0 +1,50 @@
+//! Channels of texels as lanes hold them.
+
+use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, odd, with_any_lane};
+use crate::num::Format;
+use crate::texture::{Channel, ChannelValue};
+
+/// Values divided by a number below 2^24, rounded into the format.
+#[inline(always)]
+pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut LaneRow) {
+    if divisor == 1.0 {
+        for i in 0..LANES {
+            out[i] = L::store(lane.round_f64(values[i]));
+        }
+    } else {
+        for i in 0..LANES {
+            out[i] = L::store(lane.round_f64(odd::div_odd_long(values[i], divisor)));
+        }
+    }
+}
+
+/// The bits of a channel.
+pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
+    let first = usize::from(channel.shift / 8);
+    match (channel.shift % 8, channel.bits, texel.get(first..)) {
+        (0, 8, Some(&[a, ..])) => a.into(),
+        (0, 16, Some(&[a, b, ..])) => u16::from_le_bytes([a, b]).into(),
+        (0, 32, Some(&[a, b, c, d, ..])) => u32::from_le_bytes([a, b, c, d]),
+        _ => {
+            let raw = texel.iter().rev().fold(0u128, |raw, &byte| raw << 8 | u128::from(byte));
+            (raw >> channel.shift) as u32
+        }
+    }
+}
+
+/// A channel's value in the register format, as slots hold it.
+pub(crate) fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
+    fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
+        L::store(lane.round_f64(x))
+    }
+    match channel {
+        // Both below 2^24: one division, rounded to odd.
+        ChannelValue::Ratio { numerator, denominator }
+            if numerator.unsigned_abs() < 1 << 24 && denominator < 1 << 24 =>
+        {
+            let x = odd::div_odd_long(numerator as f64, f64::from(denominator));
+            with_any_lane!(lane, |lane| { rounded(lane, x) })
+        }
+        _ => lane.decode(channel.to_format(format)),
+    }
+}

@@ -1,0 +1,19 @@
+//! Carrying out scheduled steps, 256 lanes at a time.
+//!
+//! - `slots`: where values are kept; `ops`, `loops`, `pack`: lane operations on rows; `steps`: blocks of them.
+//! - `fetch`, `stored`, `channel`: texture reads; `flow`: programs with flow control.
+
+mod channel;
+mod fetch;
+mod flow;
+mod loops;
+mod ops;
+mod pack;
+mod slots;
+mod steps;
+mod stored;
+
+pub(crate) use fetch::{BatchTexture, TextureTables};
+pub(crate) use flow::{FlowObserver, FlowRun, fill_plan, first_lanes};
+pub(crate) use slots::Slots;
+pub(crate) use steps::{Surroundings, fill_constants, raw_constants, run_steps};

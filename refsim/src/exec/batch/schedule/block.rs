@@ -1,0 +1,350 @@
+//! From a graph of values to steps on slots.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::code::{LaneOp, OPERANDS};
+use super::fuse::{Fused, Fusion};
+use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, NodeOperation, Slot};
+
+/// A texture read with its operands in slots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct FetchStep {
+    pub(crate) sampler: usize,
+    pub(crate) coordinates: [Slot; 4],
+    pub(crate) detail: FetchDetail,
+    /// Where the components that are needed go.
+    pub(crate) to: [Option<Slot>; 4],
+}
+
+/// [`Detail`] in slots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FetchDetail {
+    Implicit,
+    Biased(Slot),
+    Gradients([Slot; 4], [Slot; 4]),
+}
+
+/// What is done at run time, in order.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum BatchStep {
+    /// Lane operations of one format.
+    Lanes(Arith, Vec<LaneOp>),
+    /// Single precision values to steps of [0, 1], into the wide row.
+    Unorm {
+        /// Number of steps.
+        steps: u32,
+        /// The values.
+        from: Slot,
+    },
+    /// A texture read.
+    Fetch(FetchStep),
+    /// Cosines or sines.
+    Circle {
+        /// Their format.
+        arith: Arith,
+        /// Whether they are sines.
+        sine: bool,
+        /// The angles.
+        from: Slot,
+        /// Where the values go.
+        to: Slot,
+    },
+    /// Constants with relative numbers.
+    Relative {
+        /// Number without the address.
+        base: i32,
+        /// Component.
+        component: usize,
+        /// The addresses.
+        address: Slot,
+        /// Where the values go.
+        to: Slot,
+    },
+}
+
+/// A scheduled block.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StepBlock {
+    /// Slots with the same host bits in all lanes, filled before the first run and never overwritten.
+    pub(crate) constants: Vec<(Slot, u32)>,
+    /// Slots that the caller fills before each run: `(input component, slot)`.
+    pub(crate) inputs: Vec<(u16, Slot)>,
+    /// Slots of values given by another block: `(node, slot)`.
+    pub(crate) given: Vec<(NodeId, Slot)>,
+    pub(crate) steps: Vec<BatchStep>,
+    /// Where the roots lie at the end, in the order they were asked for.
+    pub(crate) roots: Vec<Slot>,
+    /// Slots used.
+    pub(crate) slots: usize,
+    /// Slots of constants and given values of which no step reads the row, only the number.
+    pub(crate) without_row: Vec<Slot>,
+}
+
+/// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
+///
+/// Slots below `first_slot` belong to the caller, who has put the nodes of `placed` there. Temporary slots are used again as soon as their value is read for
+/// the last time; constants, inputs, given values and roots keep theirs.
+pub(crate) fn schedule(
+    graph: &Graph,
+    roots: &[NodeId],
+    given: impl Fn(NodeId) -> bool,
+    placed: &BTreeMap<NodeId, Slot>,
+    first_slot: usize,
+) -> StepBlock {
+    let fusion = Fusion::new(graph, roots, &given, |n| given(n) && !placed.contains_key(&n));
+    let (last_use, needed) = uses(graph, &fusion, roots, &given);
+    let mut maker = Scheduler {
+        graph,
+        fusion,
+        read: BTreeSet::new(),
+        block: StepBlock::default(),
+        place: placed.clone(),
+        last_use,
+        free: Vec::new(),
+        first: first_slot,
+        next: first_slot,
+        texels: BTreeMap::new(),
+    };
+    for &node in &needed {
+        if let NodeKind::Texel(fetch, component) = graph.kind(node) {
+            maker.texels.entry(fetch).or_default().push((component, node));
+        }
+    }
+    for &node in &needed {
+        if !placed.contains_key(&node) {
+            maker.leaf(node, &given);
+        }
+    }
+    for &node in &needed {
+        if !maker.place.contains_key(&node) {
+            maker.place_node(node);
+        }
+    }
+    maker.block.roots = roots.iter().map(|root| maker.place[root]).collect();
+    maker.block.slots = maker.next;
+    let leaves = maker.block.constants.iter().map(|c| c.0).chain(maker.block.given.iter().map(|g| g.1));
+    let unread = leaves.filter(|slot| !maker.read.contains(slot) && !maker.block.roots.contains(slot));
+    maker.block.without_row = unread.collect();
+    maker.block
+}
+
+/// For each node its last user, roots living for ever; and the nodes needed, in order.
+fn uses(
+    graph: &Graph,
+    fusion: &Fusion<'_>,
+    roots: &[NodeId],
+    given: impl Fn(NodeId) -> bool,
+) -> (BTreeMap<NodeId, u32>, Vec<NodeId>) {
+    let mut live = vec![false; graph.len()];
+    let mut last_use: BTreeMap<NodeId, u32> = BTreeMap::new();
+    for &root in roots {
+        live[root.0 as usize] = true;
+        last_use.insert(root, u32::MAX);
+    }
+    for i in (0..graph.len() as u32).rev() {
+        let node = NodeId(i);
+        if live[i as usize] && !given(node) {
+            fusion.needs(node, |n| {
+                live[n.0 as usize] = true;
+                last_use.entry(n).or_insert(i);
+            });
+        }
+    }
+    let needed = (0..graph.len() as u32).map(NodeId).filter(|n| live[n.0 as usize]).collect();
+    (last_use, needed)
+}
+
+struct Scheduler<'g> {
+    graph: &'g Graph,
+    fusion: Fusion<'g>,
+    block: StepBlock,
+    place: BTreeMap<NodeId, Slot>,
+    last_use: BTreeMap<NodeId, u32>,
+    free: Vec<Slot>,
+    /// Slots below are the caller's and keep what they hold.
+    first: usize,
+    next: usize,
+    texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
+    /// Slots that some step reads as a row.
+    read: BTreeSet<Slot>,
+}
+
+impl Scheduler<'_> {
+    fn fresh(&mut self) -> Slot {
+        self.next += 1;
+        (self.next - 1) as Slot
+    }
+
+    /// Gives a slot to a node that no step computes.
+    fn leaf(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
+        let slot = match self.graph.kind(node) {
+            NodeKind::Constant(raw) => {
+                let slot = self.fresh();
+                self.block.constants.push((slot, raw));
+                slot
+            }
+            NodeKind::Held(slot) => slot,
+            _ if given(node) => {
+                let slot = self.fresh();
+                self.block.given.push((node, slot));
+                slot
+            }
+            NodeKind::Input(component) => {
+                let slot = self.fresh();
+                self.block.inputs.push((component, slot));
+                slot
+            }
+            _ => return,
+        };
+        self.place.insert(node, slot);
+    }
+
+    /// A slot for a result, after the slots of operands that it is the last to read are free again. A lane
+    /// operation may write the slot that it reads: results are made in a spare row.
+    fn result(&mut self) -> Slot {
+        match self.free.pop() {
+            Some(slot) => slot,
+            None => self.fresh(),
+        }
+    }
+
+    /// Frees the slots of temporaries that `node` reads last.
+    fn release(&mut self, node: NodeId) {
+        let mut done = Vec::new();
+        let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
+        self.fusion.needs(node, |n| {
+            let kept = matches!(
+                graph.kind(n),
+                NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) | NodeKind::Fetch(..)
+            );
+            if !kept
+                && last_use.get(&n) == Some(&node.0)
+                && let Some(&slot) = place.get(&n)
+                && usize::from(slot) >= self.first
+                && !done.contains(&slot)
+            {
+                done.push(slot);
+            }
+        });
+        for slot in done {
+            if !self.block.given.iter().any(|&(_, s)| s == slot) {
+                self.free.push(slot);
+            }
+        }
+    }
+
+    /// The slot of a value whose row is read.
+    fn at(&mut self, node: NodeId) -> Slot {
+        let slot = self.place.get(&node).copied().unwrap_or_default();
+        self.read.insert(slot);
+        slot
+    }
+
+    /// A lane operation with its result.
+    fn operation(&mut self, node: NodeId, fused: &Fused) {
+        let mut args = [0; OPERANDS];
+        for (i, &operand) in fused.operands().iter().enumerate() {
+            args[i] = if fused.is_shared(i) {
+                self.place.get(&operand).copied().unwrap_or_default()
+            } else {
+                self.at(operand)
+            };
+        }
+        // Operands that an operation lacks read as its first: a slot that exists.
+        for i in fused.operands().len()..OPERANDS {
+            args[i] = args[0];
+        }
+        self.release(node);
+        let to = self.result();
+        self.place.insert(node, to);
+        self.lane_op(fused.arith, LaneOp { code: fused.code, to, args });
+    }
+
+    fn lane_op(&mut self, arith: Arith, op: LaneOp) {
+        let neutral =
+            matches!(op.code, NodeOperation::Select | NodeOperation::And | NodeOperation::Or | NodeOperation::AndNot);
+        match self.block.steps.last_mut() {
+            Some(BatchStep::Lanes(last, ops)) if *last == arith || neutral => ops.push(op),
+            _ => self.block.steps.push(BatchStep::Lanes(arith, vec![op])),
+        }
+    }
+
+    fn place_node(&mut self, node: NodeId) {
+        if let Some(&fused) = self.fusion.operation(node) {
+            return self.operation(node, &fused);
+        }
+        match self.graph.kind(node) {
+            NodeKind::Convert(from, target, a) => {
+                let a = self.at(a);
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.lane_op(from, LaneOp { code: NodeOperation::Widen, to, args: [a; OPERANDS] });
+                self.lane_op(target, LaneOp { code: NodeOperation::Narrow, to, args: [a; OPERANDS] });
+            }
+            NodeKind::Steps(steps, a) => {
+                let from = self.at(a);
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.block.steps.push(BatchStep::Unorm { steps, from });
+                self.lane_op(Arith::Main, LaneOp { code: NodeOperation::Narrow, to, args: [from; OPERANDS] });
+            }
+            NodeKind::Circle(arith, sine, a) => {
+                let from = self.at(a);
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.block.steps.push(BatchStep::Circle { arith, sine, from, to });
+            }
+            NodeKind::Relative(base, component, address) => {
+                let address = self.at(address);
+                self.release(node);
+                let to = self.result();
+                self.place.insert(node, to);
+                self.block.steps.push(BatchStep::Relative { base, component: component.into(), address, to });
+            }
+            NodeKind::Fetch(sampler, coordinates, detail) => {
+                let coordinates = coordinates.map(|n| self.at(n));
+                let detail = match detail {
+                    Detail::Implicit => FetchDetail::Implicit,
+                    Detail::Biased(bias) => FetchDetail::Biased(self.at(bias)),
+                    Detail::Gradients(x, y) => FetchDetail::Gradients(x.map(|n| self.at(n)), y.map(|n| self.at(n))),
+                };
+                let mut to = [None; 4];
+                for (component, texel) in self.texels.remove(&node).unwrap_or_default() {
+                    let slot = self.result();
+                    self.place.insert(texel, slot);
+                    to[usize::from(component & 3)] = Some(slot);
+                }
+                self.release(node);
+                self.block.steps.push(BatchStep::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
+            }
+            // Leaves have their places, texels got theirs with the read.
+            NodeKind::Compute(..)
+            | NodeKind::Dot(..)
+            | NodeKind::Texel(..)
+            | NodeKind::Constant(_)
+            | NodeKind::Held(_)
+            | NodeKind::Input(_) => {}
+        }
+    }
+}
+
+/// Where the results of a program lie.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ResultSlots {
+    /// The components of the colours.
+    pub(crate) colors: [Option<[Slot; 4]>; 4],
+    /// Mask of killed lanes.
+    pub(crate) killed: Option<Slot>,
+    /// Depth of the program's own, its format, and the mask of lanes that have one, if not all do.
+    pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,
+}
+
+impl ResultSlots {
+    /// Whether the interpolated depth is of no interest.
+    pub(crate) fn decide_depth(&self) -> bool {
+        matches!(self.depth, Some((_, _, None)))
+    }
+}

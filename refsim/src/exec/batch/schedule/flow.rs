@@ -1,0 +1,147 @@
+//! Programs with flow control, and vertex programs: an instruction at a time under lane masks.
+//!
+//! Registers have slots of their own. An instruction is a small block whose results are merged into them where the
+//! mask of active lanes, and the predicate, allow. Jumps are taken for the batch as a whole: a branch is walked if any
+//! lane takes it.
+
+use std::collections::BTreeMap;
+
+use super::block::{ResultSlots, StepBlock, schedule};
+use crate::device::Rules;
+use crate::exec::budget::{enforced, loop_counter};
+use crate::exec::lower::{
+    Arith, DECIDED, Formats, KILLED, MaskedProgram, NodeId, NodeKind, RegisterComponent, Slot, Translator,
+};
+use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
+use crate::isa::{Opcode, Program, RegisterFile};
+
+/// One instruction.
+#[derive(Debug)]
+pub(crate) struct PlannedInstruction {
+    pub(crate) opcode: Opcode,
+    /// What is computed.
+    pub(crate) block: StepBlock,
+    /// Where the block's roots are merged to; for conditions there is one root and no place.
+    pub(crate) to: Vec<Slot>,
+    /// The sampler that a texture instruction reads.
+    pub(crate) sampler: Option<usize>,
+    /// Slots that it counts for.
+    pub(crate) cost: u64,
+    /// Number of the integer constant of a loop.
+    pub(crate) counter: [i32; 4],
+}
+
+/// A program decoded for masked execution.
+#[derive(Debug)]
+pub(crate) struct FlowPlan {
+    pub(crate) code: Vec<PlannedInstruction>,
+    pub(crate) flow: FlowMap,
+    /// The step budget, if the program may exceed it.
+    pub(crate) budget: Option<u32>,
+    /// Slots with the same host bits in all lanes, filled before the first run.
+    pub(crate) constants: Vec<(Slot, u32)>,
+    inputs: Vec<(u16, Slot)>,
+    pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
+    slots: usize,
+    results: ResultSlots,
+}
+
+impl FlowPlan {
+    /// Decodes a pixel program.
+    pub(crate) fn pixel(
+        program: &Program,
+        rules: &Rules,
+        formats: Formats,
+        constants: &ResolvedConstants,
+        bindings: &PixelBindings<'_>,
+        budget: u32,
+    ) -> Self {
+        let translator = Translator::new(program, rules, formats, constants, Some(bindings));
+        Self::new(program, constants, translator, budget)
+    }
+
+    /// Decodes a vertex program.
+    pub(crate) fn vertex(
+        program: &Program,
+        rules: &Rules,
+        formats: Formats,
+        constants: &ResolvedConstants,
+        budget: u32,
+    ) -> Self {
+        Self::new(program, constants, Translator::new(program, rules, formats, constants, None), budget)
+    }
+
+    fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>, budget: u32) -> Self {
+        let MaskedProgram { parts, registers, first_free } = MaskedProgram::new(program, &mut t);
+        let mut next = first_free;
+        // Constants and inputs live as long as the program.
+        let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), BTreeMap::new());
+        let results = results(&mut t, program, &registers, &mut next, &mut constant_slots);
+        for i in 0..t.make.graph.len() as u32 {
+            match t.make.graph.kind(NodeId(i)) {
+                NodeKind::Constant(raw) => constant_slots.push((next, raw)),
+                NodeKind::Input(component) => inputs.push((component, next)),
+                _ => continue,
+            }
+            placed.insert(NodeId(i), next);
+            next += 1;
+        }
+        let mut slots = usize::from(next);
+        let code = program.instructions.iter().zip(parts).map(|(instruction, part)| {
+            let block = schedule(&t.make.graph, &part.roots, |_| false, &placed, next.into());
+            slots = slots.max(block.slots);
+            let cost = instruction.opcode.info().slot_cost(program.version);
+            PlannedInstruction {
+                opcode: instruction.opcode,
+                block,
+                to: part.to,
+                sampler: part.sampler,
+                cost: u64::from(cost.arithmetic) + u64::from(cost.texture),
+                counter: loop_counter(instruction, constants),
+            }
+        });
+        let code = code.collect();
+        let flow = FlowMap::new(program);
+        let budget = enforced(program, &flow, constants, budget);
+        Self { code, flow, budget, constants: constant_slots, inputs, registers, slots, results }
+    }
+
+    pub(crate) fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// Input components and the slots they are expected in, before each run.
+    pub(crate) fn inputs(&self) -> &[(u16, Slot)] {
+        &self.inputs
+    }
+
+    pub(crate) fn results(&self) -> &ResultSlots {
+        &self.results
+    }
+
+    /// The slot of a register component, if the program writes it.
+    pub(crate) fn register(&self, file: RegisterFile, index: u16, component: u8) -> Option<Slot> {
+        self.registers.get(&(file, index, component)).copied()
+    }
+}
+
+/// The result slots of a pixel program; components that are never written share a slot of zeros.
+fn results(
+    t: &mut Translator<'_>,
+    program: &Program,
+    registers: &BTreeMap<RegisterComponent, Slot>,
+    next: &mut Slot,
+    constants: &mut Vec<(Slot, u32)>,
+) -> ResultSlots {
+    let _ = &t;
+    let zero = *next;
+    *next += 1;
+    constants.push((zero, 0));
+    let named = crate::exec::colors_written(program) | 1;
+    let colors = std::array::from_fn(|i| {
+        let slot = |c: usize| registers.get(&(RegisterFile::ColorOut, i as u16, c as u8)).copied().unwrap_or(zero);
+        (named >> i & 1 == 1).then(|| [0, 1, 2, 3].map(slot))
+    });
+    let depth = registers.get(&(RegisterFile::DepthOut, 0, 0)).map(|&slot| (Arith::Main, slot, Some(DECIDED)));
+    ResultSlots { colors, killed: Some(KILLED), depth }
+}

@@ -1,0 +1,189 @@
+//! Which nodes are computed as part of another: sums of products, and operands that are the same in all lanes. A row that
+//! is not made is neither stored nor loaded, nor is a number copied into 256 lanes to be multiplied with.
+
+use std::collections::BTreeMap;
+
+use super::code::OPERANDS;
+use crate::exec::lower::{Arith, Graph, NodeId, NodeKind, NodeOperation};
+
+/// An operation as it is carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fused {
+    pub(crate) arith: Arith,
+    pub(crate) code: NodeOperation,
+    /// As many as the code's arity says.
+    pub(crate) args: [NodeId; OPERANDS],
+}
+
+impl Fused {
+    fn new(arith: Arith, code: NodeOperation, operands: &[NodeId]) -> Self {
+        let mut args = [operands[0]; OPERANDS];
+        args[..operands.len()].copy_from_slice(operands);
+        Self { arith, code, args }
+    }
+
+    /// The operands.
+    pub(crate) fn operands(&self) -> &[NodeId] {
+        &self.args[..self.code.arity()]
+    }
+
+    /// Whether the operand is read as a number that all lanes share, and not as a row.
+    pub(crate) fn is_shared(&self, operand: usize) -> bool {
+        match self.code {
+            NodeOperation::SumBy(_) => operand.is_multiple_of(2),
+            NodeOperation::AddTo | NodeOperation::SubFrom | NodeOperation::SubOff | NodeOperation::MadBy => {
+                operand == 0
+            }
+            _ => false,
+        }
+    }
+}
+
+/// The operations of a block.
+///
+/// A product, a sum of products or a negated product that one operation alone reads becomes part of it. Which
+/// roundings take place, and in what order, stays the same; only sums change sides, and no arithmetic here can tell.
+pub(crate) struct Fusion<'g> {
+    graph: &'g Graph,
+    /// How many operations or roots read a node.
+    readers: Vec<u32>,
+    fused: BTreeMap<NodeId, Fused>,
+}
+
+impl<'g> Fusion<'g> {
+    /// Decides for the nodes that `roots` need. Those that are `given` are not computed here; those that are `shared`, and
+    /// constants, are the same in all lanes.
+    pub(crate) fn new(
+        graph: &'g Graph,
+        roots: &[NodeId],
+        given: impl Fn(NodeId) -> bool,
+        shared: impl Fn(NodeId) -> bool,
+    ) -> Self {
+        let mut readers = vec![0u32; graph.len()];
+        for root in roots {
+            // Never part of anything.
+            readers[root.0 as usize] += 2;
+        }
+        for i in (0..graph.len() as u32).rev() {
+            if readers[i as usize] > 0 && !given(NodeId(i)) {
+                graph.kind(NodeId(i)).needs(|n| readers[n.0 as usize] += 1);
+            }
+        }
+        let mut fusion = Self { graph, readers, fused: BTreeMap::new() };
+        for i in 0..graph.len() as u32 {
+            if fusion.readers[i as usize] > 0 && !given(NodeId(i)) {
+                fusion.decide(NodeId(i), &given);
+            }
+        }
+        let shared = |n: NodeId| shared(n) || matches!(graph.kind(n), NodeKind::Constant(_));
+        for fused in fusion.fused.values_mut() {
+            *fused = with_shared(fused, shared);
+        }
+        fusion
+    }
+
+    /// How a node is carried out, if it is a lane operation.
+    pub(crate) fn operation(&self, node: NodeId) -> Option<&Fused> {
+        self.fused.get(&node)
+    }
+
+    /// Calls `visit` with every node that this one reads as it is carried out.
+    pub(crate) fn needs(&self, node: NodeId, visit: impl FnMut(NodeId)) {
+        match self.fused.get(&node) {
+            Some(fused) => fused.operands().iter().copied().for_each(visit),
+            None => self.graph.kind(node).needs(visit),
+        }
+    }
+
+    fn decide(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
+        let plain = match self.graph.kind(node) {
+            NodeKind::Compute(arith, code, args) => Fused::new(arith, code, &args[..code.arity()]),
+            NodeKind::Dot(arith, terms, a, b) => {
+                let pairs: Vec<NodeId> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
+                Fused::new(arith, NodeOperation::Dot(terms), &pairs)
+            }
+            _ => return,
+        };
+        let fused = self.longer(&plain, given).unwrap_or(plain);
+        self.fused.insert(node, fused);
+    }
+
+    /// The operation with one of its operands made part of it.
+    fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
+        let (k, args) = (plain.arith, plain.args);
+        match plain.code {
+            NodeOperation::Mad => {
+                if let Some(products) = self.products(k, args[2], given) {
+                    return sum(k, &products, &[args[0], args[1]]);
+                }
+                // a b - c d
+                let negated = self.part(k, args[2], given).filter(|part| part.code == NodeOperation::Neg)?;
+                let product = self.part(k, negated.args[0], given).filter(|part| part.code == NodeOperation::Mul)?;
+                Some(Fused::new(k, NodeOperation::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
+            }
+            NodeOperation::Add => {
+                let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
+                if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
+            }
+            NodeOperation::Or => {
+                let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == NodeOperation::Less);
+                let (mask, part) = match less(args[1]) {
+                    Some(part) => (args[0], part),
+                    None => (args[1], less(args[0])?),
+                };
+                Some(Fused::new(part.arith, NodeOperation::OrLess, &[mask, part.args[0], part.args[1]]))
+            }
+            _ => None,
+        }
+    }
+
+    /// The operation behind an operand that nothing else reads.
+    fn alone(&self, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
+        let alone = self.readers[node.0 as usize] == 1 && !given(node);
+        self.fused.get(&node).filter(|_| alone)
+    }
+
+    /// Likewise, in the same arithmetic.
+    fn part(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
+        self.alone(node, given).filter(|part| part.arith == arith)
+    }
+
+    /// The factors of the products behind an operand that nothing else reads.
+    fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
+        let part = self.part(arith, node, given)?;
+        matches!(part.code, NodeOperation::Mul | NodeOperation::Sum(_)).then(|| part.operands().to_vec())
+    }
+}
+
+/// Products and one more; `None` if there are too many.
+fn sum(arith: Arith, products: &[NodeId], last: &[NodeId]) -> Option<Fused> {
+    let all = [products, last].concat();
+    (last.len() == 2 && all.len() <= OPERANDS)
+        .then(|| Fused::new(arith, NodeOperation::Sum((all.len() / 2) as u8), &all))
+}
+
+/// The operation with its shared operands read as numbers, where there is one that does.
+fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
+    let (k, args) = (fused.arith, fused.args);
+    let of = |code, operands: &[NodeId]| Fused::new(k, code, operands);
+    match fused.code {
+        NodeOperation::Mul | NodeOperation::Sum(_) => {
+            let mut sorted = *fused;
+            for pair in sorted.args.chunks_exact_mut(2) {
+                if !shared(pair[0]) {
+                    pair.swap(0, 1);
+                }
+            }
+            let terms = fused.code.arity() / 2;
+            let all = (0..terms).all(|i| shared(sorted.args[2 * i]));
+            if all { Fused { code: NodeOperation::SumBy(terms as u8), ..sorted } } else { *fused }
+        }
+        NodeOperation::Add if shared(args[0]) => of(NodeOperation::AddTo, &args[..2]),
+        NodeOperation::Add if shared(args[1]) => of(NodeOperation::AddTo, &[args[1], args[0]]),
+        NodeOperation::Sub if shared(args[0]) => of(NodeOperation::SubFrom, &args[..2]),
+        NodeOperation::Sub if shared(args[1]) => of(NodeOperation::SubOff, &[args[1], args[0]]),
+        NodeOperation::Mad if shared(args[0]) => of(NodeOperation::MadBy, &args[..3]),
+        NodeOperation::Mad if shared(args[1]) => of(NodeOperation::MadBy, &[args[1], args[0], args[2]]),
+        _ => *fused,
+    }
+}

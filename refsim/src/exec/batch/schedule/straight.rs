@@ -1,0 +1,133 @@
+//! Pixel programs without flow control: one graph, scheduled as three blocks.
+//!
+//! What is the same all over a triangle (attributes that are, and whatever is computed from them and constants) is
+//! computed for 256 triangles at a time, a triangle a lane. What depends on nothing of that kind, only on the place in the
+//! tile (coordinates that vary, texels read at them), is computed for 256 fragments, and kept for as long as triangles
+//! have the same planes there: the crossbar reads its rays once a tile, not once a quad. The rest is computed for 256
+//! fragments of each triangle.
+
+use std::collections::BTreeMap;
+
+use super::block::{ResultSlots, StepBlock, schedule};
+use crate::device::Rules;
+use crate::exec::lower::{
+    Detail, Ends, Formats, Graph, NodeId, NodeKind, NodeOperation, Slot, Translator, translate_straight,
+};
+use crate::exec::{PixelBindings, ResolvedConstants};
+use crate::isa::Program;
+use crate::raster::ComponentMask;
+
+/// A straight pixel program as a graph with named results.
+#[derive(Debug)]
+pub(crate) struct StraightProgram {
+    graph: Graph,
+    ends: Ends,
+    /// Texture reads by sampler, one for each read of a fragment.
+    pub(crate) fetches: Vec<usize>,
+    /// Whether no lane's result depends on another lane, so that lanes of different triangles can be run together.
+    pub(crate) lanes_apart: bool,
+}
+
+/// A straight program scheduled for triangles that have certain components constant.
+#[derive(Debug)]
+pub(crate) struct StraightPlan {
+    /// For 256 triangles: inputs are constant components, roots the values that the other block is given.
+    pub(crate) uniform: StepBlock,
+    /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they are
+    /// while `varying` runs.
+    pub(crate) invariant: StepBlock,
+    /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of `uniform.roots`.
+    pub(crate) varying: StepBlock,
+    pub(crate) results: ResultSlots,
+}
+
+impl StraightProgram {
+    /// Decodes a program.
+    pub(crate) fn new(
+        program: &Program,
+        rules: &Rules,
+        formats: Formats,
+        constants: &ResolvedConstants,
+        bindings: &PixelBindings<'_>,
+    ) -> Self {
+        let mut t = Translator::new(program, rules, formats, constants, Some(bindings));
+        let ends = translate_straight(&mut t, program, |_, _| {});
+        let lanes_apart = !looks_at_neighbours(&t.make.graph, bindings);
+        Self { ends, fetches: t.fetches, lanes_apart, graph: t.make.graph }
+    }
+
+    /// Whether slots have numbers for all values at once: a plan may keep every one.
+    pub(crate) fn fits_slots(&self) -> bool {
+        self.graph.len() <= usize::from(Slot::MAX)
+    }
+
+    /// Schedules the program for triangles whose components in `constant` are constant.
+    pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
+        let uniform = self.graph.uniform(|component| constant.has(component.into()));
+        let invariant = self.invariant(constant);
+        let roots = self.ends.roots();
+        let live = self.graph.live(roots.iter().copied());
+        // Values that the varying block, or the output, reads and does not make itself.
+        let is_constant = |n: NodeId| matches!(self.graph.kind(n), NodeKind::Constant(_));
+        let made_before = |n: NodeId| uniform[n.0 as usize] || invariant[n.0 as usize];
+        let mut wanted = vec![false; self.graph.len()];
+        let mut want = |n: NodeId| wanted[n.0 as usize] |= made_before(n) && !is_constant(n);
+        for node in self.nodes().filter(|&n| live[n.0 as usize] && !made_before(n)) {
+            self.graph.kind(node).needs(&mut want);
+        }
+        roots.iter().copied().for_each(want);
+        let kept: Vec<NodeId> = self.nodes().filter(|n| wanted[n.0 as usize] && !uniform[n.0 as usize]).collect();
+        let given: Vec<NodeId> = self.nodes().filter(|n| wanted[n.0 as usize] && uniform[n.0 as usize]).collect();
+        let invariant = schedule(&self.graph, &kept, |_| false, &BTreeMap::new(), 0);
+        let placed = kept.into_iter().zip(invariant.roots.iter().copied()).collect();
+        let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &placed, invariant.slots);
+        debug_assert_eq!(varying.given.iter().map(|g| g.0).collect::<Vec<_>>(), given, "one slot for each given value");
+        let uniform = schedule(&self.graph, &given, |_| false, &BTreeMap::new(), 0);
+        let results = self.ends.results(&varying.roots);
+        StraightPlan { uniform, invariant, varying, results }
+    }
+
+    fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        (0..self.graph.len() as u32).map(NodeId)
+    }
+
+    /// For each node whether it depends on constants and on components that vary, alone.
+    fn invariant(&self, constant: ComponentMask) -> Vec<bool> {
+        let mut invariant = Vec::with_capacity(self.graph.len());
+        for node in self.nodes() {
+            let kind = self.graph.kind(node);
+            let mut all = match kind {
+                NodeKind::Input(component) => !constant.has(component.into()),
+                NodeKind::Held(_) | NodeKind::Relative(..) => false,
+                _ => true,
+            };
+            kind.needs(|n| all &= invariant[n.0 as usize]);
+            invariant.push(all);
+        }
+        invariant
+    }
+}
+
+/// Whether a program takes differences across quads, for itself or to choose a texture's level of detail.
+fn looks_at_neighbours(graph: &Graph, bindings: &PixelBindings<'_>) -> bool {
+    (0..graph.len() as u32).any(|i| match graph.kind(NodeId(i)) {
+        NodeKind::Compute(_, NodeOperation::DifferenceX | NodeOperation::DifferenceY, _) => true,
+        NodeKind::Fetch(sampler, _, Detail::Implicit | Detail::Biased(_)) => {
+            let binding = bindings.samplers.get(usize::from(sampler)).and_then(Option::as_ref);
+            binding.is_some_and(|b| b.needs_detail())
+        }
+        _ => false,
+    })
+}
+
+impl Ends {
+    /// Where they lie, given the slots of [`Self::roots`] in their order.
+    pub(crate) fn results(&self, roots: &[Slot]) -> ResultSlots {
+        let mut slots = roots.iter().copied();
+        let mut next = || slots.next().unwrap_or_default();
+        let colors = self.colors.map(|c| c.map(|c| c.map(|_| next())));
+        let killed = self.killed.map(|_| next());
+        let depth = self.depth.map(|(arith, _)| (arith, next(), None));
+        ResultSlots { colors, killed, depth }
+    }
+}

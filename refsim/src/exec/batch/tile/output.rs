@@ -1,0 +1,296 @@
+//! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets of
+//! signed or small float channels) goes through the output room, fragment by fragment.
+
+use super::store::{Survivors, quantise, write_lane, write_rows};
+use super::targets::Targets;
+use crate::event::FragmentCounts;
+use crate::exec::batch::lanes::{LANES, Lane, LaneFormats, LaneRow, SimdLevel, with_any_lane};
+use crate::exec::batch::run::Slots;
+use crate::exec::batch::schedule::ResultSlots;
+use crate::exec::lower::{Arith, Slot, TRUE};
+use crate::num::{Format, ops};
+use crate::output::{
+    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MOST_TARGETS, OutputRules, OutputState, merge,
+};
+
+/// What a program left behind in the lanes of a tile.
+#[derive(Clone, Copy)]
+pub(crate) struct Shaded<'a> {
+    pub(crate) results: &'a ResultSlots,
+    pub(crate) formats: &'a LaneFormats,
+    pub(crate) slots: &'a Slots,
+    pub(crate) covered: &'a LaneRow,
+    /// Interpolated depth.
+    pub(crate) depth: &'a LaneRow,
+}
+
+/// A fragment that the tests before the depth test left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fragment {
+    lane: u8,
+    /// As the depth buffer stores it.
+    depth: u32,
+    /// As slots hold them.
+    colors: [[u32; 4]; MOST_TARGETS],
+}
+
+impl Shaded<'_> {
+    fn fragment(&self, lane: usize, depth: u32) -> Fragment {
+        let value = |slot: Slot| self.slots.row(slot)[lane];
+        Fragment { lane: lane as u8, depth, colors: self.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value))) }
+    }
+
+    /// Appends the fragments that are left.
+    pub(crate) fn gather(&self, survivors: &Survivors, out: &mut Vec<Fragment>) {
+        if survivors.count > 0 {
+            let alive = (0..LANES).filter(|&lane| survivors.alive[lane] != 0);
+            out.extend(alive.map(|lane| self.fragment(lane, survivors.depth[lane])));
+        }
+    }
+}
+
+/// The output stage of a draw.
+#[derive(Clone, Debug)]
+pub(crate) struct OutputStage {
+    pub(crate) state: OutputState,
+    pub(crate) rules: OutputRules,
+    /// Bit `i`: the program writes colour `i`.
+    pub(crate) written: u8,
+}
+
+impl OutputStage {
+    /// Kill and alpha test, and depths made ready for the depth test.
+    pub(crate) fn test(
+        &self,
+        shaded: Shaded<'_>,
+        depth: Option<DepthFormat>,
+        out: &mut Survivors,
+        counts: &mut FragmentCounts,
+    ) {
+        let simd = shaded.formats.simd();
+        let before = |row: &LaneRow| {
+            simd.run(
+                #[inline(always)]
+                || population(row),
+            )
+        };
+        out.alive = *shaded.covered;
+        out.count = before(&out.alive);
+        if let Some(killed) = shaded.results.killed {
+            let killed = shaded.slots.row(killed);
+            simd.run(
+                #[inline(always)]
+                || and(&mut out.alive, killed, u32::MAX),
+            );
+            counts.killed += self.recount(simd, out);
+        }
+        if let Some(test) = &self.state.alpha {
+            let mut passes = [0; LANES];
+            alpha(test, &shaded, &mut passes);
+            simd.run(
+                #[inline(always)]
+                || and(&mut out.alive, &passes, 0),
+            );
+            counts.alpha_failed += self.recount(simd, out);
+        }
+        if let (Some(_), Some(format), true) = (self.state.depth.test, depth, out.count > 0) {
+            self.quantised(&shaded, format, out);
+        }
+    }
+
+    /// Counts the lanes again; gives how many are gone.
+    fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
+        let left = simd.run(
+            #[inline(always)]
+            || population(&out.alive),
+        );
+        let gone = out.count - left;
+        out.count = left;
+        gone.into()
+    }
+
+    /// Depth test, blending and writing of the lanes that are left.
+    pub(crate) fn merge(
+        &self,
+        shaded: Shaded<'_>,
+        survivors: &mut Survivors,
+        targets: &mut Targets<'_>,
+        counts: &mut FragmentCounts,
+    ) {
+        if survivors.count == 0 {
+            return;
+        }
+        let simd = shaded.formats.simd();
+        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+            let (new, alive) = (&survivors.depth, &mut survivors.alive);
+            simd.run(
+                #[inline(always)]
+                || depth_test(function, self.state.depth.write, new, alive, stored),
+            );
+            counts.depth_failed += self.recount(simd, survivors);
+        }
+        counts.passed += u64::from(survivors.count);
+        if survivors.count == 0 {
+            return;
+        }
+        for i in 0..MOST_TARGETS {
+            let Some(rows) = &mut targets.colors[i] else { continue };
+            let Some(colors) = shaded.results.colors[i] else { continue };
+            let colors = colors.map(|slot| shaded.slots.row(slot));
+            write_rows(rows, colors, survivors, shaded.formats);
+        }
+        self.merge_rest(shaded, survivors, targets);
+    }
+
+    /// What rows don't do goes through the output room.
+    fn merge_rest(&self, shaded: Shaded<'_>, survivors: &Survivors, targets: &mut Targets<'_>) {
+        let written = self.written_elsewhere(targets);
+        if written == 0 {
+            return;
+        }
+        for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
+            self.merge_elsewhere(written, &shaded.fragment(lane, 0), shaded.formats, targets);
+        }
+    }
+
+    /// The colours that are written and whose targets are not in rows.
+    fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
+        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
+        here.fold(0, |bits, i| bits | (self.written & 1 << i))
+    }
+
+    /// Takes a fragment through the output room, its tests switched off.
+    fn merge_elsewhere(&self, written: u8, fragment: &Fragment, formats: &LaneFormats, targets: &mut Targets<'_>) {
+        let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
+        let main = formats.lane(Arith::Main);
+        let colors = fragment.colors.map(|c| c.map(|raw| main.encode(raw)));
+        let output = FragmentOutput { colors, written, depth: None, killed: false };
+        merge(targets.tile, targets.frame.pixel(fragment.lane.into()), &output, 0, &state, &self.rules);
+    }
+
+    /// [`Self::merge`] for one fragment.
+    pub(crate) fn merge_one(
+        &self,
+        fragment: &Fragment,
+        formats: &LaneFormats,
+        targets: &mut Targets<'_>,
+        counts: &mut FragmentCounts,
+    ) {
+        let lane = usize::from(fragment.lane);
+        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+            if !function.holds(Some(fragment.depth.cmp(&stored[lane]))) {
+                counts.depth_failed += 1;
+                return;
+            }
+            if self.state.depth.write {
+                stored[lane] = fragment.depth;
+            }
+        }
+        counts.passed += 1;
+        for (rows, colors) in targets.colors.iter_mut().zip(&fragment.colors) {
+            if let Some(rows) = rows {
+                write_lane(rows, colors, lane, formats);
+            }
+        }
+        let written = self.written_elsewhere(targets);
+        if written != 0 {
+            self.merge_elsewhere(written, fragment, formats, targets);
+        }
+    }
+
+    /// Depths as the depth buffer stores them, for the lanes still alive.
+    fn quantised(&self, shaded: &Shaded<'_>, buffer: DepthFormat, out: &mut Survivors) {
+        let (formats, slots, rounding) = (shaded.formats, shaded.slots, self.rules.depth_rounding);
+        let single = formats.lane(Arith::Single);
+        match shaded.results.depth {
+            Some((arith, own, None)) => quantise((formats, arith), buffer, rounding, slots.row(own), out),
+            Some((arith, own, Some(decided))) => {
+                let decided = slots.row(decided);
+                for i in (0..LANES).filter(|&i| out.alive[i] != 0) {
+                    let (format, bits) = if decided[i] != 0 {
+                        (formats.format(arith), formats.lane(arith).encode(slots.row(own)[i]))
+                    } else {
+                        (Format::FP32, single.encode(shaded.depth[i]))
+                    };
+                    out.depth[i] = buffer.quantise(format, bits, rounding);
+                }
+            }
+            None => quantise((formats, Arith::Single), buffer, rounding, shaded.depth, out),
+        }
+    }
+}
+
+/// Lanes in a mask.
+#[inline(always)]
+fn population(row: &LaneRow) -> u32 {
+    row.iter().map(|&m| m & 1).sum()
+}
+
+/// `alive` where the other row, turned by `flip`, holds too.
+#[inline(always)]
+fn and(alive: &mut LaneRow, mask: &LaneRow, flip: u32) {
+    for i in 0..LANES {
+        alive[i] &= mask[i] ^ flip;
+    }
+}
+
+/// Mask of the lanes whose alpha passes.
+fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut LaneRow) {
+    let formats = shaded.formats;
+    let main = formats.lane(Arith::Main);
+    let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
+    let zero = [0; LANES];
+    let alpha = shaded.results.colors[0].map_or(&zero, |c| shaded.slots.row(c[3]));
+    with_any_lane!(main, |lane| {
+        formats.simd().run(
+            #[inline(always)]
+            || compare(lane, alpha, reference, test.function, passes),
+        )
+    });
+}
+
+/// Mask of the lanes whose value compares so with the reference; a NaN is equal to nothing.
+#[inline(always)]
+fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, out: &mut LaneRow) {
+    #[inline(always)]
+    fn rows<L: Lane>(row: &LaneRow, out: &mut LaneRow, holds: impl Fn(L::T) -> bool) {
+        for i in 0..LANES {
+            out[i] = if holds(L::load(row[i])) { TRUE } else { 0 };
+        }
+    }
+    let r = L::load(reference);
+    match function {
+        CompareFunction::Never => out.fill(0),
+        CompareFunction::Less => rows::<L>(row, out, |a| lane.lt(a, r)),
+        CompareFunction::Equal => rows::<L>(row, out, |a| lane.eq(a, r)),
+        CompareFunction::LessEqual => rows::<L>(row, out, |a| lane.lt(a, r) | lane.eq(a, r)),
+        CompareFunction::Greater => rows::<L>(row, out, |a| lane.lt(r, a)),
+        CompareFunction::NotEqual => rows::<L>(row, out, |a| !lane.eq(a, r)),
+        CompareFunction::GreaterEqual => rows::<L>(row, out, |a| lane.lt(r, a) | lane.eq(a, r)),
+        CompareFunction::Always => out.fill(TRUE),
+    }
+}
+
+/// Takes lanes that fail out of `alive`; the others' depths are stored if `write` says so.
+#[inline(always)]
+fn depth_test(function: CompareFunction, write: bool, new: &LaneRow, alive: &mut LaneRow, stored: &mut LaneRow) {
+    #[inline(always)]
+    fn rows(new: &LaneRow, alive: &mut LaneRow, stored: &LaneRow, holds: impl Fn(u32, u32) -> bool) {
+        for i in 0..LANES {
+            alive[i] &= if holds(new[i], stored[i]) { TRUE } else { 0 };
+        }
+    }
+    match function {
+        CompareFunction::Never => alive.fill(0),
+        CompareFunction::Less => rows(new, alive, stored, |a, b| a < b),
+        CompareFunction::Equal => rows(new, alive, stored, |a, b| a == b),
+        CompareFunction::LessEqual => rows(new, alive, stored, |a, b| a <= b),
+        CompareFunction::Greater => rows(new, alive, stored, |a, b| a > b),
+        CompareFunction::NotEqual => rows(new, alive, stored, |a, b| a != b),
+        CompareFunction::GreaterEqual => rows(new, alive, stored, |a, b| a >= b),
+        CompareFunction::Always => {}
+    }
+    if write {
+        super::raster::lay_over(stored, new, alive);
+    }
+}

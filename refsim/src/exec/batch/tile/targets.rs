@@ -1,0 +1,153 @@
+//! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words. They
+//! stay in the first-level cache while all triangles of the tile go by, and are copied back once.
+
+use super::raster::TileFrame;
+use crate::exec::batch::lanes::{LANES, LaneRow};
+use crate::output::{ColorTile, MOST_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
+use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
+
+/// What a channel's code is made by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Coding {
+    /// A value clamped to [0, 1], times this, plus this, cut to an integer: exact in doubles for 24 bits times 24.
+    Steps(f64, f64),
+    /// Single precision.
+    Single,
+}
+
+/// A stored channel that is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PackedChannel {
+    pub(crate) word: usize,
+    pub(crate) shift: u32,
+    pub(crate) component: usize,
+    pub(crate) coding: Coding,
+}
+
+/// How colours become texels of one target.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Packing {
+    pub(crate) channels: Vec<PackedChannel>,
+    /// By word: the bits that are written.
+    pub(crate) written: Vec<u32>,
+}
+
+impl Packing {
+    /// `None` where the output room has to do it: blending, signed and small float channels.
+    pub(crate) fn new(
+        format: TexelFormat,
+        mask: WriteMask,
+        state: &OutputState,
+        rounding: TargetRounding,
+    ) -> Option<Self> {
+        if state.blend.is_some() {
+            return None;
+        }
+        let mut packing = Self { channels: Vec::new(), written: vec![0; format.bytes().div_ceil(4)] };
+        for channel in format.record().stored() {
+            let (word, shift) = (usize::from(channel.shift / 32), u32::from(channel.shift % 32));
+            let coding = match channel.class {
+                ChannelClass::Unorm if channel.bits <= 24 && shift + u32::from(channel.bits) <= 32 => {
+                    let half = if rounding == TargetRounding::Nearest { 0.5 } else { 0.0 };
+                    Coding::Steps(f64::from((1u32 << channel.bits) - 1), half)
+                }
+                ChannelClass::Float(crate::num::Format::FP32) if shift == 0 => Coding::Single,
+                _ => return None,
+            };
+            if mask.has(channel.stored_from) {
+                packing.written[word] |= (u32::MAX >> (32 - channel.bits)) << shift;
+                packing.channels.push(PackedChannel { word, shift, component: channel.stored_from.into(), coding });
+            }
+        }
+        Some(packing)
+    }
+
+    pub(crate) fn words(&self) -> usize {
+        self.written.len()
+    }
+}
+
+/// A colour target that is kept in rows.
+#[derive(Debug)]
+pub(crate) struct ColorRows {
+    pub(crate) packing: Packing,
+    pub(crate) words: Vec<LaneRow>,
+}
+
+/// The targets of one tile.
+#[derive(Debug)]
+pub(crate) struct Targets<'t> {
+    pub(crate) tile: &'t mut TargetTile,
+    pub(crate) frame: TileFrame,
+    /// Depths of the lanes within the tile's region.
+    pub(crate) depth: Option<Box<LaneRow>>,
+    /// Targets that are written in rows; the others are written in the tile.
+    pub(crate) colors: [Option<ColorRows>; MOST_TARGETS],
+}
+
+impl<'t> Targets<'t> {
+    /// Brings a tile into rows. Bit `i` of `written`: the program writes colour `i`.
+    pub(crate) fn load(tile: &'t mut TargetTile, written: u8, state: &OutputState, rules: &OutputRules) -> Self {
+        let (region, frame) = (tile.region, TileFrame::around(tile.region));
+        let depth = tile.depth.as_ref().map(|buffer| {
+            let mut row = Box::new([0; LANES]);
+            for (lane, index) in lanes(region) {
+                row[lane] = buffer.data.get(index).copied().unwrap_or_default();
+            }
+            row
+        });
+        let rows = |i: usize| {
+            let target = tile.colors[i].as_ref().filter(|_| written >> i & 1 == 1)?;
+            let packing = Packing::new(target.format, state.masks[i], state, rules.target_rounding)?;
+            Some(ColorRows { words: load_words(target, region, packing.words()), packing })
+        };
+        let colors = [rows(0), rows(1), rows(2), rows(3)];
+        Self { tile, frame, depth, colors }
+    }
+
+    /// Brings the rows back into the tile.
+    pub(crate) fn store(self) {
+        let region = self.tile.region;
+        if let (Some(row), Some(buffer)) = (&self.depth, &mut self.tile.depth) {
+            for (lane, index) in lanes(region) {
+                if let Some(slot) = buffer.data.get_mut(index) {
+                    *slot = row[lane];
+                }
+            }
+        }
+        for (rows, target) in self.colors.iter().zip(&mut self.tile.colors) {
+            if let (Some(rows), Some(target)) = (rows, target) {
+                store_words(target, region, &rows.words);
+            }
+        }
+    }
+}
+
+/// The lanes of a tile's region with the indices of their pixels, in order.
+fn lanes(region: Region) -> impl Iterator<Item = (usize, usize)> {
+    let frame = TileFrame::around(region);
+    let pixels = (region.y..region.y + region.height)
+        .flat_map(move |y| (region.x..region.x + region.width).map(move |x| (x, y)));
+    pixels.map(move |(x, y)| frame.lane(x, y)).enumerate().map(|(index, lane)| (lane, index))
+}
+
+fn load_words(target: &ColorTile, region: Region, words: usize) -> Vec<LaneRow> {
+    let mut rows = vec![[0; LANES]; words];
+    let size = target.format.bytes();
+    for (texel, (lane, _)) in target.bytes.chunks_exact(size).zip(lanes(region)) {
+        for (row, bytes) in rows.iter_mut().zip(texel.chunks(4)) {
+            row[lane] = bytes.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b));
+        }
+    }
+    rows
+}
+
+fn store_words(target: &mut ColorTile, region: Region, rows: &[LaneRow]) {
+    let size = target.format.bytes();
+    for (texel, (lane, _)) in target.bytes.chunks_exact_mut(size).zip(lanes(region)) {
+        for (row, bytes) in rows.iter().zip(texel.chunks_mut(4)) {
+            let count = bytes.len();
+            bytes.copy_from_slice(&row[lane].to_le_bytes()[..count]);
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! Vertex programs on batches of 256 vertices: attributes in rows, results in rows.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::device::Rules;
+use crate::event::SAMPLERS;
+use crate::exec::batch::cache::{Cache, Pool};
+use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneFormats, SimdLevel, with_any_lane};
+use crate::exec::batch::run::{
+    FlowRun, Slots, Surroundings, fill_constants, fill_plan, first_lanes, raw_constants, run_steps,
+};
+use crate::exec::batch::schedule::{FlowPlan, StepBlock, schedule};
+use crate::exec::budget::straight_exceeds;
+use crate::exec::lower::{
+    Arith, CONSTANT_INPUTS, Effect, Formats, NodeId, NodeOperation, RegisterComponent, Slot, Translator, has_flow,
+    translate_instruction,
+};
+use crate::exec::{Constants, ResolvedConstants};
+use crate::isa::{Program, RegisterFile};
+use crate::num::Format;
+use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
+
+/// Vertices that one worker takes at a time; no more than that, and nobody is woken up for them.
+const SPAN: usize = 16 * LANES;
+
+/// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of `v#register`
+/// of the vertices from `first` on.
+pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f;
+
+/// Vertices as rows, single precision patterns: the position, and the components that were asked for.
+#[derive(Clone, Debug, Default)]
+pub struct VertexRows {
+    pub(crate) position: [Vec<u32>; 4],
+    /// By component, as in [`ComponentMask`]; empty where nobody asked.
+    pub(crate) components: Vec<Vec<u32>>,
+    /// Instruction slots executed, summed over the vertices.
+    pub executed: u64,
+    /// Vertices that did not end within the step budget, and the instruction that was one too many.
+    pub(crate) cut: Vec<(usize, usize)>,
+}
+
+impl VertexRows {
+    fn new() -> Self {
+        Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0, cut: Vec::new() }
+    }
+
+    /// Vertices given one by one.
+    pub fn from_vertices(vertices: &[Vertex], needed: ComponentMask) -> Self {
+        let mut rows = Self::new();
+        for (c, row) in rows.position.iter_mut().enumerate() {
+            *row = vertices.iter().map(|v| v.position[c]).collect();
+        }
+        for (component, row) in rows.components.iter_mut().enumerate().filter(|(c, _)| needed.has(*c)) {
+            *row = vertices.iter().map(|v| v.component(component)).collect();
+        }
+        rows
+    }
+
+    /// A vertex with what the rows have of it, and zeros.
+    pub(crate) fn vertex(&self, index: usize) -> Vertex {
+        let at = |row: &Vec<u32>| row.get(index).copied().unwrap_or_default();
+        let component = |i: usize| self.components.get(i).map_or(0, at);
+        Vertex {
+            position: [0, 1, 2, 3].map(|c: usize| at(&self.position[c])),
+            texcoords: std::array::from_fn(|set| std::array::from_fn(|c| component(4 * set + c))),
+            colors: std::array::from_fn(|i| std::array::from_fn(|c| component(COLOR_COMPONENT + 4 * i + c))),
+            fog: component(FOG_COMPONENT),
+            point_size: 0,
+        }
+    }
+}
+
+/// A vertex program ready to run on batches; equal to [`crate::exec::scalar::VertexProgram`].
+#[derive(Debug)]
+pub struct BatchVertices {
+    formats: LaneFormats,
+    constants: Vec<[u32; 4]>,
+    /// The components that are made, after the position's four.
+    components: Vec<usize>,
+    code: Arc<DecodedVertex>,
+}
+
+/// A decoded program, and rows that are not in use.
+#[derive(Debug)]
+pub(crate) struct DecodedVertex {
+    code: VertexCode,
+    slots: Pool<Slots>,
+}
+
+/// A program with flow control or without.
+#[derive(Debug)]
+enum VertexCode {
+    /// Roots are the results, single precision; and the slots of an execution.
+    Straight(StepBlock, u64),
+    Flow(Box<FlowPlan>),
+}
+
+/// What decoding depends on.
+#[derive(Debug)]
+pub(crate) struct VertexKey {
+    program: Program,
+    rules: Rules,
+    /// `None` where they are inputs.
+    constants: Option<ResolvedConstants>,
+    needed: ComponentMask,
+    budget: u32,
+}
+
+/// The vertex programs last used.
+pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
+
+/// A program decoded, or as it was decoded before. The first constants that it comes with become part of it; when others follow, it is decoded
+/// once more with constants as inputs, which serves all that come after.
+fn decoded(
+    programs: &VertexPrograms,
+    program: &Program,
+    rules: &Rules,
+    constants: &ResolvedConstants,
+    (needed, components): (ComponentMask, &[usize]),
+    budget: u32,
+) -> Arc<DecodedVertex> {
+    let same = |key: &VertexKey| {
+        key.needed == needed && key.budget == budget && key.program == *program && key.rules == *rules
+    };
+    let folded = |key: &VertexKey| key.constants.as_ref() == Some(constants) && same(key);
+    if let Some(code) = programs.find(folded) {
+        return code;
+    }
+    let open = !has_flow(program) && programs.find(same).is_some();
+    let matches = |key: &VertexKey| if open { key.constants.is_none() && same(key) } else { folded(key) };
+    programs.get(matches, || {
+        let code = if has_flow(program) {
+            VertexCode::Flow(Box::new(FlowPlan::vertex(
+                program,
+                rules,
+                Formats::vertex(rules.vertex_format),
+                constants,
+                budget,
+            )))
+        } else {
+            straight(program, rules, constants, (open, components))
+        };
+        let constants = (!open).then(|| constants.clone());
+        let key = VertexKey { program: program.clone(), rules: rules.clone(), constants, needed, budget };
+        (key, DecodedVertex { code, slots: Pool::default() })
+    })
+}
+
+impl BatchVertices {
+    /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if no
+    /// vertex can end within the step budget: only the scalar executor counts the steps of programs without flow control.
+    pub(crate) fn new(
+        (program, constants): (&Program, &Constants),
+        rules: &Rules,
+        needed: ComponentMask,
+        step_budget: u32,
+        programs: &VertexPrograms,
+        simd: SimdLevel,
+    ) -> Option<Self> {
+        if !has_flow(program) && straight_exceeds(program, step_budget) {
+            return None;
+        }
+        let formats = LaneFormats::new(Formats::vertex(rules.vertex_format), simd);
+        let constants = ResolvedConstants::vertex(program, rules, constants);
+        let components: Vec<usize> = (0..COMPONENTS).filter(|&c| needed.has(c)).collect();
+        let code = decoded(programs, program, rules, &constants, (needed, &components), step_budget);
+        Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
+    }
+
+    /// Runs the program on `total` vertices.
+    pub fn run(&self, total: usize, attributes: &AttributeRows<'_>) -> VertexRows {
+        let span = |i: usize| self.span(i * SPAN, total.saturating_sub(i * SPAN).min(SPAN), attributes);
+        if total <= SPAN {
+            return span(0);
+        }
+        let parts: Vec<VertexRows> = (0..total.div_ceil(SPAN)).into_par_iter().map(span).collect();
+        let mut out = VertexRows::new();
+        self.each_row(&mut out, |place, to| {
+            to.reserve_exact(total);
+            for part in &parts {
+                to.extend_from_slice(self.row(part, place));
+            }
+        });
+        out.executed = parts.iter().map(|part| part.executed).sum();
+        out.cut = parts.into_iter().flat_map(|part| part.cut).collect();
+        out
+    }
+
+    /// Calls `fill` with the number of each row that is made, and the row.
+    fn each_row(&self, out: &mut VertexRows, mut fill: impl FnMut(usize, &mut Vec<u32>)) {
+        for (i, row) in out.position.iter_mut().enumerate() {
+            fill(i, row);
+        }
+        for (i, &component) in self.components.iter().enumerate() {
+            fill(4 + i, &mut out.components[component]);
+        }
+    }
+
+    /// The row of a number, as [`Self::each_row`] numbers them.
+    fn row<'r>(&self, rows: &'r VertexRows, number: usize) -> &'r [u32] {
+        match number {
+            0..4 => &rows.position[number],
+            _ => &rows.components[self.components[number - 4]],
+        }
+    }
+
+    /// Up to [`SPAN`] vertices, 256 after 256.
+    fn span(&self, first: usize, count: usize, attributes: &AttributeRows<'_>) -> VertexRows {
+        let mut slots = self.code.slots.take(|_| true).unwrap_or_else(|| self.slots());
+        let mut out = VertexRows::new();
+        self.each_row(&mut out, |_, row| row.reserve_exact(count));
+        for start in (0..count).step_by(LANES) {
+            self.group(first + start, (count - start).min(LANES), attributes, &mut slots, &mut out);
+        }
+        self.code.slots.keep(slots);
+        out
+    }
+
+    fn slots(&self) -> Slots {
+        match &self.code.code {
+            VertexCode::Straight(block, _) => {
+                let mut slots = Slots::new(block.slots);
+                fill_constants(block, &mut slots);
+                slots
+            }
+            VertexCode::Flow(plan) => {
+                let mut slots = Slots::new(plan.slots());
+                fill_plan(plan, &mut slots);
+                slots
+            }
+        }
+    }
+
+    /// Appends up to 256 vertices: position, components; and the instruction slots.
+    fn group(
+        &self,
+        first: usize,
+        count: usize,
+        attributes: &AttributeRows<'_>,
+        slots: &mut Slots,
+        out: &mut VertexRows,
+    ) {
+        let inputs = match &self.code.code {
+            VertexCode::Straight(block, _) => &block.inputs,
+            VertexCode::Flow(plan) => plan.inputs(),
+        };
+        for &(component, slot) in inputs {
+            if let Some(constant) = component.checked_sub(CONSTANT_INPUTS) {
+                let register = self.constants.get(usize::from(constant / 4));
+                slots.row_mut(slot)[..count].fill(register.map_or(0, |c| c[usize::from(constant % 4)]));
+                continue;
+            }
+            // A pattern is the number's host bits: single precision is the host's own.
+            let row = &mut slots.row_mut(slot)[..count];
+            attributes(usize::from(component / 4), usize::from(component % 4), first, row);
+        }
+        let around = Surroundings { formats: &self.formats, textures: &[], constants: &self.constants };
+        let lanes = first_lanes(count);
+        match &self.code.code {
+            VertexCode::Straight(block, cost) => {
+                run_steps(&block.steps, &around, &lanes, slots);
+                out.executed += cost * count as u64;
+                self.each_row(out, |i, row| row.extend(slots.row(block.roots[i])[..count].iter().map(canonical)));
+            }
+            VertexCode::Flow(plan) => {
+                let mut run = FlowRun::new(plan, &around, &lanes, &lanes);
+                run.run(slots, &mut [0; SAMPLERS]);
+                out.executed += run.executed;
+                out.cut.extend(run.cut.iter().map(|&(lane, instruction)| (first + lane, instruction)));
+                let places: Vec<RegisterComponent> = outputs(&self.components).collect();
+                self.each_row(out, |i, row| {
+                    let place = places[i];
+                    row.extend(self.held(plan.register(place.0, place.1, place.2), place, slots, count));
+                });
+            }
+        }
+    }
+
+    /// What a register component of a program with flow control holds at the end.
+    fn held(&self, slot: Option<Slot>, place: RegisterComponent, slots: &Slots, count: usize) -> Vec<u32> {
+        let Some(slot) = slot else { return vec![0; count] };
+        let main = self.formats.lane(Arith::Main);
+        let color = place.0 == RegisterFile::DiffuseOut;
+        let value = |&raw: &u32| self.single(if color { saturated(main, raw) } else { raw });
+        slots.row(slot)[..count].iter().map(value).collect()
+    }
+
+    /// What a slot holds as a single precision pattern.
+    fn single(&self, raw: u32) -> u32 {
+        fn wide<L: Lane>(lane: &L, raw: u32) -> f64 {
+            lane.to_f64(L::load(raw))
+        }
+        fn narrow<L: Lane>(lane: &L, x: f64) -> u32 {
+            lane.encode(lane.round_f64(x))
+        }
+        let (main, single) = (self.formats.lane(Arith::Main), self.formats.lane(Arith::Single));
+        if self.formats.format(Arith::Main) == Format::FP32 {
+            return main.encode(raw);
+        }
+        let x = with_any_lane!(main, |lane| { wide(lane, raw) });
+        with_any_lane!(single, |lane| { narrow(lane, x) })
+    }
+}
+
+/// The output register components of a position and of components, in their order.
+fn outputs(components: &[usize]) -> impl Iterator<Item = RegisterComponent> {
+    let position = (0..4).map(|c| (RegisterFile::PositionOut, 0, c));
+    position.chain(components.iter().map(|&component| match component {
+        FOG_COMPONENT => (RegisterFile::FogOut, 0, 0),
+        COLOR_COMPONENT.. => {
+            let i = component - COLOR_COMPONENT;
+            (RegisterFile::DiffuseOut, (i / 4) as u16, (i % 4) as u8)
+        }
+        _ => (RegisterFile::TexCoordOut, (component / 4) as u16, (component % 4) as u8),
+    }))
+}
+
+/// A program without flow control as one block that makes the outputs alone; `open`: its constants are inputs.
+fn straight(
+    program: &Program,
+    rules: &Rules,
+    constants: &ResolvedConstants,
+    (open, components): (bool, &[usize]),
+) -> VertexCode {
+    let mut t = Translator::new(program, rules, Formats::vertex(rules.vertex_format), constants, None);
+    t.open_constants = open;
+    let mut cost = 0;
+    for instruction in &program.instructions {
+        let slots = instruction.opcode.info().slot_cost(program.version);
+        cost += u64::from(slots.arithmetic) + u64::from(slots.texture);
+        let mut effects = Vec::new();
+        translate_instruction(&mut t, instruction, &mut effects);
+        for effect in effects {
+            if let Effect::Write(place, value, _) = effect {
+                t.registers.insert(place, value);
+            }
+        }
+    }
+    let zero = t.make.zero();
+    let roots: Vec<NodeId> = outputs(components)
+        .map(|place| {
+            let value = t.registers.get(&place).copied().unwrap_or(zero);
+            let value = match place.0 {
+                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, NodeOperation::Saturate, value),
+                _ => value,
+            };
+            t.make.convert(Arith::Main, Arith::Single, value)
+        })
+        .collect();
+    VertexCode::Straight(schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0), cost)
+}
+
+/// A single precision number as a pattern: every NaN is the one.
+fn canonical(bits: &u32) -> u32 {
+    if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { *bits }
+}
+
+fn saturated(lane: &AnyLane, raw: u32) -> u32 {
+    fn saturate<L: Lane>(lane: &L, raw: u32) -> u32 {
+        L::store(lane.saturate(L::load(raw)))
+    }
+    with_any_lane!(lane, |lane| { saturate(lane, raw) })
+}

@@ -1,0 +1,166 @@
+//! The way of vertices to the window in rows: which clip planes they keep to, and where they come to lie, in host single
+//! precision, step by step as the raster room defines it.
+
+use rayon::prelude::*;
+
+use super::program::VertexRows;
+use crate::exec::batch::lanes::SimdLevel;
+use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState};
+
+/// Vertices that one worker takes at a time.
+const SPAN: usize = 4096;
+
+/// What the planes say of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ClipResult {
+    /// Within all planes.
+    Inside,
+    /// Outside one at least.
+    Outside,
+    /// The position is not finite.
+    NotFinite,
+    /// Within all planes, but not finite in the window.
+    Lost,
+}
+
+impl ClipResult {
+    const ALL: [ClipResult; 4] = [Self::Inside, Self::Lost, Self::Outside, Self::NotFinite];
+}
+
+/// Some vertices in the window.
+#[derive(Debug, Default)]
+struct WindowSpan {
+    /// Index into [`ClipResult::ALL`].
+    flags: Vec<u32>,
+    x: Vec<i32>,
+    y: Vec<i32>,
+    depth: Vec<u32>,
+    reciprocal_w: Vec<u32>,
+}
+
+/// All vertices of some rows in the window.
+#[derive(Debug)]
+pub(crate) struct Window {
+    spans: Vec<WindowSpan>,
+}
+
+/// What is the same for all vertices.
+#[derive(Clone, Copy)]
+struct ViewportTransform {
+    half: [f32; 2],
+    middle: [f32; 2],
+    depths: [f32; 2],
+    least_w: f32,
+    band: f32,
+    /// Grid units in a pixel, and the farthest grid line.
+    grid: f64,
+    far: f64,
+}
+
+impl Window {
+    pub(crate) fn new(rows: &VertexRows, state: &RasterState, rules: &RasterRules, simd: SimdLevel) -> Self {
+        let subpixel_bits = rules.subpixel_bits.min(8);
+        let v = &state.viewport;
+        let grid = f64::from(1u32 << subpixel_bits);
+        let transform = ViewportTransform {
+            half: [v.width, v.height].map(|size| size as f32 * 0.5),
+            middle: [(v.x, v.width), (v.y, v.height)]
+                .map(|(at, size)| (2 * i64::from(at) + i64::from(size)) as f32 * 0.5),
+            depths: [v.min_depth, v.max_depth].map(f32::from_bits),
+            least_w: f32::from_bits(LEAST_W),
+            band: f32::from_bits(GUARD_BAND),
+            grid,
+            far: FARTHEST as f64 * grid,
+        };
+        let total = rows.position[3].len();
+        let span = |i: usize| {
+            let part = |row: &'_ Vec<u32>| i * SPAN..row.len().min((i + 1) * SPAN);
+            let [x, y, z, w] = rows.position.each_ref().map(|row| &row[part(row)]);
+            let mut out = WindowSpan::zeros(x.len());
+            simd.run(
+                #[inline(always)]
+                || match state.clip_space {
+                    ClipSpace::Direct3d => out.fill::<false>([x, y, z, w], &transform),
+                    ClipSpace::OpenGl => out.fill::<true>([x, y, z, w], &transform),
+                },
+            );
+            out
+        };
+        let count = total.div_ceil(SPAN);
+        let spans = match count {
+            0 | 1 => (0..count).map(span).collect(),
+            _ => (0..count).into_par_iter().map(span).collect(),
+        };
+        Self { spans }
+    }
+
+    /// What the planes say of a vertex.
+    pub(crate) fn clipped(&self, vertex: usize) -> ClipResult {
+        ClipResult::ALL[self.spans[vertex / SPAN].flags[vertex % SPAN] as usize & 3]
+    }
+
+    /// A vertex in the window, if it is inside.
+    pub(crate) fn corner(&self, vertex: usize) -> Corner {
+        let (span, i) = (&self.spans[vertex / SPAN], vertex % SPAN);
+        Corner { x: span.x[i].into(), y: span.y[i].into(), depth: span.depth[i], reciprocal_w: span.reciprocal_w[i] }
+    }
+}
+
+impl WindowSpan {
+    fn zeros(count: usize) -> Self {
+        Self {
+            flags: vec![0; count],
+            x: vec![0; count],
+            y: vec![0; count],
+            depth: vec![0; count],
+            reciprocal_w: vec![0; count],
+        }
+    }
+
+    #[inline(always)]
+    fn fill<const GL: bool>(&mut self, [xs, ys, zs, ws]: [&[u32]; 4], transform: &ViewportTransform) {
+        let count = xs.len();
+        let (ys, zs, ws) = (&ys[..count], &zs[..count], &ws[..count]);
+        let (flags, to_x, to_y) = (&mut self.flags[..count], &mut self.x[..count], &mut self.y[..count]);
+        let (depths, reciprocals) = (&mut self.depth[..count], &mut self.reciprocal_w[..count]);
+        let ViewportTransform { half, middle, least_w, band, grid, far, depths: [near, distant] } = *transform;
+        for i in 0..count {
+            let [x, y, z, w] = [xs[i], ys[i], zs[i], ws[i]].map(f32::from_bits);
+            let finite = is_finite(x) & is_finite(y) & is_finite(z) & is_finite(w);
+            let edge = w * band;
+            let front = if GL { z + w } else { z };
+            let inside = (w - least_w >= 0.0)
+                & (front >= 0.0)
+                & (w - z >= 0.0)
+                & (edge + x >= 0.0)
+                & (edge - x >= 0.0)
+                & (edge + y >= 0.0)
+                & (edge - y >= 0.0);
+            let (dx, dy) = (x / w * half[0], y / w * half[1]);
+            let window_x = middle[0] + dx;
+            let window_y = if GL { middle[1] + dy } else { middle[1] - dy };
+            let ndc_z = if GL { z / w * 0.5 + 0.5 } else { z / w };
+            let depth = ndc_z * (distant - near) + near;
+            let reciprocal = 1.0 / w;
+            let arrived = is_finite(window_x) & is_finite(window_y) & is_finite(depth) & is_finite(reciprocal);
+            flags[i] = u32::from(inside & !arrived) | (u32::from(!inside) << 1) | (u32::from(!finite) * 3);
+            to_x[i] = snapped(window_x, grid, far);
+            to_y[i] = snapped(window_y, grid, far);
+            depths[i] = depth.to_bits();
+            reciprocals[i] = reciprocal.to_bits();
+        }
+    }
+}
+
+#[inline(always)]
+fn is_finite(x: f32) -> bool {
+    x.abs() < f32::INFINITY
+}
+
+/// The nearest grid line, halves up. In doubles the sum is exact wherever it decides.
+#[inline(always)]
+fn snapped(x: f32, grid: f64, far: f64) -> i32 {
+    let line = (f64::from(x) * grid + 0.5).floor();
+    let low = if line > -far { line } else { -far };
+    (if low < far { low } else { far }) as i32
+}
