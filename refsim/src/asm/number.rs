@@ -1,6 +1,6 @@
 //! Values of definitions: decimals to bits and back.
 
-use super::MAX_NUMBER;
+use super::limits::MAX_NUMBER;
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
 use crate::num::Format;
