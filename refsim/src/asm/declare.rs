@@ -1,8 +1,8 @@
 //! Definitions (`def`, `defi`, `defb`) and declarations (`dcl`).
 
-use super::error::{ErrorKind, SyntaxError, quote};
-use super::lexer::{Kind, Token};
-use super::parser::{Parsed, Parser};
+use super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use super::lexer::{Token, TokenKind};
+use super::parser::Parser;
 use super::{number, word};
 use crate::isa::{ConstantDef, ConstantValue, Declaration, Register, RegisterFile, Span, Usage};
 
@@ -200,10 +200,10 @@ impl<'a> Parser<'a> {
                 self.record(error);
                 good = false;
             }
-            if self.peek().kind == Kind::Comma {
+            if self.peek().kind == TokenKind::Comma {
                 continue;
             }
-            let signed = self.peek().kind == Kind::Plus && self.peek_at(1).kind == Kind::Number;
+            let signed = self.peek().kind == TokenKind::Plus && self.peek_at(1).kind == TokenKind::Number;
             if self.at_list_end() && !signed {
                 return (values, good);
             }
@@ -220,11 +220,11 @@ impl<'a> Parser<'a> {
 
     fn value(&mut self, file: RegisterFile) -> Parsed<u32> {
         let sign = match self.peek().kind {
-            Kind::Minus | Kind::Plus => Some(self.next()),
+            TokenKind::Minus | TokenKind::Plus => Some(self.next()),
             _ => None,
         };
         let token = self.peek();
-        if matches!(token.kind, Kind::Number | Kind::Word) {
+        if matches!(token.kind, TokenKind::Number | TokenKind::Word) {
             self.next();
         }
         let span = sign.map_or(token.span, |s| s.span.join(token.span));
@@ -243,8 +243,8 @@ impl<'a> Parser<'a> {
             };
         }
         match (token.kind, file) {
-            (Kind::Number, RegisterFile::ConstantInt) => number::integer(&text, span).map(i32::cast_unsigned),
-            (Kind::Number, _) => number::float(&text, span),
+            (TokenKind::Number, RegisterFile::ConstantInt) => number::integer(&text, span).map(i32::cast_unsigned),
+            (TokenKind::Number, _) => number::float(&text, span),
             _ => Err(SyntaxError::new(
                 ErrorKind::MalformedValue,
                 span,

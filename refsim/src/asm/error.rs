@@ -181,6 +181,9 @@ fn summary(errors: &[SyntaxError]) -> String {
     }
 }
 
+/// The result of reading one part of a statement.
+pub(super) type Parsed<T> = Result<T, SyntaxError>;
+
 /// A piece of the text as error messages show it: in backticks, cut at 40 characters.
 pub(super) fn quote(text: &str) -> String {
     match text.char_indices().nth(40) {

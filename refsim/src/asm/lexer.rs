@@ -1,12 +1,21 @@
-//! Text to tokens. Never fails: what fits nowhere becomes a token that the parser will refuse in its place.
+//! Text to tokens, for both languages. Never fails: what fits nowhere becomes a token that the parser refuses in its place.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
 
+/// The language of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dialect {
+    /// A statement per line; comments start with `;` or `//`, or stand between `/*` and `*/`.
+    Direct3d,
+    /// Statements end with `;`; comments start with `#`.
+    OpenGl,
+}
+
 /// The kinds of token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Letters, digits and underscores, not starting with a digit; a version token with its dots.
+pub(super) enum TokenKind {
+    /// Letters, digits and underscores (in OpenGL also `$`), not starting with a digit; a version token with its dots.
     Word,
     /// Starts with a digit, or with a point and a digit. Not necessarily well formed.
     Number,
@@ -19,6 +28,8 @@ pub(super) enum Kind {
     CloseParen,
     OpenBracket,
     CloseBracket,
+    /// Punctuation that only OpenGL has: one of `;|{}=`, or `..`.
+    OpenGlMark,
     Newline,
     /// A character that no program contains.
     Unknown,
@@ -29,7 +40,7 @@ pub(super) enum Kind {
 /// A token and its place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'a> {
-    pub(super) kind: Kind,
+    pub(super) kind: TokenKind,
     pub(super) text: &'a str,
     pub(super) span: Span,
 }
@@ -38,40 +49,38 @@ impl Token<'_> {
     /// The token as error messages name it.
     pub(super) fn found(&self) -> String {
         match self.kind {
-            Kind::Newline => "the end of the line".to_owned(),
-            Kind::End => "the end of the program".to_owned(),
+            TokenKind::Newline => "the end of the line".to_owned(),
+            TokenKind::End => "the end of the program".to_owned(),
             _ => quote(self.text),
         }
     }
 }
 
-/// Splits `text`, which must not be longer than [`super::MAX_TEXT`].
-pub(super) fn lex(text: &str) -> (Vec<Token<'_>>, Vec<SyntaxError>) {
-    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), errors: Vec::new() };
-    if text.starts_with('\u{feff}') {
-        lexer.at = '\u{feff}'.len_utf8();
-    }
+/// Splits `text` from byte `from` on; it must not be longer than [`super::MAX_TEXT`].
+pub(super) fn lex(text: &str, from: usize, dialect: Dialect) -> (Vec<Token<'_>>, Vec<SyntaxError>) {
+    let mut lexer = Lexer { text, at: from, dialect, tokens: Vec::new(), errors: Vec::new() };
     while lexer.at < text.len() {
         lexer.step();
     }
-    lexer.push(Kind::End, 0);
+    lexer.push(TokenKind::End, 0);
     (lexer.tokens, lexer.errors)
 }
 
 struct Lexer<'a> {
     text: &'a str,
     at: usize,
+    dialect: Dialect,
     tokens: Vec<Token<'a>>,
     errors: Vec<SyntaxError>,
 }
 
-const fn is_word(byte: u8) -> bool {
-    byte.is_ascii_alphanumeric() || byte == b'_'
-}
-
 impl Lexer<'_> {
-    fn byte(&self, ahead: usize) -> Option<u8> {
-        self.text.as_bytes().get(self.at + ahead).copied()
+    fn rest(&self) -> &[u8] {
+        &self.text.as_bytes()[self.at..]
+    }
+
+    fn is_word(&self, byte: u8) -> bool {
+        byte.is_ascii_alphanumeric() || byte == b'_' || (byte == b'$' && self.dialect == Dialect::OpenGl)
     }
 
     fn span(&self, len: usize) -> Span {
@@ -79,7 +88,7 @@ impl Lexer<'_> {
         Span::new(self.at as u32, (self.at + len) as u32)
     }
 
-    fn push(&mut self, kind: Kind, len: usize) {
+    fn push(&mut self, kind: TokenKind, len: usize) {
         let span = self.span(len);
         let text = &self.text[self.at..self.at + len];
         self.tokens.push(Token { kind, text, span });
@@ -87,37 +96,42 @@ impl Lexer<'_> {
     }
 
     fn step(&mut self) {
-        let Some(byte) = self.byte(0) else { return };
-        let next = self.byte(1);
+        let (byte, next) = (self.rest()[0], self.rest().get(1).copied());
+        let opengl = self.dialect == Dialect::OpenGl;
         match byte {
-            b' ' | b'\t' | b'\x0b' | b'\x0c' => self.at += 1,
-            b'\r' if next == Some(b'\n') => self.push(Kind::Newline, 2),
-            b'\n' | b'\r' => self.push(Kind::Newline, 1),
-            b';' => self.line_comment(),
-            b'/' if next == Some(b'/') => self.line_comment(),
-            b'/' if next == Some(b'*') => self.block_comment(),
-            b',' => self.push(Kind::Comma, 1),
-            b'+' => self.push(Kind::Plus, 1),
-            b'-' => self.push(Kind::Minus, 1),
-            b'!' => self.push(Kind::Bang, 1),
-            b'(' => self.push(Kind::OpenParen, 1),
-            b')' => self.push(Kind::CloseParen, 1),
-            b'[' => self.push(Kind::OpenBracket, 1),
-            b']' => self.push(Kind::CloseBracket, 1),
-            b'.' if !next.is_some_and(|b| b.is_ascii_digit()) => self.push(Kind::Dot, 1),
+            b' ' | b'\t' | b'\x0c' => self.at += 1,
+            b'\n' | b'\r' if opengl => self.at += 1,
+            b'\x0b' if !opengl => self.at += 1,
+            b'\r' if next == Some(b'\n') => self.push(TokenKind::Newline, 2),
+            b'\n' | b'\r' => self.push(TokenKind::Newline, 1),
+            b'#' if opengl => self.line_comment(),
+            b';' if !opengl => self.line_comment(),
+            b'/' if next == Some(b'/') && !opengl => self.line_comment(),
+            b'/' if next == Some(b'*') && !opengl => self.block_comment(),
+            b',' => self.push(TokenKind::Comma, 1),
+            b'+' => self.push(TokenKind::Plus, 1),
+            b'-' => self.push(TokenKind::Minus, 1),
+            b'!' if !opengl => self.push(TokenKind::Bang, 1),
+            b'(' => self.push(TokenKind::OpenParen, 1),
+            b')' => self.push(TokenKind::CloseParen, 1),
+            b'[' => self.push(TokenKind::OpenBracket, 1),
+            b']' => self.push(TokenKind::CloseBracket, 1),
+            b';' | b'|' | b'{' | b'}' | b'=' if opengl => self.push(TokenKind::OpenGlMark, 1),
+            b'.' if next == Some(b'.') && opengl => self.push(TokenKind::OpenGlMark, 2),
+            b'.' if !next.is_some_and(|b| b.is_ascii_digit()) => self.push(TokenKind::Dot, 1),
             b'.' | b'0'..=b'9' => self.number(),
-            b if is_word(b) => self.word(),
+            b if self.is_word(b) => self.word(),
             _ => {
                 let len = self.text[self.at..].chars().next().map_or(1, char::len_utf8);
-                self.push(Kind::Unknown, len);
+                self.push(TokenKind::Unknown, len);
             }
         }
     }
 
     fn line_comment(&mut self) {
-        let rest = &self.text.as_bytes()[self.at..];
-        let len = rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
-        self.at += len.unwrap_or(rest.len());
+        let rest = self.rest();
+        let len = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+        self.at += len;
     }
 
     fn block_comment(&mut self) {
@@ -137,31 +151,35 @@ impl Lexer<'_> {
     }
 
     fn word(&mut self) {
-        let rest = &self.text.as_bytes()[self.at..];
-        let mut len = rest.iter().take_while(|&&b| is_word(b)).count();
+        let rest = self.rest();
+        let mut len = rest.iter().take_while(|&&b| self.is_word(b)).count();
         // DirectX 8 wrote versions with points.
         let stage = &rest[..len];
-        if stage.eq_ignore_ascii_case(b"ps") || stage.eq_ignore_ascii_case(b"vs") {
-            len = rest.iter().take_while(|&&b| is_word(b) || b == b'.').count();
+        let version = stage.eq_ignore_ascii_case(b"ps") || stage.eq_ignore_ascii_case(b"vs");
+        if version && self.dialect == Dialect::Direct3d {
+            len = rest.iter().take_while(|&&b| self.is_word(b) || b == b'.').count();
         }
-        self.push(Kind::Word, len);
+        self.push(TokenKind::Word, len);
     }
 
-    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens.
+    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens. In OpenGL
+    /// `0..3` is three tokens.
     fn number(&mut self) {
-        let rest = &self.text.as_bytes()[self.at..];
-        let hexadecimal = rest.len() > 1 && rest[0] == b'0' && rest[1].eq_ignore_ascii_case(&b'x');
+        let rest = self.rest();
+        let direct3d = self.dialect == Dialect::Direct3d;
+        let hexadecimal = direct3d && rest[0] == b'0' && rest.get(1).is_some_and(|b| b.eq_ignore_ascii_case(&b'x'));
         let mut len = 1;
         while let Some(&byte) = rest.get(len) {
             let exponent_sign = matches!(byte, b'+' | b'-')
                 && !hexadecimal
                 && rest[len - 1].eq_ignore_ascii_case(&b'e')
                 && rest.get(len + 1).is_some_and(u8::is_ascii_digit);
-            if !(is_word(byte) || byte == b'.' || exponent_sign) {
+            let range = !direct3d && byte == b'.' && rest.get(len + 1) == Some(&b'.');
+            if range || !(self.is_word(byte) || byte == b'.' || exponent_sign) {
                 break;
             }
             len += 1;
         }
-        self.push(Kind::Number, len);
+        self.push(TokenKind::Number, len);
     }
 }

@@ -1,8 +1,8 @@
 //! Lists of operands and values: commas, ends, and going on after an error.
 
-use super::error::{ErrorKind, SyntaxError, quote};
-use super::lexer::Kind;
-use super::parser::{Parsed, Parser};
+use super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use super::lexer::TokenKind;
+use super::parser::Parser;
 use super::word;
 use crate::isa::{Destination, Source};
 
@@ -11,8 +11,8 @@ impl Parser<'_> {
     pub(super) fn at_list_end(&self) -> bool {
         let token = self.peek();
         match token.kind {
-            Kind::Newline | Kind::End | Kind::Plus | Kind::OpenParen => true,
-            Kind::Word => word::starts_statement(token.text) || word::is_version(token.text),
+            TokenKind::Newline | TokenKind::End | TokenKind::Plus | TokenKind::OpenParen => true,
+            TokenKind::Word => word::starts_statement(token.text) || word::is_version(token.text),
             _ => false,
         }
     }
@@ -20,20 +20,20 @@ impl Parser<'_> {
     /// Takes the comma between two items of a list, if there is one, and the line ends after it when the list goes
     /// on in the next line.
     pub(super) fn comma(&mut self, first: bool) -> Parsed<()> {
-        let Some(comma) = self.accept(Kind::Comma) else {
+        let Some(comma) = self.accept(TokenKind::Comma) else {
             return Ok(());
         };
         let mut ahead = 0;
-        while self.peek_at(ahead).kind == Kind::Newline {
+        while self.peek_at(ahead).kind == TokenKind::Newline {
             ahead += 1;
         }
         let token = self.peek_at(ahead);
         let ends = match token.kind {
-            Kind::Word => word::starts_statement(token.text) || word::is_version(token.text),
+            TokenKind::Word => word::starts_statement(token.text) || word::is_version(token.text),
             // Only a number can follow: `def c0, +1`.
-            Kind::Plus => self.peek_at(ahead + 1).kind != Kind::Number,
-            Kind::Number | Kind::Minus | Kind::Bang => false,
-            Kind::Comma | Kind::OpenParen | Kind::Newline | Kind::End => true,
+            TokenKind::Plus => self.peek_at(ahead + 1).kind != TokenKind::Number,
+            TokenKind::Number | TokenKind::Minus | TokenKind::Bang => false,
+            TokenKind::Comma | TokenKind::OpenParen | TokenKind::Newline | TokenKind::End => true,
             // Nonsense: the operand's own error says more, if it is in this line.
             _ => ahead > 0,
         };
@@ -62,7 +62,7 @@ impl Parser<'_> {
                 self.record(error);
                 good = false;
             }
-            if self.peek().kind == Kind::Comma {
+            if self.peek().kind == TokenKind::Comma {
                 continue;
             }
             if self.at_list_end() {

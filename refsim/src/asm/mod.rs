@@ -8,16 +8,18 @@
 //!
 //! [`print()`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
 //!
-//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) are read by rooms of their own (`gl`), into the same program.
+//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) have parsers of their own (`gl`), and give the same program.
 //!
 //! Two spellings are ours, because period text cannot say them: `def` takes `0x` and eight hexadecimal digits as the
 //! bits of a float (so that infinities and NaNs can be printed), and a constant's value may end in `f`.
 //! Source: Direct3D 9 "Assembly Shader Syntax" pages, DirectX 8.1 "Pixel Shader Assembler Reference".
 
+mod cursor;
 mod declare;
 mod error;
 mod gl;
 mod lexer;
+mod limits;
 mod list;
 mod number;
 mod operand;
@@ -26,21 +28,9 @@ mod print;
 mod word;
 
 pub use error::{AssembleErrors, ErrorKind, SyntaxError};
+pub use limits::{MAX_ERRORS, MAX_NUMBER, MAX_OPERANDS, MAX_REGISTER, MAX_STATEMENTS, MAX_TEXT};
 
 use crate::isa::{Program, Register, Span};
-
-/// The longest program text that [`assemble`] reads, in bytes.
-pub const MAX_TEXT: usize = 1 << 20;
-/// The most instructions, constants and declarations together that a program may have.
-pub const MAX_STATEMENTS: usize = 1 << 16;
-/// How many syntax errors are reported before the assembler gives up on a text.
-pub const MAX_ERRORS: usize = 1000;
-/// The highest register number that can be written; what a version really has is the checker's business.
-pub const MAX_REGISTER: u16 = u16::MAX;
-/// The most operands that an instruction foreign to its version may have.
-pub const MAX_OPERANDS: usize = 8;
-/// The longest number, in characters.
-pub const MAX_NUMBER: usize = 128;
 
 /// Reads a program.
 ///
@@ -61,8 +51,7 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     if gl::is_program(text) {
         return gl::assemble(text);
     }
-    let (tokens, errors) = lexer::lex(text);
-    parser::Parser::new(tokens, errors).run()
+    parser::Parser::new(text).run()
 }
 
 /// The canonical text of a program, which [`assemble`] reads back to an equal one: in small letters for Direct3D's

@@ -1,10 +1,11 @@
 //! Operands: registers with their addresses, swizzles, masks and modifiers.
 
-use super::error::{ErrorKind, SyntaxError, quote};
-use super::lexer::{Kind, Token};
-use super::parser::{Parsed, Parser};
-use super::{MAX_REGISTER, word};
-use crate::isa::{Destination, Mask, Modifier, Register, RegisterFile, Relative, Source, Span, Swizzle};
+use super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use super::lexer::{Token, TokenKind};
+use super::limits::MAX_REGISTER;
+use super::parser::Parser;
+use super::word;
+use crate::isa::{Destination, Mask, Modifier, Predicate, Register, RegisterFile, Relative, Source, Span, Swizzle};
 
 /// The files, longest prefixes first.
 const FILES: [RegisterFile; 18] = [
@@ -182,11 +183,46 @@ fn clash(span: Span, found: &str) -> SyntaxError {
 }
 
 impl<'a> Parser<'a> {
+    /// `(p0)`, `(!p0.x)`
+    pub(super) fn predicate(&mut self) -> Parsed<Predicate> {
+        let open = self.next();
+        let not = self.accept(TokenKind::Bang).is_some();
+        let bad = |token: Token<'_>, expected: &str| {
+            SyntaxError::new(
+                ErrorKind::Predicate,
+                token.span,
+                expected,
+                token.found(),
+                "write `(p0)`, `(!p0)` or `(p0.x)` in front of the instruction",
+            )
+        };
+        let name = self.next_in_line();
+        if name.kind != TokenKind::Word || !name.text.eq_ignore_ascii_case("p0") {
+            return Err(bad(name, "the predicate register `p0`"));
+        }
+        let swizzle = match self.accept(TokenKind::Dot) {
+            Some(_) => {
+                let letters = self.next_in_line();
+                if letters.kind != TokenKind::Word {
+                    return Err(bad(letters, "one to four of xyzw"));
+                }
+                swizzle(letters.text, letters.span)?
+            }
+            None => Swizzle::IDENTITY,
+        };
+        let close = self.peek();
+        if close.kind != TokenKind::CloseParen {
+            return Err(bad(close, "`)`"));
+        }
+        self.next();
+        Ok(Predicate { not, swizzle, span: open.span.join(close.span) })
+    }
+
     fn malformed(&self, expected: &str) -> SyntaxError {
         let token = self.peek();
         let help = match token.kind {
-            Kind::Number => "constants are named: `def c0, ...` first, then `c0`",
-            Kind::Newline | Kind::End => "the operand is missing",
+            TokenKind::Number => "constants are named: `def c0, ...` first, then `c0`",
+            TokenKind::Newline | TokenKind::End => "the operand is missing",
             _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
         };
         SyntaxError::new(ErrorKind::MalformedOperand, token.span, expected, token.found(), help)
@@ -195,9 +231,9 @@ impl<'a> Parser<'a> {
     /// A destination, without the modifiers that its instruction's word carries.
     pub(super) fn destination(&mut self) -> Parsed<Destination> {
         let start = self.peek();
-        if matches!(start.kind, Kind::Minus | Kind::Bang | Kind::Number) {
+        if matches!(start.kind, TokenKind::Minus | TokenKind::Bang | TokenKind::Number) {
             return Err(match start.kind {
-                Kind::Number if self.peek_at(1).kind != Kind::Minus => self.malformed("a register"),
+                TokenKind::Number if self.peek_at(1).kind != TokenKind::Minus => self.malformed("a register"),
                 _ => self.on_destination(start.span, start.text),
             });
         }
@@ -234,9 +270,9 @@ impl<'a> Parser<'a> {
     pub(super) fn source(&mut self) -> Parsed<Source> {
         let start = self.peek().span.start;
         let prefix = match self.peek().kind {
-            Kind::Minus => Some(Prefix::Negate),
-            Kind::Bang => Some(Prefix::Not),
-            Kind::Number if self.peek().text == "1" && self.peek_at(1).kind == Kind::Minus => {
+            TokenKind::Minus => Some(Prefix::Negate),
+            TokenKind::Bang => Some(Prefix::Not),
+            TokenKind::Number if self.peek().text == "1" && self.peek_at(1).kind == TokenKind::Minus => {
                 self.next();
                 Some(Prefix::Invert)
             }
@@ -286,21 +322,21 @@ impl<'a> Parser<'a> {
     /// A register, its address, its selector and its suffixes, the latter two in either order.
     fn named(&mut self) -> Parsed<Named<'a>> {
         let token = self.peek();
-        if token.kind != Kind::Word {
+        if token.kind != TokenKind::Word {
             return Err(self.malformed("a register"));
         }
         self.next();
         let mut modifiers: Vec<_> = word::suffixes(&token).collect();
         let register = self.register(token)?;
         let after = self.peek();
-        if register.1 && after.kind == Kind::Word && after.text.starts_with('_') {
+        if register.1 && after.kind == TokenKind::Word && after.text.starts_with('_') {
             self.next();
             modifiers.extend(word::suffixes(&after));
         }
         let mut selector = None;
-        if self.accept(Kind::Dot).is_some() {
+        if self.accept(TokenKind::Dot).is_some() {
             let letters = self.peek();
-            if letters.kind != Kind::Word {
+            if letters.kind != TokenKind::Word {
                 return Err(SyntaxError::new(
                     ErrorKind::Swizzle,
                     letters.span,
@@ -333,7 +369,7 @@ impl<'a> Parser<'a> {
                 "registers are r# v# t# c# i# b# s# a0 aL p0 l# oC# oDepth oPos oFog oPts oD# oT#",
             ));
         };
-        let bracket = self.peek().kind == Kind::OpenBracket;
+        let bracket = self.peek().kind == TokenKind::OpenBracket;
         if digits.is_empty() && !file.is_unnumbered() && !bracket {
             return Err(SyntaxError::new(
                 ErrorKind::MissingRegisterNumber,
@@ -370,7 +406,7 @@ impl<'a> Parser<'a> {
         loop {
             let token = self.next_in_line();
             match token.kind {
-                Kind::Number => {
+                TokenKind::Number => {
                     if !token.text.bytes().all(|b| b.is_ascii_digit()) {
                         return Err(self.address_error(token, "an integer"));
                     }
@@ -378,21 +414,21 @@ impl<'a> Parser<'a> {
                         .and_then(|n| register.index.checked_add(n))
                         .ok_or_else(|| out_of_range("sum of offsets", token.text, token.span))?;
                 }
-                Kind::Word if register.relative.is_some() => {
+                TokenKind::Word if register.relative.is_some() => {
                     return Err(self.address_error(token, "one address register at most"));
                 }
-                Kind::Word if token.text.eq_ignore_ascii_case("aL") => {
+                TokenKind::Word if token.text.eq_ignore_ascii_case("aL") => {
                     register.relative = Some(Relative::Loop);
                 }
-                Kind::Word if token.text.eq_ignore_ascii_case("a0") => {
+                TokenKind::Word if token.text.eq_ignore_ascii_case("a0") => {
                     register.relative = Some(Relative::Address(self.address_component()?));
                 }
                 _ => return Err(self.address_error(token, "`a0.x`, `aL` or a number")),
             }
             let token = self.peek();
             match token.kind {
-                Kind::Plus => self.next(),
-                Kind::CloseBracket => break,
+                TokenKind::Plus => self.next(),
+                TokenKind::CloseBracket => break,
                 _ => return Err(self.address_error(token, "`+` or `]`")),
             };
         }
@@ -402,12 +438,12 @@ impl<'a> Parser<'a> {
 
     fn address_component(&mut self) -> Parsed<u8> {
         let point = self.peek();
-        if self.accept(Kind::Dot).is_none() {
+        if self.accept(TokenKind::Dot).is_none() {
             return Err(self.address_error(point, "`.x`: one component of a0"));
         }
         let letter = self.peek();
         match components(letter.text).as_deref() {
-            Some(&[component]) if letter.kind == Kind::Word => {
+            Some(&[component]) if letter.kind == TokenKind::Word => {
                 self.next();
                 Ok(component)
             }

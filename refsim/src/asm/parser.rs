@@ -1,26 +1,39 @@
 //! Tokens to a program: statements, and what is in front of them.
 
-use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
-use super::lexer::{Kind, Token};
-use super::{MAX_ERRORS, MAX_OPERANDS, MAX_STATEMENTS, word};
+use std::ops::{Deref, DerefMut};
+
+use super::cursor::Cursor;
+use super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote};
+use super::lexer::{Dialect, Token, TokenKind};
+use super::limits::MAX_OPERANDS;
+use super::word;
 use crate::isa::{
     ConstantDef, Declaration, Destination, DestinationRule, FragmentPart, Instruction, OpInfo, Predicate, Program,
-    Source, Span, Swizzle, Version,
+    Source, Span, Version,
 };
-
-/// The result of reading one part of a statement.
-pub(super) type Parsed<T> = Result<T, SyntaxError>;
 
 /// The state of reading one text. A part that reads badly returns its error; the statement records it, skips
 /// to where the next part can start, and goes on, so that one slip hides no other.
 pub(super) struct Parser<'a> {
-    tokens: Vec<Token<'a>>,
-    pub(super) at: usize,
-    errors: Vec<SyntaxError>,
+    cursor: Cursor<'a>,
     version: Option<(Version, Span)>,
     pub(super) constants: Vec<ConstantDef>,
     pub(super) declarations: Vec<Declaration>,
     pub(super) instructions: Vec<Instruction>,
+}
+
+impl<'a> Deref for Parser<'a> {
+    type Target = Cursor<'a>;
+
+    fn deref(&self) -> &Cursor<'a> {
+        &self.cursor
+    }
+}
+
+impl DerefMut for Parser<'_> {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.cursor
+    }
 }
 
 /// What a statement may have in front.
@@ -32,12 +45,11 @@ struct Prefix {
 }
 
 impl<'a> Parser<'a> {
-    /// A parser of `tokens`, which end with [`Kind::End`].
-    pub(super) fn new(tokens: Vec<Token<'a>>, errors: Vec<SyntaxError>) -> Self {
+    /// A parser of a text.
+    pub(super) fn new(text: &'a str) -> Self {
+        let from = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         Self {
-            tokens,
-            at: 0,
-            errors,
+            cursor: Cursor::new(text, from, Dialect::Direct3d),
             version: None,
             constants: Vec::new(),
             declarations: Vec::new(),
@@ -49,41 +61,14 @@ impl<'a> Parser<'a> {
     pub(super) fn run(mut self) -> Result<Program, AssembleErrors> {
         self.skip_newlines();
         self.read_version();
-        let mut statements = 0;
-        loop {
-            self.skip_newlines();
-            let token = self.peek();
-            if self.errors.len() >= MAX_ERRORS {
-                self.stop(ErrorKind::TooManyErrors, MAX_ERRORS, "errors");
-                break;
-            }
-            if token.kind == Kind::End {
-                break;
-            }
-            if statements >= MAX_STATEMENTS {
-                self.stop(ErrorKind::TooManyStatements, MAX_STATEMENTS, "statements");
-                break;
-            }
-            statements += 1;
+        self.skip_newlines();
+        while self.goes_on() && self.peek().kind != TokenKind::End {
             self.statement();
+            self.skip_newlines();
         }
-        self.finish()
-    }
-
-    /// Says that the rest of the text is not read.
-    fn stop(&mut self, kind: ErrorKind, limit: usize, what: &str) {
-        self.errors.push(SyntaxError::new(
-            kind,
-            self.peek().span,
-            format!("at most {limit} {what}"),
-            "more of them",
-            "the rest of the text was not read",
-        ));
-    }
-
-    fn finish(mut self) -> Result<Program, AssembleErrors> {
+        let errors = self.finish().unwrap_or(AssembleErrors { errors: Vec::new() });
         match self.version {
-            Some((version, version_span)) if self.errors.is_empty() => Ok(Program {
+            Some((version, version_span)) if errors.errors.is_empty() => Ok(Program {
                 version,
                 version_span,
                 constants: self.constants,
@@ -91,76 +76,42 @@ impl<'a> Parser<'a> {
                 instructions: self.instructions,
                 parameters: Vec::new(),
             }),
-            _ => {
-                self.errors.sort_by_key(|error| error.span.start);
-                Err(AssembleErrors { errors: self.errors })
-            }
+            _ => Err(errors),
         }
     }
 
     // ---- tokens ----
 
-    pub(super) fn peek(&self) -> Token<'a> {
-        self.peek_at(0)
-    }
-
-    /// The token `ahead` places on; the end for ever after the last.
-    pub(super) fn peek_at(&self, ahead: usize) -> Token<'a> {
-        let last = self.tokens.len() - 1;
-        self.tokens[(self.at + ahead).min(last)]
-    }
-
-    pub(super) fn next(&mut self) -> Token<'a> {
-        let token = self.peek();
-        self.at = (self.at + 1).min(self.tokens.len() - 1);
-        token
-    }
-
-    pub(super) fn accept(&mut self, kind: Kind) -> Option<Token<'a>> {
-        (self.peek().kind == kind).then(|| self.next())
-    }
-
-    /// The end of the token before the current one.
-    pub(super) fn last_end(&self) -> u32 {
-        self.tokens[self.at.saturating_sub(1)].span.end
-    }
-
-    /// Adds an error, up to [`MAX_ERRORS`].
-    pub(super) fn record(&mut self, error: SyntaxError) {
-        if self.errors.len() < MAX_ERRORS {
-            self.errors.push(error);
-        }
-    }
-
     /// Takes the current token unless it ends the line, and returns it.
     pub(super) fn next_in_line(&mut self) -> Token<'a> {
         let token = self.peek();
-        if token.kind != Kind::Newline {
+        if token.kind != TokenKind::Newline {
             self.next();
         }
         token
     }
 
     fn skip_newlines(&mut self) {
-        while self.accept(Kind::Newline).is_some() {}
+        while self.accept(TokenKind::Newline).is_some() {}
     }
 
     /// Skips to the next comma, the end of the line, or a co-issued instruction in the same line.
     pub(super) fn skip_operand(&mut self) {
-        while !matches!(self.peek().kind, Kind::Comma | Kind::Newline | Kind::End) && !self.at_coissue() {
+        while !matches!(self.peek().kind, TokenKind::Comma | TokenKind::Newline | TokenKind::End) && !self.at_coissue()
+        {
             self.next();
         }
     }
 
     fn skip_line(&mut self) {
-        while !matches!(self.peek().kind, Kind::Newline | Kind::End) && !self.at_coissue() {
+        while !matches!(self.peek().kind, TokenKind::Newline | TokenKind::End) && !self.at_coissue() {
             self.next();
         }
     }
 
     fn at_coissue(&self) -> bool {
         let next = self.peek_at(1);
-        self.peek().kind == Kind::Plus && next.kind == Kind::Word && word::starts_statement(next.text)
+        self.peek().kind == TokenKind::Plus && next.kind == TokenKind::Word && word::starts_statement(next.text)
     }
 
     // ---- the version ----
@@ -168,7 +119,7 @@ impl<'a> Parser<'a> {
     fn read_version(&mut self) {
         let token = self.peek();
         let all = Version::ALL.map(Version::token).join(" ");
-        if token.kind != Kind::Word || !word::is_version(token.text) {
+        if token.kind != TokenKind::Word || !word::is_version(token.text) {
             self.record(SyntaxError::new(
                 ErrorKind::MissingVersion,
                 token.span,
@@ -195,15 +146,15 @@ impl<'a> Parser<'a> {
             )),
         }
         let after = self.peek();
-        if !matches!(after.kind, Kind::Newline | Kind::End | Kind::Word) {
-            self.unexpected(after, "the end of the line");
+        if !matches!(after.kind, TokenKind::Newline | TokenKind::End | TokenKind::Word) {
+            self.misplaced(after, "the end of the line");
             self.skip_line();
         }
     }
 
     // ---- statements ----
 
-    fn unexpected(&mut self, token: Token<'a>, expected: &str) {
+    fn misplaced(&mut self, token: Token<'a>, expected: &str) {
         let help = match token.text {
             "#" => "there is no preprocessor: write numbers and registers out",
             "{" | "}" => "blocks are delimited by words: if_gt ... else ... endif",
@@ -223,8 +174,8 @@ impl<'a> Parser<'a> {
             }
         };
         let token = self.peek();
-        if token.kind != Kind::Word {
-            self.unexpected(token, "an instruction");
+        if token.kind != TokenKind::Word {
+            self.misplaced(token, "an instruction");
             self.next_in_line();
             self.skip_line();
             return;
@@ -261,45 +212,10 @@ impl<'a> Parser<'a> {
 
     fn prefix(&mut self) -> Parsed<Prefix> {
         let start = self.peek().span.start;
-        let coissue = self.accept(Kind::Plus).is_some();
-        let predicate = if self.peek().kind == Kind::OpenParen { Some(self.predicate()?) } else { None };
+        let coissue = self.accept(TokenKind::Plus).is_some();
+        let predicate = if self.peek().kind == TokenKind::OpenParen { Some(self.predicate()?) } else { None };
         let end = if coissue || predicate.is_some() { self.last_end() } else { start };
         Ok(Prefix { coissue, predicate, span: Span::new(start, end) })
-    }
-
-    /// `(p0)`, `(!p0.x)`
-    fn predicate(&mut self) -> Parsed<Predicate> {
-        let open = self.next();
-        let not = self.accept(Kind::Bang).is_some();
-        let bad = |token: Token<'_>, expected: &str| {
-            SyntaxError::new(
-                ErrorKind::Predicate,
-                token.span,
-                expected,
-                token.found(),
-                "write `(p0)`, `(!p0)` or `(p0.x)` in front of the instruction",
-            )
-        };
-        let name = self.next_in_line();
-        if name.kind != Kind::Word || !name.text.eq_ignore_ascii_case("p0") {
-            return Err(bad(name, "the predicate register `p0`"));
-        }
-        let swizzle = match self.accept(Kind::Dot) {
-            Some(_) => {
-                let letters = self.next_in_line();
-                if letters.kind != Kind::Word {
-                    return Err(bad(letters, "one to four of xyzw"));
-                }
-                super::operand::swizzle(letters.text, letters.span)?
-            }
-            None => Swizzle::IDENTITY,
-        };
-        let close = self.peek();
-        if close.kind != Kind::CloseParen {
-            return Err(bad(close, "`)`"));
-        }
-        self.next();
-        Ok(Predicate { not, swizzle, span: open.span.join(close.span) })
     }
 
     fn instruction(&mut self, token: Token<'a>, prefix: Prefix) {

@@ -2,18 +2,10 @@
 
 use std::ops::Deref;
 
+use super::Warning;
 use super::context::{Context, is_texture};
-use super::{Warning, slots};
+use super::slots::{self, SlotCount};
 use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
-
-/// Slots used.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SlotCount {
-    /// Texture instruction slots.
-    pub texture: u32,
-    /// Arithmetic instruction slots (flow control included).
-    pub arithmetic: u32,
-}
 
 /// Facts about a legal program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

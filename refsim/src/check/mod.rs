@@ -28,10 +28,11 @@ mod shape;
 mod slots;
 mod vertex;
 
-pub use facts::{Checked, Facts, SlotCount};
+pub use facts::{Checked, Facts};
 pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
 pub use report::{CheckReport, Violation, Warning};
 pub use rule::RuleId;
+pub use slots::SlotCount;
 
 use crate::device::Profile;
 use crate::isa::{Program, Stage, Version};

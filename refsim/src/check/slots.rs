@@ -3,8 +3,16 @@
 use super::RuleId;
 use super::allowed::Limit;
 use super::context::{Context, ordinal};
-use super::facts::SlotCount;
 use crate::isa::{Instruction, Opcode, SlotCost, Span, Stage, Usage, Version};
+
+/// Slots used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SlotCount {
+    /// Texture instruction slots.
+    pub texture: u32,
+    /// Arithmetic instruction slots (flow control included).
+    pub arithmetic: u32,
+}
 
 pub(super) fn check(context: &mut Context<'_>) {
     let phases: &[u8] = match (context.version, context.phase_marker()) {

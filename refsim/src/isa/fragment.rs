@@ -4,7 +4,7 @@
 //! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]` is
 //! `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
 
-use super::{Instruction, Opcode, RegisterFile, Span, Swizzle};
+use super::{Opcode, Span, Swizzle};
 
 /// The first `c#` of ARB's `program.env`; `p[0]` and `program.local[0]` are `c0`.
 pub const FIRST_ENVIRONMENT: u16 = 256;
@@ -234,20 +234,5 @@ impl Spelling {
     /// How OpenGL writes the operation; `None` for operations that only Direct3D has.
     pub fn of(opcode: Opcode) -> Option<&'static Self> {
         SPELLINGS.iter().find(|s| s.opcode == opcode)
-    }
-}
-
-impl Instruction {
-    /// The precision that an arithmetic instruction of an OpenGL program computes in: the suffix's, or the destination's.
-    /// Operands `f[TEX#]` and `f[FOGC]` ask for full precision whatever the suffix says.
-    pub fn precision(&self) -> Precision {
-        let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
-        if self.sources.iter().any(|s| interpolated(s.register.file)) {
-            return Precision::Full;
-        }
-        self.fragment.precision.unwrap_or(match self.destination {
-            Some(d) if d.register.file.is_half() => Precision::Half,
-            _ => Precision::Full,
-        })
     }
 }

@@ -9,6 +9,7 @@ mod opcode;
 mod operand;
 mod program;
 mod register;
+mod span;
 mod version;
 
 pub use fragment::{
@@ -17,6 +18,7 @@ pub use fragment::{
 };
 pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
 pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
-pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, Program, Span, Usage};
+pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, Program, Usage};
 pub use register::{Register, RegisterFile, Relative};
+pub use span::Span;
 pub use version::{Stage, Version};

@@ -1,46 +1,8 @@
 //! Programs and their parts.
 
-use super::{Comparison, Destination, FragmentPart, Opcode, Predicate, Register, Source, Version};
-
-/// A byte range of the program text.
-///
-/// Spans never take part in comparisons: two programs are equal if they mean the same.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Span {
-    /// First byte.
-    pub start: u32,
-    /// One past the last byte.
-    pub end: u32,
-}
-
-impl PartialEq for Span {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-impl Eq for Span {}
-impl std::hash::Hash for Span {
-    fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
-}
-
-impl From<Span> for miette::SourceSpan {
-    fn from(span: Span) -> Self {
-        let length = span.end.saturating_sub(span.start) as usize;
-        Self::new((span.start as usize).into(), length)
-    }
-}
-
-impl Span {
-    /// The span from `start` to `end` (bytes).
-    pub const fn new(start: u32, end: u32) -> Self {
-        Self { start, end }
-    }
-
-    /// The smallest span that holds both.
-    pub fn join(self, other: Self) -> Self {
-        Self { start: self.start.min(other.start), end: self.end.max(other.end) }
-    }
-}
+use super::{
+    Comparison, Destination, FragmentPart, Opcode, Precision, Predicate, Register, RegisterFile, Source, Span, Version,
+};
 
 /// The value of a `def`, `defi` or `defb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -159,5 +121,20 @@ impl Program {
     /// The index of the `phase` instruction, if there is one.
     pub fn phase_marker(&self) -> Option<usize> {
         self.instructions.iter().position(|i| i.opcode == Opcode::Phase)
+    }
+}
+
+impl Instruction {
+    /// The precision that an arithmetic instruction of an OpenGL program computes in: the suffix's, or the destination's.
+    /// Operands `f[TEX#]` and `f[FOGC]` ask for full precision whatever the suffix says.
+    pub fn precision(&self) -> Precision {
+        let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
+        if self.sources.iter().any(|s| interpolated(s.register.file)) {
+            return Precision::Full;
+        }
+        self.fragment.precision.unwrap_or(match self.destination {
+            Some(d) if d.register.file.is_half() => Precision::Half,
+            _ => Precision::Full,
+        })
     }
 }

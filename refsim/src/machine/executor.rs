@@ -1,24 +1,11 @@
-//! Which executor shades fragments, and what it needs.
+//! An executor with what it needs to make machines.
 
-use super::{Machine, MachineError};
+use super::{ExecutorKind, Machine, MachineError};
 use crate::device::Profile;
 use crate::exec::batch::BatchExecutor;
 #[cfg(feature = "wgpu")]
 use crate::exec::{gpu::Gpu, wgsl::NumberMode};
 use std::sync::Arc;
-
-/// Which executor shades fragments. The bits are the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum ExecutorKind {
-    /// The reference: one value at a time.
-    #[default]
-    Scalar,
-    /// Tiles of 256 fragments in vector code of the host.
-    Batch,
-    /// A GPU of the host.
-    #[cfg(feature = "wgpu")]
-    Wgpu,
-}
 
 /// An executor with what it needs, for code that makes machines of its own: they share what it has decoded.
 #[derive(Clone, Debug)]

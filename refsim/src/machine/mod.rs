@@ -14,10 +14,15 @@ mod device;
 mod draw;
 mod error;
 mod executor;
+mod executor_kind;
+mod handle;
 mod memory;
 mod observe;
 mod record;
+mod recorder;
+mod resources;
 mod state;
+mod tiles;
 mod trace;
 mod validate;
 mod vertices;
@@ -25,20 +30,19 @@ mod walk;
 
 pub use draw::{AttributeStream, BoundTexture, DEFAULT_ATTRIBUTE, DrawCall, StepRate, VertexSource, VertexStreams};
 pub use error::{MachineError, ProgramPlace};
-pub use executor::{Executor, ExecutorKind};
-pub use memory::{DepthId, TextureId};
+pub use executor::Executor;
+pub use executor_kind::ExecutorKind;
+pub use handle::{DepthId, TextureId};
 pub use trace::{FragmentTrace, PixelState};
 
 use std::sync::Arc;
 
 use crate::device::Profile;
 use crate::event::DrawEvents;
-use crate::exec::batch::{BatchExecutor, BatchTiles, SimdLevel};
-use crate::exec::scalar::ScalarTiles;
-use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
-use crate::isa::Stage;
+use crate::exec::batch::{BatchExecutor, SimdLevel};
 use memory::Memory;
-use record::Recorder;
+use recorder::Recorder;
+use tiles::{executor, tile_draw};
 use validate::Plan;
 
 /// An emulated card.
@@ -141,45 +145,5 @@ impl Machine {
             self.memory.store(&tile, &call.targets, call.depth_buffer)?;
         }
         Ok(drawn.events)
-    }
-}
-
-/// Who shades the tiles of a draw.
-enum Tiles<'a> {
-    Scalar(Box<ScalarTiles<'a>>),
-    Batch(Box<BatchTiles<'a>>),
-}
-
-/// The tile executor of a draw.
-fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Tiles<'a> {
-    match kind {
-        ExecutorKind::Scalar => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
-        ExecutorKind::Batch => match batch.tiles(draw) {
-            Some(tiles) => Tiles::Batch(Box::new(tiles)),
-            None => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
-        },
-        // Draws of such a machine go another way.
-        #[cfg(feature = "wgpu")]
-        ExecutorKind::Wgpu => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
-    }
-}
-
-/// What a draw looks like to an executor. Handles that are dead read as unbound; the plan has refused those before.
-fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) -> TileDraw<'a> {
-    let bind = |bound: BoundTexture| {
-        let image = memory.current(bound.texture).ok()?;
-        Some(SamplerBinding { image, state: bound.state })
-    };
-    TileDraw {
-        program: call.pixel_program,
-        rules: &profile.rules,
-        bindings: PixelBindings {
-            constants: call.pixel_constants,
-            samplers: call.samplers.map(|slot| slot.and_then(bind)),
-            bump: call.bump,
-            projections: call.projections,
-        },
-        output: call.output_state(),
-        step_budget: profile.limits.step_budget(Stage::Pixel),
     }
 }

@@ -1,57 +1,36 @@
-//! Drawing in the order of the hardware, so that somebody can watch the texels go by.
+//! Drawing in the order of the hardware, so that an observer sees texel reads in their real order.
 //!
 //! The bits are those of any draw: the scalar executor makes them. What differs is the order in which fragments come: primitive
 //! by primitive over the whole target, tile by tile within a primitive, quad by quad, on one thread.
 
-use super::record::Recorder;
+use super::recorder::Recorder;
+use super::tiles::tile_draw;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
-use super::walk::{ROUND, bytes, load};
-use super::{DrawCall, ExecutorKind, Machine, MachineError, TextureId, tile_draw};
+use super::walk::{bytes, load};
+use super::{DrawCall, ExecutorKind, Machine, MachineError};
 use crate::event::{DrawEvents, FragmentCounts, SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Observer, Overrun, SamplerBinding, Step, TILE, TextureRead, program, sample_rules};
 use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::{Layout, Region, SampleRules, TexelMap, touched};
-use std::collections::BTreeMap;
-
-/// What textures in memory start at multiples of.
-const ALIGNMENT: u64 = 4096;
-
-/// Where the card keeps its textures, as far as that is known: in the order in which draws first read them.
-#[derive(Debug, Default)]
-pub(super) struct Addresses {
-    first: BTreeMap<TextureId, u64>,
-    free: u64,
-}
-
-impl Addresses {
-    /// The first byte of a texture of `size` bytes.
-    fn of(&mut self, texture: TextureId, size: u64) -> u64 {
-        *self.first.entry(texture).or_insert_with(|| {
-            let at = self.free;
-            self.free = (at + size).next_multiple_of(ALIGNMENT);
-            at
-        })
-    }
-}
 
 /// A bound texture and its place in memory.
-struct Bound<'a> {
+struct PlacedTexture<'a> {
     binding: SamplerBinding<'a>,
     map: TexelMap,
     first: u64,
 }
 
 /// Passes the texels that a program reads on, by their addresses.
-struct Watch<'a> {
-    bound: [Option<Bound<'a>>; SAMPLERS],
+struct TexelReporter<'a> {
+    bound: [Option<PlacedTexture<'a>>; SAMPLERS],
     rules: SampleRules,
     observer: &'a mut dyn TexelObserver,
 }
 
-impl Observer for Watch<'_> {
+impl Observer for TexelReporter<'_> {
     const ACTIVE: bool = false;
     const READS: bool = true;
 
@@ -59,7 +38,7 @@ impl Observer for Watch<'_> {
 
     fn reads(&mut self, read: &TextureRead) {
         let Some(Some(bound)) = self.bound.get(read.sampler) else { return };
-        let Bound { binding, map, first } = bound;
+        let PlacedTexture { binding, map, first } = bound;
         let (sampler, bytes) = (read.sampler as u8, map.texel_bytes());
         touched(binding.image, &binding.state, &self.rules, read.coordinates, read.lod, |level, slice, y, x| {
             let address = first + map.offset(level, slice, y, x);
@@ -94,38 +73,35 @@ impl Machine {
         for ((slot, binding), texture) in bound.iter_mut().zip(&draw.bindings.samplers).zip(&call.samplers) {
             if let (Some(binding), Some(texture)) = (binding, texture) {
                 let map = TexelMap::new(layout, binding.image);
-                *slot = Some(Bound { binding: *binding, first: addresses.of(texture.texture, map.bytes()), map });
+                *slot =
+                    Some(PlacedTexture { binding: *binding, first: addresses.of(texture.texture, map.bytes()), map });
             }
         }
         observer.begin();
-        let mut watch = Watch { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
+        let mut reporter = TexelReporter { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
         let tiles = ScalarTiles::new(&draw);
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, &self.batch), ComponentMask::ALL);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let region = plan.raster.scissor;
         let empty = region.width == 0 || region.height == 0;
         let mut target = if empty { None } else { Some(load(memory, call, region)?) };
-        let round = (ROUND / plan.triangles.len().max(1)).max(1);
-        let mut first = 0;
-        while first < plan.instance_count {
-            let count = round.min(plan.instance_count - first);
-            let batch = stage.run(first, count, plan)?;
+        for round in plan.rounds() {
+            let batch = stage.run(round.start, round.len(), plan)?;
             events.vertices += batch.vertices.len() as u64;
             events.vertex_instructions += batch.slots;
-            let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
+            let (setups, primitives) = set_up(&batch.vertices, round.len(), plan, profile);
             events.primitives += primitives;
             if let Some(target) = &mut target {
                 for setup in &setups {
-                    let drawn = over_tiles(&tiles, setup, target, &mut watch);
+                    let drawn = over_tiles(&tiles, setup, target, &mut reporter);
                     events.fragments += drawn.map_err(|overrun| {
                         MachineError::overrun(overrun, program(call.pixel_program), draw.step_budget)
                     })?;
                 }
             }
-            first += count;
         }
         events.bytes = bytes(memory, call, &stage, &events);
-        let traffic = watch.observer.end();
+        let traffic = reporter.observer.end();
         if let Some(target) = target {
             self.memory.store(&target, &call.targets, call.depth_buffer)?;
         }
@@ -138,7 +114,7 @@ fn over_tiles(
     tiles: &ScalarTiles<'_>,
     setup: &TriangleSetup,
     target: &mut TargetTile,
-    watch: &mut Watch<'_>,
+    reporter: &mut TexelReporter<'_>,
 ) -> Result<FragmentCounts, Overrun> {
     let (mut counts, mut first) = (FragmentCounts::default(), None::<Overrun>);
     let within = setup.bounds.intersect(target.region);
@@ -146,7 +122,7 @@ fn over_tiles(
     for y in (within.y - within.y % TILE..within.y + within.height).step_by(step) {
         for x in (within.x - within.x % TILE..within.x + within.width).step_by(step) {
             let tile = Region { x, y, width: TILE, height: TILE }.intersect(within);
-            match tiles.run_region(setup, tile, target, watch) {
+            match tiles.run_region(setup, tile, target, reporter) {
                 Ok(more) => counts += more,
                 Err(overrun) => first = Some(first.map_or(overrun, |known| known.min(overrun))),
             }

@@ -3,15 +3,13 @@
 //! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits of
 //! one that does not, and the log is the same whichever executor draws, on any number of threads.
 
-use super::observe::Addresses;
-use super::state::State;
+use super::state::StateMarks;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
-use super::walk::{ROUND, depth_bytes};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
     DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
-    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, TexelObserver,
+    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord,
 };
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
@@ -20,56 +18,10 @@ use crate::raster::{ComponentMask, Edge, TriangleSetup};
 use crate::texture::{Filter, Image, MipFilter, Region};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, PoisonError};
 
 /// Coverages remembered within a draw: a crossbar draws one outline again and again.
-const MOST_OUTLINES: usize = 1024;
-
-/// The log and what it compares the next draw with.
-#[derive(Debug, Default)]
-pub(super) struct Recorder {
-    on: bool,
-    /// Read-backs log through a shared machine.
-    log: Mutex<Log>,
-    /// Who watches the texels.
-    pub(super) observer: Option<Box<dyn TexelObserver>>,
-    pub(super) addresses: Addresses,
-}
-
-#[derive(Debug, Default)]
-struct Log {
-    events: Vec<Event>,
-    state: Option<State>,
-    fences: u32,
-}
-
-impl Recorder {
-    fn with<T>(&self, work: impl FnOnce(&mut Log) -> T) -> Option<T> {
-        self.on.then(|| work(&mut self.log.lock().unwrap_or_else(PoisonError::into_inner)))
-    }
-
-    /// Writes an event down, if the machine records.
-    pub(super) fn push(&self, event: impl FnOnce() -> Event) {
-        self.with(|log| log.events.push(event()));
-    }
-
-    /// Whether the machine records.
-    pub(super) fn is_on(&self) -> bool {
-        self.on
-    }
-}
-
-impl From<TextureId> for ResourceId {
-    fn from(id: TextureId) -> Self {
-        Self::Texture(id.0)
-    }
-}
-
-impl From<DepthId> for ResourceId {
-    fn from(id: DepthId) -> Self {
-        Self::Depth(id.0)
-    }
-}
+const MAX_OUTLINES: usize = 1024;
 
 /// The log.
 impl Machine {
@@ -105,7 +57,7 @@ impl Machine {
     pub fn read_depth_async(&self, id: DepthId) -> Result<(FenceId, &DepthSurface), MachineError> {
         let surface = self.memory.current_depth(id)?;
         let fence = self.next_fence();
-        let bytes = depth_size(surface);
+        let bytes = surface.bytes();
         let mode = ReadBackMode::Asynchronous;
         self.recorder.push(|| Event::ReadBack { resource: id.into(), bytes, mode, fence: Some(fence) });
         Ok((fence, surface))
@@ -161,7 +113,7 @@ impl Machine {
             return;
         }
         let record = self.draw_record(call, plan, counts, traffic);
-        let state = State::of(call);
+        let state = StateMarks::of(call);
         self.recorder.with(|log| {
             let changes = state.changes_from(log.state.as_ref());
             log.state = Some(state);
@@ -246,7 +198,7 @@ impl Machine {
         });
         Some(DepthRecord {
             buffer: id.into(),
-            pixel_bytes: depth_bytes(surface.format()) as u32,
+            pixel_bytes: surface.format().bytes() as u32,
             test: call.depth.test.is_some(),
             write: call.depth.test.is_some() && call.depth.write,
             replaced,
@@ -257,15 +209,12 @@ impl Machine {
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
         let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), ComponentMask::NONE);
         let mut outlines = BTreeMap::new();
-        let round = (ROUND / plan.triangles.len().max(1)).max(1);
-        let (mut first, mut quads) = (0, 0);
-        while first < plan.instance_count {
-            let count = round.min(plan.instance_count - first);
+        let mut quads = 0;
+        for round in plan.rounds() {
             // The draw has been made: no vertex ran out of steps.
-            let Ok(batch) = stage.run(first, count, plan) else { break };
-            let (setups, _) = set_up(&batch.vertices, count, plan, &self.profile);
+            let Ok(batch) = stage.run(round.start, round.len(), plan) else { break };
+            let (setups, _) = set_up(&batch.vertices, round.len(), plan, &self.profile);
             quads += setups.iter().map(|setup| covered(setup, &mut outlines)).sum::<u64>();
-            first += count;
         }
         quads
     }
@@ -283,7 +232,7 @@ fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 
         return known;
     }
     let quads = setup.quads(setup.bounds).count() as u64;
-    if outlines.len() < MOST_OUTLINES {
+    if outlines.len() < MAX_OUTLINES {
         outlines.insert(outline, quads);
     }
     quads
@@ -292,9 +241,4 @@ fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 
 /// What a checked program is made of under its constants.
 fn work(checked: &CheckedProgram, constants: &Constants) -> ProgramWork {
     ProgramWork::new(program(checked), FlowConstants { int: &constants.int, boolean: &constants.boolean })
-}
-
-/// Bytes of a depth buffer as the card holds it.
-pub(super) fn depth_size(surface: &DepthSurface) -> u64 {
-    depth_bytes(surface.format()) * u64::from(surface.width()) * u64::from(surface.height())
 }

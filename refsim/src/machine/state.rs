@@ -6,9 +6,9 @@ use std::fmt::{self, Write as _};
 
 /// One mark for each piece of state.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct State(Vec<u64>);
+pub(super) struct StateMarks(Vec<u64>);
 
-impl State {
+impl StateMarks {
     /// The state that a call brings.
     pub(super) fn of(call: &DrawCall<'_>) -> Self {
         let mut marks = Vec::with_capacity(SAMPLERS + 14);

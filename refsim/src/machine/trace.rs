@@ -2,10 +2,11 @@
 
 #[cfg(feature = "wgpu")]
 use super::device::{Follower, StepBudget};
-use super::validate::Plan;
+use super::tiles::tile_draw;
+use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules};
-use super::walk::{ROUND, load};
-use super::{DrawCall, ExecutorKind, Machine, MachineError, tile_draw, validate};
+use super::walk::load;
+use super::{DrawCall, ExecutorKind, Machine, MachineError, validate};
 use crate::exec::batch::BatchExecutor;
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
@@ -157,19 +158,16 @@ impl Machine {
         &self,
         call: &DrawCall<'_>,
         plan: &Plan,
-        mut pass: impl FnMut(&[Placed]) -> Result<(), MachineError>,
+        mut pass: impl FnMut(&[PlacedSetup]) -> Result<(), MachineError>,
     ) -> Result<(), MachineError> {
         let stage = VertexStage::new(call, &self.profile, self.vertex_executor(), ComponentMask::ALL);
         let rules = raster_rules(&self.profile);
-        let round = (ROUND / plan.triangles.len().max(1)).max(1);
-        let mut first = 0;
-        while first < plan.instance_count {
-            let count = round.min(plan.instance_count - first);
+        for instances in plan.rounds() {
+            let (first, count) = (instances.start, instances.len());
             let vertices = stage.run(first, count, plan)?.vertices;
             for triangles in (0..count * plan.triangles.len()).collect::<Vec<_>>().chunks(ROUND) {
                 pass(&set_up(&vertices, triangles, first, plan, &rules))?;
             }
-            first += count;
         }
         Ok(())
     }
@@ -208,10 +206,16 @@ impl Machine {
 }
 
 /// A set-up with instance, triangle and part.
-type Placed = (usize, usize, usize, TriangleSetup);
+type PlacedSetup = (usize, usize, usize, TriangleSetup);
 
 /// Sets up some triangles of a round whose first instance is `first`.
-fn set_up(vertices: &[Vertex], triangles: &[usize], first: usize, plan: &Plan, rules: &RasterRules) -> Vec<Placed> {
+fn set_up(
+    vertices: &[Vertex],
+    triangles: &[usize],
+    first: usize,
+    plan: &Plan,
+    rules: &RasterRules,
+) -> Vec<PlacedSetup> {
     let each = plan.triangles.len().max(1);
     let mut placed = Vec::new();
     let mut parts = Vec::new();
@@ -231,7 +235,7 @@ struct Followed {
 }
 
 impl Followed {
-    fn pass(&mut self, setups: &[Placed], tracer: &dyn PixelTracer) -> Result<(), Overrun> {
+    fn pass(&mut self, setups: &[PlacedSetup], tracer: &dyn PixelTracer) -> Result<(), Overrun> {
         let pixel = self.tile.region;
         for (number, (instance, triangle, part, setup)) in (0..).zip(setups) {
             let inside = setup.bounds.intersect(pixel);

@@ -8,9 +8,10 @@ use crate::isa::{Program, Stage};
 use crate::output::{MOST_TARGETS, TargetTile};
 use crate::raster::{RasterState, Vertex, Viewport, assemble, provoking};
 use crate::texture::{Filter, MipFilter, Region};
+use std::ops::Range;
 
-/// Vertices an instance, and instances, that a draw can have.
-const MOST_VERTICES: usize = 1 << 24;
+/// The most vertices per instance, and the most instances, that a draw can have.
+const MAX_VERTICES: usize = 1 << 24;
 
 /// What a checked call comes to.
 pub(super) struct Plan {
@@ -26,7 +27,17 @@ pub(super) struct Plan {
     pub(super) provoking: Option<Vec<usize>>,
 }
 
+/// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
+/// however many there are.
+pub(super) const ROUND: usize = 8192;
+
 impl Plan {
+    /// The instances in order, in rounds of about [`ROUND`] triangles.
+    pub(super) fn rounds(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let (step, count) = ((ROUND / self.triangles.len().max(1)).max(1), self.instance_count);
+        (0..count).step_by(step).map(move |first| first..count.min(first + step))
+    }
+
     /// The corners of triangle `i` of an instance whose vertices start at `base`, as set-up takes them: in flat
     /// shading all with the colours of the provoking vertex.
     pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
@@ -60,8 +71,8 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
         }
     };
     for (what, found) in [("vertices", vertex_count), ("instances", instance_count)] {
-        if found > MOST_VERTICES {
-            return Err(MachineError::TooMany { what, found, limit: MOST_VERTICES });
+        if found > MAX_VERTICES {
+            return Err(MachineError::TooMany { what, found, limit: MAX_VERTICES });
         }
     }
     let triangles = triangles(call, vertex_count)?;

@@ -25,19 +25,19 @@ pub(super) struct Batch {
 /// The vertex stage of a call.
 pub(super) enum VertexStage<'a> {
     Transformed(&'a [Vertex]),
-    Program(Shader<'a>, Box<VertexProgram<'a>>),
-    Batch(Shader<'a>, Box<BatchVertices>),
+    Program(VertexShader<'a>, Box<VertexProgram<'a>>),
+    Batch(VertexShader<'a>, Box<BatchVertices>),
 }
 
 /// What a vertex program runs on, and its step budget.
 #[derive(Clone, Copy)]
-pub(super) struct Shader<'a> {
+pub(super) struct VertexShader<'a> {
     program: &'a CheckedProgram,
     streams: &'a VertexStreams<'a>,
     budget: u32,
 }
 
-impl Shader<'_> {
+impl VertexShader<'_> {
     /// The error of the first vertex, by instance and number, that did not end within the budget.
     fn overrun(&self, cut: impl Iterator<Item = (usize, usize, usize)>) -> Result<(), MachineError> {
         let Some((instance, vertex, instruction)) = cut.min() else { return Ok(()) };
@@ -57,7 +57,7 @@ impl<'a> VertexStage<'a> {
             VertexSource::Transformed(vertices) => Self::Transformed(vertices),
             VertexSource::Program { program, constants, streams } => {
                 let (rules, budget) = (&profile.rules, profile.limits.step_budget(Stage::Vertex));
-                let shader = Shader { program, streams, budget };
+                let shader = VertexShader { program, streams, budget };
                 if kind == ExecutorKind::Batch
                     && let Some(vertices) = batch.vertices((program, constants), rules, needed, budget)
                 {

@@ -1,9 +1,10 @@
 //! The walk over the target: tiles side by side, triangles in order within each.
 
 use super::memory::Memory;
-use super::validate::Plan;
+use super::tiles::Tiles;
+use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules, set_up};
-use super::{DrawCall, ExecutorKind, MachineError, Tiles};
+use super::{DrawCall, ExecutorKind, MachineError};
 use crate::device::Profile;
 use crate::event::{ByteCounts, DrawEvents, FragmentCounts};
 use crate::exec::batch::{BatchExecutor, Instances, Surfaces};
@@ -15,19 +16,15 @@ use crate::texture::Region;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
-/// however many there are.
-pub(super) const ROUND: usize = 8192;
-
 /// What a draw leaves behind.
-pub(super) struct Drawn {
+pub(super) struct DrawResult {
     /// Tiles that triangles touched, to be copied back.
     pub(super) tiles: Vec<TargetTile>,
     pub(super) events: DrawEvents,
 }
 
 /// A tile on its way through the rounds; loaded when the first triangle touches it.
-struct Work {
+struct TileWork {
     region: Region,
     tile: Option<TargetTile>,
     counts: FragmentCounts,
@@ -41,7 +38,7 @@ pub(super) fn draw(
     plan: &Plan,
     kind: (ExecutorKind, &BatchExecutor),
     executor: &Tiles<'_>,
-) -> Result<Drawn, MachineError> {
+) -> Result<DrawResult, MachineError> {
     let needed = match executor {
         Tiles::Scalar(_) => ComponentMask::ALL,
         Tiles::Batch(tiles) => tiles.inputs(),
@@ -54,10 +51,8 @@ pub(super) fn draw(
         Tiles::Batch(_) => TileShapes::Flat,
     };
     let mut work = tiles(plan.raster.scissor, shape);
-    let round = (ROUND / plan.triangles.len().max(1)).max(1);
-    let mut first = 0;
-    while first < plan.instance_count {
-        let count = round.min(plan.instance_count - first);
+    for instances in plan.rounds() {
+        let (first, count) = (instances.start, instances.len());
         match executor {
             Tiles::Scalar(tiles) => {
                 let batch = stage.run(first, count, plan)?;
@@ -94,13 +89,12 @@ pub(super) fn draw(
                 shade((memory, profile), call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
             }
         }
-        first += count;
     }
     for tile in &work {
         events.fragments += tile.counts;
     }
     events.bytes = bytes(memory, call, &stage, &events);
-    Ok(Drawn { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
+    Ok(DrawResult { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
 }
 
 /// The shapes of tile that an executor can take.
@@ -115,7 +109,7 @@ enum TileShapes {
 }
 
 /// The tiles of a region, row by row. They start at multiples of their size.
-fn tiles(region: Region, shapes: TileShapes) -> Vec<Work> {
+fn tiles(region: Region, shapes: TileShapes) -> Vec<TileWork> {
     let mut out = Vec::new();
     if region.width == 0 || region.height == 0 {
         return out;
@@ -129,7 +123,7 @@ fn tiles(region: Region, shapes: TileShapes) -> Vec<Work> {
     for y in region.y / height..=last_y / height {
         for x in region.x / width..=last_x / width {
             let whole = Region { x: x * width, y: y * height, width, height };
-            out.push(Work { region: whole.intersect(region), tile: None, counts: FragmentCounts::default() });
+            out.push(TileWork { region: whole.intersect(region), tile: None, counts: FragmentCounts::default() });
         }
     }
     out
@@ -158,7 +152,7 @@ fn shade<'s>(
     geometry: &(impl Fn(usize) -> Option<&'s TriangleSetup> + Sync),
     count: usize,
     run: &(impl Fn(&[u32], &mut TargetTile) -> Result<FragmentCounts, Overrun> + Sync),
-    work: &mut [Work],
+    work: &mut [TileWork],
 ) -> Result<(), MachineError> {
     let rows = row_bins(geometry, count, work);
     let first = FirstOverrun::default();
@@ -197,7 +191,7 @@ fn shade<'s>(
 fn row_bins<'s>(
     geometry: &impl Fn(usize) -> Option<&'s TriangleSetup>,
     triangles: usize,
-    work: &[Work],
+    work: &[TileWork],
 ) -> Vec<Vec<u32>> {
     let count = work.last().map_or(0, |w| w.region.y / TILE + 1);
     let mut rows = vec![Vec::new(); count as usize];
@@ -234,7 +228,7 @@ pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_
         out.textures += fetches * image.map_or(0, |i| i.format().bytes() as u64);
     }
     let depth_size = match call.depth_buffer.and_then(|id| memory.depth(id).ok()) {
-        Some(surface) => depth_bytes(surface.format()),
+        Some(surface) => surface.format().bytes(),
         None => 0,
     };
     if call.depth.test.is_some() {
@@ -256,12 +250,4 @@ pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_
         }
     }
     out
-}
-
-pub(super) fn depth_bytes(format: crate::output::DepthFormat) -> u64 {
-    use crate::output::DepthFormat::{Float24, Float32, Unorm16, Unorm24, Unorm32};
-    match format {
-        Unorm16 => 2,
-        Unorm24 | Unorm32 | Float32 | Float24 => 4,
-    }
 }

@@ -36,6 +36,14 @@ impl DepthFormat {
         }
     }
 
+    /// Bytes of a depth in the card's memory.
+    pub const fn bytes(self) -> u64 {
+        match self {
+            Self::Unorm16 => 2,
+            Self::Unorm24 | Self::Unorm32 | Self::Float32 | Self::Float24 => 4,
+        }
+    }
+
     /// The stored pattern of a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
     ///
     /// Patterns of one depth format order as their depths. `rounding` is for the integer formats; the float formats
@@ -222,6 +230,11 @@ impl DepthSurface {
     /// Height in pixels.
     pub fn height(&self) -> u32 {
         self.height
+    }
+
+    /// Its bytes in the card's memory.
+    pub fn bytes(&self) -> u64 {
+        self.format.bytes() * u64::from(self.width) * u64::from(self.height)
     }
 
     /// All patterns, row by row.

@@ -1,8 +1,11 @@
 //! Clipping in homogeneous coordinates, in FP32 steps.
 
+use super::state::ClipSpace;
 use super::vertex::{COMPONENTS, Vertex};
-use super::{ClipSpace, setup::GUARD_BAND};
 use crate::texture::value;
+
+/// How far past the viewport a triangle may reach before it is clipped, in viewports: 8 (FP32 bits).
+pub(crate) const GUARD_BAND: u32 = 0x4100_0000;
 
 /// A vertex in the clipper: position and interpolated components.
 #[derive(Clone, Copy, Debug)]

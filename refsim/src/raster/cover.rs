@@ -1,6 +1,6 @@
 //! Which pixels a triangle covers.
 
-use super::setup::TriangleSetup;
+use super::triangle::TriangleSetup;
 use crate::texture::Region;
 
 /// Two by two pixels, so that derivatives can be had: lane 0 at (x, y), lane 1 to its right, lanes 2 and 3 one row on.

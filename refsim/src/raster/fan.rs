@@ -1,8 +1,9 @@
 //! What the clipper left of a triangle, as a fan of triangles.
 
-use super::RasterRules;
 use super::clip::{ClipVertex, Polygon};
-use super::setup::{Corner, Dropped, RasterState, SetupReport, TriangleSetup, doubled_area, prepare, to_window};
+use super::state::{RasterRules, RasterState};
+use super::triangle::{Dropped, SetupReport, TriangleSetup, prepare};
+use super::window::{Corner, doubled_area, to_window};
 
 /// Sets up what the clipper left, as a fan around its first corner.
 ///

@@ -1,47 +1,11 @@
 //! Values of a fragment: weights, then one fixed sequence of rounded steps a component.
 
-use super::plane::plane;
-use super::setup::PixelCenter;
-use super::setup::{Plane, TriangleSetup};
-use super::vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
+use super::plane::{Plane, plane};
+use super::state::PixelCenter;
+use super::triangle::TriangleSetup;
+use super::vertex::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT};
 use crate::num::{self, Format};
 use crate::texture::value;
-
-/// A set of interpolated components.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct ComponentMask(pub u64);
-
-impl ComponentMask {
-    /// No component.
-    pub const NONE: Self = Self(0);
-    /// Every component that vertices have.
-    pub const ALL: Self = Self((1 << COMPONENTS) - 1);
-
-    /// The set with one component more.
-    pub const fn with(self, component: usize) -> Self {
-        Self(self.0 | (1 << component))
-    }
-
-    /// The set with all of texture coordinate set `set`.
-    pub const fn with_texcoord(self, set: usize) -> Self {
-        Self(self.0 | (15 << (TEXCOORD_COMPONENT + 4 * set)))
-    }
-
-    /// The set with all of colour `color`.
-    pub const fn with_color(self, color: usize) -> Self {
-        Self(self.0 | (15 << (COLOR_COMPONENT + 4 * color)))
-    }
-
-    /// The set with the window position.
-    pub const fn with_position(self) -> Self {
-        Self(self.0 | (15 << POSITION_COMPONENT))
-    }
-
-    /// Whether the component is in the set.
-    pub const fn has(self, component: usize) -> bool {
-        self.0 >> component & 1 == 1
-    }
-}
 
 /// What the rasteriser hands a pixel program. All numbers are FP32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -11,19 +11,27 @@ mod error;
 mod fan;
 mod interpolate;
 mod plane;
+mod primitive;
 mod setup;
+mod state;
+mod triangle;
 mod vertex;
+mod window;
 
-pub use assembly::{Primitive, Provoking, assemble, provoking};
-pub(crate) use clip::LEAST_W;
+pub use assembly::{assemble, provoking};
+pub(crate) use clip::{GUARD_BAND, LEAST_W};
 pub use cover::{PixelQuad, QuadIterator};
 pub use error::RasterError;
 pub(crate) use interpolate::interpolated;
-pub use interpolate::{ComponentMask, FragmentInput, Weights};
+pub use interpolate::{FragmentInput, Weights};
+pub use plane::Plane;
 pub(crate) use plane::component_plane;
-pub use setup::{
-    ClipSpace, Cull, Dropped, Edge, PixelCenter, Plane, RasterRules, RasterState, SetupReport, TriangleSetup, Viewport,
-    setup,
+pub use primitive::{Primitive, Provoking};
+pub use setup::setup;
+pub use state::{ClipSpace, Cull, PixelCenter, RasterRules, RasterState, Viewport};
+pub(crate) use triangle::shape;
+pub use triangle::{Dropped, Edge, SetupReport, TriangleSetup};
+pub use vertex::{
+    COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT, Vertex,
 };
-pub(crate) use setup::{Corner, FARTHEST, GUARD_BAND, shape};
-pub use vertex::{COLOR_COMPONENT, COMPONENTS, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT, Vertex};
+pub(crate) use window::{Corner, FARTHEST};

@@ -1,10 +1,19 @@
 //! Attribute planes of a triangle.
 
 use super::clip::ClipVertex;
-use super::interpolate::ComponentMask;
-use super::setup::Plane;
-use super::vertex::COMPONENTS;
+use super::vertex::{COMPONENTS, ComponentMask};
 use crate::num::{self, Format};
+
+/// One component over a triangle: `(base + l1 * d1) + l2 * d2`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Plane {
+    /// Value at vertex 0; for a constant component the FP32 value delivered everywhere.
+    pub base: u32,
+    /// Value at vertex 1 less that at vertex 0, rounded.
+    pub d1: u32,
+    /// Value at vertex 2 less that at vertex 0, rounded.
+    pub d2: u32,
+}
 
 /// The plane of three values of a format.
 pub(super) fn plane(values: [u32; 3], format: Format) -> Plane {

@@ -51,3 +51,39 @@ impl Vertex {
         std::array::from_fn(|i| self.component(i))
     }
 }
+
+/// A set of interpolated components.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ComponentMask(pub u64);
+
+impl ComponentMask {
+    /// No component.
+    pub const NONE: Self = Self(0);
+    /// Every component that vertices have.
+    pub const ALL: Self = Self((1 << COMPONENTS) - 1);
+
+    /// The set with one component more.
+    pub const fn with(self, component: usize) -> Self {
+        Self(self.0 | (1 << component))
+    }
+
+    /// The set with all of texture coordinate set `set`.
+    pub const fn with_texcoord(self, set: usize) -> Self {
+        Self(self.0 | (15 << (TEXCOORD_COMPONENT + 4 * set)))
+    }
+
+    /// The set with all of colour `color`.
+    pub const fn with_color(self, color: usize) -> Self {
+        Self(self.0 | (15 << (COLOR_COMPONENT + 4 * color)))
+    }
+
+    /// The set with the window position.
+    pub const fn with_position(self) -> Self {
+        Self(self.0 | (15 << POSITION_COMPONENT))
+    }
+
+    /// Whether the component is in the set.
+    pub const fn has(self, component: usize) -> bool {
+        self.0 >> component & 1 == 1
+    }
+}

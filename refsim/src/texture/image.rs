@@ -2,40 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{SignedTexelMinimum, TargetRounding, Texel, TexelFormat, TextureError, decode, encode};
+use super::{SignedTexelMinimum, TargetRounding, Texel, TexelFormat, TextureError, TextureKind, decode, encode};
 use crate::num::Format;
 
 /// The largest extent, in texels.
 const MOST_TEXELS: u32 = 16_384;
 /// The largest image, in bytes.
 const MOST_BYTES: u64 = 1 << 31;
-
-/// The kinds of texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TextureKind {
-    /// A row of texels; height 1.
-    D1,
-    /// A plane.
-    D2,
-    /// A plane addressed in texels (not 0 to 1), without mip levels.
-    Rectangle,
-    /// Six square faces.
-    Cube,
-    /// A block.
-    Volume,
-}
-
-impl std::fmt::Display for TextureKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::D1 => "1-D",
-            Self::D2 => "2-D",
-            Self::Rectangle => "rectangle",
-            Self::Cube => "cube",
-            Self::Volume => "volume",
-        })
-    }
-}
 
 /// One mip level: extents and its place in the bytes of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,6 +8,7 @@ mod address;
 mod error;
 mod format;
 pub(crate) mod image;
+mod kind;
 mod layout;
 mod lod;
 mod sample;
@@ -18,7 +19,8 @@ pub use crate::device::{SignedTexelMinimum, TargetRounding};
 pub use address::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_index, project};
 pub use error::TextureError;
 pub use format::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelFormat};
-pub use image::{Image, Level, Region, TextureKind};
+pub use image::{Image, Level, Region};
+pub use kind::TextureKind;
 pub use layout::{Layout, TexelMap};
 pub use lod::{Lod, lod_from_derivatives};
 pub use sample::{

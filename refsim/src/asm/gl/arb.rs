@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::super::error::{AssembleErrors, ErrorKind, SyntaxError};
-use super::super::parser::Parsed;
+use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError};
 use super::build::Build;
 use super::operand::{self, Mnemonic};
-use super::token::{Cursor, Kind, Token};
+use crate::asm::cursor::Cursor;
+use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
     Destination, FIRST_ENVIRONMENT, FragmentPart, Instruction, Mask, Modifier, Opcode, OpcodeClass, Program, Register,
     RegisterFile, Source, Span, Swizzle, Version,
@@ -23,20 +23,9 @@ const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nice
 
 /// Reads a program whose first word is `!!ARBfp1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
-    let cursor = Cursor::new(text, header.end);
+    let cursor = Cursor::new(text, header.end as usize, Dialect::OpenGl);
     let mut parser = Parser { cursor, build: Build::default(), names: BTreeMap::new(), temporaries: 0, hint: None };
-    while parser.cursor.goes_on() {
-        let token = parser.cursor.peek();
-        if token.kind == Kind::End || token.text == "END" {
-            parser.cursor.end();
-            break;
-        }
-        if let Err(error) = parser.statement() {
-            parser.cursor.record(error);
-            parser.cursor.skip_statement();
-        }
-    }
-    match parser.cursor.finish() {
+    match operand::statements(&mut parser, |parser| &mut parser.cursor, Parser::statement) {
         Some(errors) => Err(errors),
         None => Ok(parser.build.finish(Version::ArbFp1_0, header)),
     }
@@ -113,7 +102,7 @@ impl<'a> Parser<'a> {
     pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
         let token = self.cursor.next();
         let reserved = matches!(token.text, "fragment" | "result" | "program" | "state" | "texture" | "vertex" | "END");
-        if token.kind == Kind::Word && !reserved && !self.names.contains_key(token.text) {
+        if token.kind == TokenKind::Word && !reserved && !self.names.contains_key(token.text) {
             return Ok(token.text);
         }
         let help = "names start with a letter and stand for one thing";
@@ -128,7 +117,7 @@ impl<'a> Parser<'a> {
             }
             self.names.insert(name, Name::Register(Register::new(RegisterFile::Temp, self.temporaries)));
             self.temporaries += 1;
-            if !self.cursor.accept(",") {
+            if !self.cursor.accept_mark(",") {
                 return Ok(());
             }
         }
@@ -203,10 +192,10 @@ impl<'a> Parser<'a> {
     fn extended(&mut self, source: &mut Source, fragment: &mut FragmentPart) -> Parsed<()> {
         for (i, slot) in source.swizzle.0.iter_mut().enumerate() {
             self.cursor.expect(",", "SWZ chooses four components")?;
-            if self.cursor.accept("-") {
+            if self.cursor.accept_mark("-") {
                 fragment.negate |= 1 << i;
             } else {
-                self.cursor.accept("+");
+                self.cursor.accept_mark("+");
             }
             let token = self.cursor.next();
             *slot = match token.text {
@@ -267,7 +256,7 @@ impl<'a> Parser<'a> {
             return Err(unknown(token, "texture[0] to texture[15]", "texture image units are numbered"));
         }
         let mut number = 0;
-        if self.cursor.accept("[") {
+        if self.cursor.accept_mark("[") {
             number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
             self.cursor.expect("]", "close the brackets")?;
         }
@@ -278,9 +267,9 @@ impl<'a> Parser<'a> {
 
     fn source(&mut self) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
-        let negative = self.cursor.accept("-");
+        let negative = self.cursor.accept_mark("-");
         if !negative {
-            self.cursor.accept("+");
+            self.cursor.accept_mark("+");
         }
         let register = self.register()?;
         let swizzle = operand::swizzle(&mut self.cursor)?;
@@ -290,7 +279,7 @@ impl<'a> Parser<'a> {
 
     fn register(&mut self) -> Parsed<Register> {
         let token = self.cursor.peek();
-        if token.text == "{" || token.kind == Kind::Number {
+        if token.text == "{" || token.kind == TokenKind::Number {
             let value = operand::constant(&mut self.cursor)?;
             return self.build.literal(value, Span::new(token.span.start, self.cursor.last_end()));
         }

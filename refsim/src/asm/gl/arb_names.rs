@@ -1,7 +1,6 @@
 //! What names and parameters of `!!ARBfp1.0` stand for.
 
-use super::super::error::{ErrorKind, SyntaxError};
-use super::super::parser::Parsed;
+use super::super::error::{ErrorKind, Parsed, SyntaxError};
 use super::arb::{MOST_PARAMETER, Name, Parser, unknown};
 use super::operand;
 use crate::isa::{FIRST_ENVIRONMENT, Register, RegisterFile};
@@ -10,7 +9,7 @@ impl Parser<'_> {
     /// `PARAM a = {1, 2};`, `PARAM b[2] = { program.local[0..1] };`
     pub(super) fn parameter(&mut self) -> Parsed<()> {
         let name = self.new_name()?;
-        if !self.cursor.accept("[") {
+        if !self.cursor.accept_mark("[") {
             self.cursor.expect("=", "a parameter stands for a constant or for something that the host sets")?;
             let value = self.element()?;
             self.names.insert(name, value);
@@ -24,7 +23,7 @@ impl Parser<'_> {
         let mut all = Vec::new();
         loop {
             self.elements(&mut all)?;
-            if !self.cursor.accept(",") {
+            if !self.cursor.accept_mark(",") {
                 break;
             }
         }
@@ -80,7 +79,7 @@ impl Parser<'_> {
         self.cursor.expect("[", "parameters are numbered")?;
         let first = operand::index(&mut self.cursor, MOST_PARAMETER)?;
         let mut last = first;
-        if self.cursor.accept("..") {
+        if self.cursor.accept_mark("..") {
             let place = self.cursor.peek();
             last = operand::index(&mut self.cursor, MOST_PARAMETER)?;
             if last < first {
@@ -114,7 +113,7 @@ impl Parser<'_> {
             "position" => Register::new(RegisterFile::WindowPosition, 0),
             "texcoord" => {
                 let mut number = 0;
-                if self.cursor.accept("[") {
+                if self.cursor.accept_mark("[") {
                     number = operand::index(&mut self.cursor, 7)?;
                     self.cursor.expect("]", "close the brackets")?;
                 }

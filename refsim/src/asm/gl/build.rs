@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::super::error::{ErrorKind, SyntaxError, quote};
-use super::super::parser::Parsed;
-use super::token::Token;
+use super::super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use crate::asm::lexer::Token;
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, Instruction, Parameter, Program, Register, RegisterFile,
     Span, Version,

@@ -1,6 +1,6 @@
 //! OpenGL's fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
 //!
-//! - `token`: the text in pieces; `operand`: what both languages share of operands and numbers; `build`: the program as it
+//! - `operand`: what both languages share of operands and numbers; `build`: the program as it
 //!   grows; `nv`, `arb` with `arb_names`: the two languages; `print`: back to text.
 
 mod arb;
@@ -9,7 +9,6 @@ mod build;
 mod nv;
 mod operand;
 mod print;
-mod token;
 
 use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
 use crate::isa::{Program, Span, Version};

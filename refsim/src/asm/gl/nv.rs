@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::super::error::{AssembleErrors, ErrorKind, SyntaxError};
-use super::super::parser::Parsed;
+use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError};
 use super::build::Build;
 use super::operand::{self, Mnemonic};
-use super::token::{Cursor, Kind, Token};
+use crate::asm::cursor::Cursor;
+use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
     Condition, ConditionTest, Destination, DestinationRule, FragmentPart, Instruction, Mask, Modifier, Opcode,
     OpcodeClass, Program, Register, RegisterFile, Source, Span, Swizzle, Version,
@@ -19,19 +19,12 @@ const MOST_PARAMETER: u16 = 255;
 
 /// Reads a program whose first word is `!!FP1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
-    let mut parser = Parser { cursor: Cursor::new(text, header.end), build: Build::default(), names: BTreeMap::new() };
-    while parser.cursor.goes_on() {
-        let token = parser.cursor.peek();
-        if token.kind == Kind::End || token.text == "END" {
-            parser.cursor.end();
-            break;
-        }
-        if let Err(error) = parser.statement() {
-            parser.cursor.record(error);
-            parser.cursor.skip_statement();
-        }
-    }
-    match parser.cursor.finish() {
+    let mut parser = Parser {
+        cursor: Cursor::new(text, header.end as usize, Dialect::OpenGl),
+        build: Build::default(),
+        names: BTreeMap::new(),
+    };
+    match operand::statements(&mut parser, |parser| &mut parser.cursor, Parser::statement) {
         Some(errors) => Err(errors),
         None => Ok(parser.build.finish(Version::Fp1_0, header)),
     }
@@ -67,12 +60,12 @@ impl<'a> Parser<'a> {
     /// `DEFINE name = constant` or `DECLARE name [= constant]`.
     fn definition(&mut self, fixed: bool) -> Parsed<()> {
         let name = self.cursor.next();
-        if name.kind != Kind::Word || self.names.contains_key(name.text) || reserved(name.text) {
+        if name.kind != TokenKind::Word || self.names.contains_key(name.text) || reserved(name.text) {
             let (expected, help) =
                 ("a name of its own", "names start with a letter, stand for one thing, and are no register");
             return Err(SyntaxError::new(ErrorKind::Name, name.span, expected, name.found(), help));
         }
-        let value = match self.cursor.accept("=") {
+        let value = match self.cursor.accept_mark("=") {
             true => operand::constant(&mut self.cursor)?,
             false if fixed => return Err(self.cursor.unexpected("`=`", "a `DEFINE` has a value")),
             false => [0; 4],
@@ -93,7 +86,7 @@ impl<'a> Parser<'a> {
         let mut sources = Vec::new();
         let mut destination = None;
         if opcode == Opcode::Kil {
-            let open = self.cursor.accept("(");
+            let open = self.cursor.accept_mark("(");
             fragment.condition = Some(self.condition()?);
             if open {
                 self.cursor.expect(")", "close the condition")?;
@@ -169,7 +162,7 @@ impl<'a> Parser<'a> {
             mask = Mask(0b0100);
         }
         let span = Span::new(token.span.start, self.cursor.last_end());
-        let condition = match self.cursor.accept("(") {
+        let condition = match self.cursor.accept_mark("(") {
             true => {
                 let condition = self.condition()?;
                 self.cursor.expect(")", "close the condition")?;
@@ -205,11 +198,11 @@ impl<'a> Parser<'a> {
     /// `-|R0.x|`, `f[TEX0].xyxy`, `{1, 2}.x`
     fn source(&mut self) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
-        let negative = self.cursor.accept("-");
+        let negative = self.cursor.accept_mark("-");
         if !negative {
-            self.cursor.accept("+");
+            self.cursor.accept_mark("+");
         }
-        let absolute = self.cursor.accept("|");
+        let absolute = self.cursor.accept_mark("|");
         let register = self.register()?;
         let swizzle = operand::swizzle(&mut self.cursor)?;
         if absolute {
@@ -226,7 +219,7 @@ impl<'a> Parser<'a> {
 
     fn register(&mut self) -> Parsed<Register> {
         let token = self.cursor.peek();
-        if token.text == "{" || token.kind == Kind::Number {
+        if token.text == "{" || token.kind == TokenKind::Number {
             let value = operand::constant(&mut self.cursor)?;
             return self.build.literal(value, Span::new(token.span.start, self.cursor.last_end()));
         }
@@ -290,7 +283,7 @@ fn temporary(token: Token<'_>) -> Option<Parsed<Register>> {
 /// Whether a name means something already.
 fn reserved(name: &str) -> bool {
     let span = Span::default();
-    let token = Token { kind: Kind::Word, text: name, span };
+    let token = Token { kind: TokenKind::Word, text: name, span };
     matches!(name, "f" | "o" | "p" | "RC" | "HC" | "END" | "DEFINE" | "DECLARE")
         || temporary(token).is_some()
         || operand::mnemonic(token, true).is_ok()

@@ -1,10 +1,34 @@
-//! What the two languages share: masks, swizzles, numbers, constants in braces, the names of instructions.
+//! What the two languages share: the loop over statements, masks, swizzles, numbers, constants in braces, the names of instructions.
 
-use super::super::error::{ErrorKind, SyntaxError, quote};
+use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote};
 use super::super::number;
-use super::super::parser::Parsed;
-use super::token::{Cursor, Kind, Token};
+use crate::asm::cursor::Cursor;
+use crate::asm::lexer::{Token, TokenKind};
 use crate::isa::{Mask, Precision, Spelling, Swizzle, TextureTarget};
+
+/// Reads a program's statements and its `END`. Errors are recorded, and reading goes on with the next statement.
+pub(super) fn statements<'a, P>(
+    parser: &mut P,
+    cursor: fn(&mut P) -> &mut Cursor<'a>,
+    statement: fn(&mut P) -> Parsed<()>,
+) -> Option<AssembleErrors> {
+    while cursor(parser).goes_on() {
+        let token = cursor(parser).peek();
+        if token.kind == TokenKind::End {
+            let help = "close the program with `END`";
+            cursor(parser).record(SyntaxError::new(ErrorKind::MissingEnd, token.span, "`END`", token.found(), help));
+            break;
+        }
+        if token.text == "END" {
+            break;
+        }
+        if let Err(error) = statement(parser) {
+            cursor(parser).record(error);
+            cursor(parser).skip_statement();
+        }
+    }
+    cursor(parser).finish()
+}
 
 /// Sets of letters that name components.
 const LETTERS: [&str; 2] = ["xyzw", "rgba"];
@@ -15,7 +39,7 @@ fn component(set: &str, letter: char) -> Option<u8> {
 
 /// `.xyz` after a destination; nothing means all.
 pub(super) fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
-    if !cursor.accept(".") {
+    if !cursor.accept_mark(".") {
         return Ok(Mask::ALL);
     }
     let token = cursor.next();
@@ -36,7 +60,7 @@ pub(super) fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
 
 /// `.x` or `.xyzw` after a source; nothing means no change.
 pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
-    if !cursor.accept(".") {
+    if !cursor.accept_mark(".") {
         return Ok(Swizzle::IDENTITY);
     }
     let token = cursor.next();
@@ -60,7 +84,7 @@ pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
 /// A whole number up to `most`.
 pub(super) fn index(cursor: &mut Cursor<'_>, most: u16) -> Parsed<u16> {
     let token = cursor.next();
-    let number = if token.kind == Kind::Number { token.text.parse().ok() } else { None };
+    let number = if token.kind == TokenKind::Number { token.text.parse().ok() } else { None };
     number.filter(|&n| n <= most).ok_or_else(|| register_number(token, most))
 }
 
@@ -86,11 +110,11 @@ pub(super) fn numbered(token: Token<'_>, prefix: &str, most: u16) -> Option<Pars
 /// A number with its signs, as the bits of a single float.
 pub(super) fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
     let mut negative = false;
-    while let Some(sign) = ["-", "+"].into_iter().find(|s| cursor.accept(s)) {
+    while let Some(sign) = ["-", "+"].into_iter().find(|s| cursor.accept_mark(s)) {
         negative ^= sign == "-";
     }
     let token = cursor.peek();
-    if token.kind != Kind::Number {
+    if token.kind != TokenKind::Number {
         return Err(SyntaxError::new(
             ErrorKind::MalformedValue,
             token.span,
@@ -106,12 +130,12 @@ pub(super) fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
 
 /// A constant: `{x, y, z, w}`, of which what is missing is 0, 0, 0, 1; or one number for all components.
 pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
-    if !cursor.accept("{") {
+    if !cursor.accept_mark("{") {
         return Ok([value(cursor)?; 4]);
     }
     let mut all = [0, 0, 0, 0x3f80_0000];
     for (i, slot) in all.iter_mut().enumerate() {
-        if i > 0 && !cursor.accept(",") {
+        if i > 0 && !cursor.accept_mark(",") {
             break;
         }
         *slot = value(cursor)?;

@@ -1,4 +1,8 @@
-//! The import law: a room uses only the rooms that its line allows. docs/architecture.md prints the same table.
+//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files of
+//! a room need each other in one direction; names and lines of documentation keep their bounds.
+
+mod circles;
+mod source;
 
 use std::collections::BTreeSet;
 use std::fs;

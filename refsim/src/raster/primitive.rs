@@ -1,0 +1,31 @@
+//! How vertices make primitives.
+
+/// How vertices make primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Primitive {
+    /// Each three vertices a triangle.
+    TriangleList,
+    /// Each vertex from the third on a triangle with its two predecessors.
+    TriangleStrip,
+    /// Each vertex from the third on a triangle with its predecessor and the first.
+    TriangleFan,
+    /// Each four vertices a quad.
+    QuadList,
+    /// Each two vertices from the third on a quad with the two before.
+    QuadStrip,
+    /// Not supported.
+    PointList,
+    /// Not supported.
+    LineList,
+    /// Not supported.
+    LineStrip,
+}
+
+/// The vertex whose colours a flat-shaded primitive has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Provoking {
+    /// The first one (Direct3D's `D3DSHADE_FLAT`). A fan's triangle starts behind the vertex that all have in common.
+    First,
+    /// The last one (OpenGL's `GL_FLAT`); of a quad its fourth.
+    Last,
+}

@@ -1,0 +1,49 @@
+//! Window positions: the viewport transform, and snapping to the grid.
+
+use super::state::{ClipSpace, RasterState};
+use crate::texture::value;
+
+/// Positions saturate here, in pixels either way. With 8 subpixel bits an edge function stays below 2^56.
+pub(crate) const FARTHEST: i64 = 1 << 17;
+
+/// A corner in window space.
+#[derive(Clone, Copy)]
+pub(crate) struct Corner {
+    /// Column and row in units of the snapping grid, at most [`FARTHEST`] pixels either way.
+    pub(crate) x: i64,
+    pub(crate) y: i64,
+    /// FP32 bits, as is the other one.
+    pub(crate) depth: u32,
+    pub(crate) reciprocal_w: u32,
+}
+
+/// Viewport transform in FP32 steps, then snapping to the grid (nearest, halves up).
+pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) -> Option<Corner> {
+    let v = &state.viewport;
+    // Half extents and centre are exact in FP32.
+    let halves = |n: i64| value::mul(value::from_integer(n), value::HALF);
+    let half = |size: u32| halves(i64::from(size));
+    let middle = |at: i32, size: u32| halves(2 * i64::from(at) + i64::from(size));
+    let (dx, dy) = (value::mul(value::div(x, w), half(v.width)), value::mul(value::div(y, w), half(v.height)));
+    let window_x = value::add(middle(v.x, v.width), dx);
+    let (window_y, ndc_z) = match state.clip_space {
+        ClipSpace::Direct3d => (value::sub(middle(v.y, v.height), dy), value::div(z, w)),
+        ClipSpace::OpenGl => {
+            let halved = value::mul(value::div(z, w), value::HALF);
+            (value::add(middle(v.y, v.height), dy), value::add(halved, value::HALF))
+        }
+    };
+    let depth = value::add(value::mul(ndc_z, value::sub(v.max_depth, v.min_depth)), v.min_depth);
+    let reciprocal_w = value::div(value::ONE, w);
+    if [window_x, window_y, depth, reciprocal_w].into_iter().any(value::is_not_finite) {
+        return None;
+    }
+    let far = FARTHEST << subpixel_bits;
+    let snap = |c: u32| value::scaled_floor(c, 1, subpixel_bits, true).clamp(-far, far);
+    Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
+}
+
+/// Twice the signed area in units of the snapping grid squared: positive is clockwise with rows downward.
+pub(super) fn doubled_area([c0, c1, c2]: [Corner; 3]) -> i64 {
+    (c1.x - c0.x) * (c2.y - c0.y) - (c2.x - c0.x) * (c1.y - c0.y)
+}
