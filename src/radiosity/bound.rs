@@ -10,7 +10,8 @@
 //! [`bounded_step`]. Before any step it is bounded by how many roundings an element goes through: [`before`].
 
 use super::card_order::{CardSystem, Watch};
-use super::packing::{Packing, Texels};
+use super::packing::Packing;
+use crate::card::Texels;
 use crate::linalg::Matrix;
 
 /// Half of the distance from 1 to the next f32.

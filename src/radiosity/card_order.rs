@@ -10,7 +10,8 @@
 use rayon::prelude::*;
 
 use super::System;
-use super::packing::{self, Packing, Texels, TooLarge};
+use super::packing::{self, Packing, TooLarge};
+use crate::card::Texels;
 use crate::linalg::Matrix;
 
 /// Rows that one worker takes at a time.
@@ -51,7 +52,7 @@ impl CardSystem {
     /// # Errors
     /// [`TooLarge`].
     pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
-        let size = matrix.size();
+        let size = matrix.row_count();
         let (matrix, diagonal) = divided(matrix);
         let right: Vec<f64> = right.iter().zip(diagonal).map(|(e, d)| e / d).collect();
         let matrix = packing::luminance_matrix(&matrix, limit)?;
@@ -68,8 +69,8 @@ impl CardSystem {
             Packing::Rgb => [size; 2],
             Packing::Luminance => [size.div_ceil(4), 4 * size.div_ceil(4)],
         };
-        let matrix = Texels::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
-        let emittance = Texels::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
+        let matrix = packing::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
+        let emittance = packing::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })
     }
 
@@ -118,7 +119,7 @@ impl CardSystem {
     /// A texture of zeros, where an iteration begins.
     #[must_use]
     pub fn zero(&self) -> Texels {
-        Texels { width: self.emittance.width, height: 1, texels: vec![[0.0; 4]; self.emittance.width] }
+        Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
     /// One pass: `radiosity` is the last iteration's, `partial` what the pass before left (pass 0 does not read it).
@@ -173,7 +174,7 @@ impl CardSystem {
                 values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
             }
         };
-        (Texels { width: self.emittance.width, height: 1, texels }, watches)
+        (Texels::vector(texels), watches)
     }
 }
 

@@ -5,6 +5,7 @@ use refsim::raster::Vertex;
 use thiserror::Error;
 
 use super::Patch;
+use crate::card::KernelError;
 use crate::geom::vector::{Vec3, dot, length, scale, sub};
 use crate::scene::Camera;
 
@@ -17,16 +18,9 @@ pub enum DrawError {
     /// The card refused.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The card does not run a program.
-    #[error("{device} does not run {kernel}: {problem}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
-    Refused {
-        /// The program.
-        kernel: &'static str,
-        /// The device.
-        device: String,
-        /// What the assembler or checker said.
-        problem: String,
-    },
+    /// The device refuses a program.
+    #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
+    Kernel(#[from] KernelError),
     /// Not one radiosity a patch.
     #[error("expected {patches} radiosities, one a patch, found {found}")]
     Count {

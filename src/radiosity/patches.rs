@@ -9,11 +9,11 @@ use super::patch::{Patch, PatchPoint};
 use super::subdivide::{Face, faces_of, steps_for_at_most};
 use crate::geom::Mesh;
 use crate::geom::vector::{length, sub};
-use crate::linalg::MOST_ROWS;
+use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
 
 /// The most patches: those of the largest matrix.
-pub const MOST_PATCHES: usize = MOST_ROWS;
+pub const MOST_PATCHES: usize = MAX_SQUARE;
 
 /// How finely faces are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]

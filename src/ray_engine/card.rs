@@ -6,16 +6,17 @@ use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event, FenceId};
 use refsim::exec::Constants;
 use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
+    AttributeStream, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
 };
 use refsim::num::Format;
-use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState, DepthSurface};
-use refsim::raster::{PixelCenter, Primitive};
+use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
+use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState};
 
 use super::outputs::{Code, Told};
 use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Hit, Kernel, RayBatch};
+use crate::card::NearestTarget;
 use crate::geom::{Mesh, Ray};
 
 /// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
@@ -26,8 +27,8 @@ pub(super) struct Sheet {
     /// Those with the rays that were loaded last.
     textures: Vec<(usize, TextureId)>,
     code: Code,
-    ids: TextureId,
-    depth: DepthId,
+    /// Ids, and t as depth.
+    target: NearestTarget,
 }
 
 /// What is drawn, beside the triangles.
@@ -80,10 +81,9 @@ impl Sheet {
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
-        let ids = machine.create_target(code.format(), rays.width(), rays.height())?;
-        let format = depth_format(machine.profile(), kernel.form);
-        let depth = machine.create_depth(format, rays.width(), rays.height())?;
-        Ok(Self { made, textures, code, ids, depth })
+        let formats = (code.format(), depth_format(machine.profile(), kernel.form));
+        let target = NearestTarget::new(machine, formats, [rays.width(), rays.height()])?;
+        Ok(Self { made, textures, code, target })
     }
 
     /// Uploads other rays, as many.
@@ -100,9 +100,7 @@ impl Sheet {
 
     /// No ids, and the depth of no hit.
     pub(super) fn clear(&self, machine: &mut Machine) -> Result<(), EngineError> {
-        machine.clear_target(self.ids, [0; 4])?;
-        machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
-        Ok(())
+        Ok(self.target.clear(machine)?)
     }
 
     /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
@@ -118,15 +116,13 @@ impl Sheet {
         let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
         let source =
             VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
-        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
+        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.target.color);
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
-        call.center = PixelCenter::OpenGl;
         // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by themselves.
         call.alpha_test = (!kernel.weights).then_some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
-        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-        call.depth_buffer = Some(self.depth);
+        self.target.keep_nearest(&mut call);
         Ok(machine.draw(&call)?)
     }
 
@@ -138,14 +134,14 @@ impl Sheet {
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         // The fence of the last transfer stands behind the others too.
         let (mut fence, image) = match reading.wait {
-            true => (None, machine.read_back(self.ids)?),
-            false => machine.read_back_async(self.ids).map(|(fence, image)| (Some(fence), image))?,
+            true => (None, machine.read_back(self.target.color)?),
+            false => machine.read_back_async(self.target.color).map(|(fence, image)| (Some(fence), image))?,
         };
         let depth = match (reading.t, reading.wait) {
             (false, _) => None,
-            (true, true) => Some(machine.read_depth(self.depth)?),
+            (true, true) => Some(machine.read_depth(self.target.depth)?),
             (true, false) => {
-                let (last, depth) = machine.read_depth_async(self.depth)?;
+                let (last, depth) = machine.read_depth_async(self.target.depth)?;
                 fence = Some(last);
                 Some(depth)
             }

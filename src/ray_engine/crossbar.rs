@@ -17,11 +17,12 @@ use super::pass::{PassCard, PassWish};
 use super::range::Range;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
+use crate::card::KernelError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
 /// Triangle ids are 24-bit colours.
-const MOST_TRIANGLES: usize = 1 << 24;
+const MAX_TRIANGLES: usize = 1 << 24;
 /// Sides of the buckets of a batch of eye rays, in pixels.
 const BUCKET: u32 = 32;
 /// Sides of the buckets of a list: the squares that it is laid out in.
@@ -39,19 +40,12 @@ pub enum EngineError {
         /// The device.
         device: String,
     },
-    /// The card's rules refuse the program.
-    #[error("device `{device}` refuses `{kernel}`: {problem}")]
-    #[diagnostic(code(ray_engine::refused))]
-    Refused {
-        /// The program's file.
-        kernel: &'static str,
-        /// The device.
-        device: String,
-        /// The first thing that is wrong.
-        problem: String,
-    },
+    /// The device refuses a program.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Kernel(#[from] KernelError),
     /// More triangles than ids.
-    #[error("expected at most {MOST_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
+    #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
     #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
     TooManyTriangles {
         /// Triangles of the mesh.
@@ -288,7 +282,7 @@ impl Crossbar {
 }
 
 fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
-    if mesh.len() > MOST_TRIANGLES {
+    if mesh.len() > MAX_TRIANGLES {
         return Err(EngineError::TooManyTriangles { found: mesh.len() });
     }
     Ok(())

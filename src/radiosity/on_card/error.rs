@@ -3,9 +3,9 @@
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::MachineError;
-use refsim::texture::TextureError;
 use thiserror::Error;
 
+use crate::card::KernelError;
 use crate::radiosity::packing::TooLarge;
 
 /// Why a card does not solve a system.
@@ -32,18 +32,9 @@ pub enum CardError {
         /// What is too large for which limit.
         problem: TooLarge,
     },
-    /// The card's rules refuse a program.
-    #[error("device `{device}` refuses `{program}`, written out for {texels} texels: {problem}")]
-    Refused {
-        /// The program's file.
-        program: &'static str,
-        /// The texels of its block.
-        texels: usize,
-        /// The device.
-        device: String,
-        /// What is wrong.
-        problem: String,
-    },
+    /// The device refuses a program.
+    #[error(transparent)]
+    Kernel(#[from] KernelError),
     /// Something of another size than the system on the card.
     #[error("expected {expected} {what}, found {found}")]
     Size {
@@ -63,9 +54,6 @@ pub enum CardError {
     /// The card refuses a resource or a draw, or there is none.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// An image is impossible.
-    #[error(transparent)]
-    Texture(#[from] TextureError),
 }
 
 impl CardError {

@@ -124,10 +124,15 @@ pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result
 }
 
 fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
-    let rows = problem.matrix.size();
-    let lists = [("emittances", Some(problem.right)), ("areas", Some(problem.areas)), ("radiosities", problem.start)];
-    for (what, list) in lists {
-        if let Some(found) = list.map(<[f64]>::len).filter(|&found| found != rows) {
+    let rows = problem.matrix.row_count();
+    let counts = [
+        ("columns", Some(problem.matrix.column_count())),
+        ("emittances", Some(problem.right.len())),
+        ("areas", Some(problem.areas.len())),
+        ("radiosities", problem.start.map(<[f64]>::len)),
+    ];
+    for (what, count) in counts {
+        if let Some(found) = count.filter(|&found| found != rows) {
             return Err(SolveError::Count { what, rows, found });
         }
     }
@@ -179,7 +184,7 @@ pub fn residual(matrix: &Matrix, right: &[f64], radiosity: &[f64]) -> Vec<f64> {
 }
 
 fn start(problem: &Problem<'_>) -> Vec<f64> {
-    problem.start.map_or_else(|| vec![0.0; problem.matrix.size()], <[f64]>::to_vec)
+    problem.start.map_or_else(|| vec![0.0; problem.matrix.row_count()], <[f64]>::to_vec)
 }
 
 impl fmt::Display for Solver {

@@ -5,7 +5,7 @@ use refsim::texture::TexelFormat;
 
 use super::way::{CardFacts, Solved};
 use super::{Parameters, StudyError, Way, time};
-use crate::radiosity::display::{Display, DisplayOptions, Picture};
+use crate::radiosity::display::{CardPicture, Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
 use crate::renderer::tone;
 
@@ -116,6 +116,6 @@ impl<'a> Studio<'a> {
 }
 
 /// Through the curve of a display; the program has multiplied by the exposure already.
-fn bytes(picture: &Picture) -> Vec<u8> {
+fn bytes(picture: &CardPicture) -> Vec<u8> {
     tone::bytes(&picture.pixels, 1.0)
 }

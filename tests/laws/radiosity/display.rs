@@ -3,7 +3,7 @@
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{Vec3, add, cross, dot, scale, sub};
 use crossbar::geom::{Mesh, Ray};
-use crossbar::radiosity::display::{Display, DisplayOptions, Picture, VectorTexture, at_corners};
+use crossbar::radiosity::display::{CardPicture, Display, DisplayOptions, VectorTexture, at_corners};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
@@ -191,7 +191,7 @@ fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
     let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
     let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
     let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
-    let bits = |picture: Picture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
+    let bits = |picture: CardPicture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
     let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
     let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
     let ids = display.ids(&mut machine).expect("ids");

@@ -76,8 +76,8 @@ fn a_matrix_beyond_the_cards_textures_names_the_limit() {
 #[test]
 fn every_refusal_in_its_words() {
     let factor: [FormFactorError; 9] = [
-        MatrixError::TooLarge { rows: 20_000 }.into(),
-        MatrixError::Shape { rows: 3, values: 8 }.into(),
+        MatrixError::TooLarge { rows: 20_000, columns: 20_000 }.into(),
+        MatrixError::Count { rows: 3, columns: 3, values: 8 }.into(),
         FormFactorError::Areas { rows: 6, areas: 5 },
         FormFactorError::Value { expected: "an area above 0", value: -1.0, patch: 2 },
         FormFactorError::Open { patch: 7, sum: 0.75, open: 3, blind: 2, patches: 60, tolerance: 1e-3 },

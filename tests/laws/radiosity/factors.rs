@@ -147,7 +147,7 @@ fn enforcement_closes_rows_and_keeps_reciprocity() {
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     // Spoil them by up to a tenth.
     let mut spoilt = factors.matrix().clone();
-    for i in 0..spoilt.size() {
+    for i in 0..spoilt.row_count() {
         for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
             *value *= 0.9 + 0.2 * Keyed::new(3).unit(i as u64, j as u64, 0);
         }

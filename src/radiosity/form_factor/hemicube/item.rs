@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DepthId, DrawCall, Executor, Machine, TextureId, VertexSource};
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive, Vertex, Viewport};
+use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
+use refsim::output::DepthFormat;
+use refsim::raster::{Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
+use crate::card::{NearestTarget, Texels};
 use crate::geom::vector::{Vec3, cross, scale, sub, unit};
-use crate::radiosity::display::programs::checked;
 use crate::radiosity::draw::{DrawError, Projection, bits};
 use crate::radiosity::kernels;
 use crate::radiosity::{Patch, Patches};
@@ -24,37 +24,29 @@ pub(super) struct ItemBuffer {
     machine: Machine,
     program: CheckedProgram,
     resolution: u32,
-    target: TextureId,
-    depth: DepthId,
+    target: NearestTarget,
 }
 
 impl ItemBuffer {
     pub(super) fn new(executor: &Executor, profile: &Arc<Profile>, resolution: u32) -> Result<Self, DrawError> {
         let mut machine = executor.machine(Arc::clone(profile))?;
-        let program = checked(profile, kernels::ID)?;
-        let [width, height] = size(resolution);
-        let target = machine.create_target(TexelFormat::R32f, width, height)?;
-        let depth = machine.create_depth(DepthFormat::Unorm24, width, height)?;
-        Ok(Self { machine, program, resolution, target, depth })
+        let program = kernels::ID.checked(profile)?;
+        let formats = (TexelFormat::R32f, DepthFormat::Unorm24);
+        let target = NearestTarget::new(&mut machine, formats, size(resolution))?;
+        Ok(Self { machine, program, resolution, target })
     }
 
     /// What a hemicube sees: patches' numbers from 1, negative from behind, 0 for nothing; each face row by row from the top.
     pub(super) fn see(&mut self, patches: &Patches, hemicube: &Eye) -> Result<[Vec<f32>; FACES], DrawError> {
-        self.machine.clear_target(self.target, [0; 4])?;
-        self.machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
+        self.target.clear(&mut self.machine)?;
         for (face, projection) in hemicube.faces.iter().enumerate() {
             self.draw(patches, hemicube, projection, place(face, self.resolution))?;
         }
-        let image = self.machine.read_back(self.target)?;
-        let row = image.width() as usize;
-        let bytes = image.bytes();
+        let codes = Texels::read_back(&self.machine, self.target.color)?;
         Ok([0, 1, 2, 3, 4].map(|face| {
-            let at = place(face, self.resolution);
-            let lines = (at.y..at.y + at.height).flat_map(|y| {
-                let first = 4 * (y as usize * row + at.x as usize);
-                bytes[first..first + 4 * at.width as usize].chunks_exact(4)
-            });
-            lines.map(|code| f32::from_le_bytes([code[0], code[1], code[2], code[3]])).collect()
+            let Region { x, y, width, height } = place(face, self.resolution);
+            let rows = (y..y + height).flat_map(|y| &codes.row(y as usize)[x as usize..(x + width) as usize]);
+            rows.map(|&[code, ..]| code).collect()
         }))
     }
 
@@ -80,13 +72,11 @@ impl ItemBuffer {
         let constants = Constants::default();
         for (primitive, _, vertices) in shapes.iter().filter(|shape| !shape.2.is_empty()) {
             let source = VertexSource::Transformed(vertices);
-            let mut call = DrawCall::new(source, *primitive, &self.program, &constants, self.target);
+            let mut call = DrawCall::new(source, *primitive, &self.program, &constants, self.target.color);
             let Region { x, y, width, height } = face;
             call.viewport = Some(Viewport { x: x.cast_signed(), y: y.cast_signed(), ..Viewport::new(width, height) });
             call.scissor = Some(face);
-            call.center = PixelCenter::OpenGl;
-            call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-            call.depth_buffer = Some(self.depth);
+            self.target.keep_nearest(&mut call);
             self.machine.draw(&call)?;
         }
         Ok(())

@@ -80,7 +80,7 @@ impl FormFactors {
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, FormFactorError> {
         hemicube.check()?;
-        let mut matrix = Matrix::zero(patches.list().len())?;
+        let mut matrix = Matrix::zeros([patches.list().len(); 2])?;
         let work = Work { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
         let all = patches.list().len();
         let mut rows: Vec<&mut [f64]> = matrix.par_rows_mut().collect();
