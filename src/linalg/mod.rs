@@ -4,7 +4,7 @@
 //! - [`Lu`], [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra.
 //!
 //! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its `std`
-//! feature is on (docs/decisions/0015).
+//! feature is on (docs/decisions/0016).
 
 mod dot;
 mod factor;
