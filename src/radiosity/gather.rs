@@ -4,7 +4,7 @@ use super::Patches;
 use super::form_factor::point_to_polygon;
 use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
 use crate::geom::Caster;
-use crate::geom::vector::Vec3;
+use glam::DVec3;
 
 /// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the point in closed form,
 /// and the share of sample rays that get through. `caster` traces [`Patches::mesh`] from both sides.
@@ -17,7 +17,7 @@ use crate::geom::vector::Vec3;
 pub fn irradiance(
     patches: &Patches,
     radiosity: &[[f64; 3]],
-    [point, normal]: [Vec3; 2],
+    [point, normal]: [DVec3; 2],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
 ) -> Result<[f64; 3], FormFactorError> {

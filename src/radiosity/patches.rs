@@ -8,7 +8,7 @@ use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
 use super::subdivide::{Face, faces_of, steps_for_at_most};
 use crate::geom::Mesh;
-use crate::geom::vector::{length, sub};
+use crate::geom::vector::wide;
 use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
 
@@ -91,8 +91,8 @@ impl Patches {
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
             face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
         }
-        let [low, high] = bounds.map(|corner| corner.map(f64::from));
-        let (materials, extent) = (materials?, length(sub(high, low)));
+        let [low, high] = bounds.map(wide);
+        let (materials, extent) = (materials?, (high - low).length());
         let open = open_parts(&list, mesh, &face_of, extent);
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::vector::{Vec3, dot};
+use crate::geom::vector::narrow;
 use crate::radiosity::Patches;
+use glam::DVec3;
 
 /// Patches whose normals are farther apart than this (a cosine) do not share their corners: about 26 degrees.
 const CREASE: f64 = 0.9;
@@ -34,7 +35,7 @@ impl Meetings {
         for (patch, of) in list.iter().zip(&mut of) {
             let smooth = |&j: &u32| {
                 let other = &list[j as usize];
-                other.material == patch.material && dot(other.normal(), patch.normal()) >= CREASE
+                other.material == patch.material && other.normal().dot(patch.normal()) >= CREASE
             };
             for (&corner, of) in patch.corners().iter().zip(of) {
                 let mut set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
@@ -72,6 +73,6 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
 }
 
 /// Corners of neighbours agree in f32; both zeros are one place.
-pub(super) fn place(corner: Vec3) -> [u32; 3] {
-    corner.map(|x| (x as f32 + 0.0).to_bits())
+pub(super) fn place(corner: DVec3) -> [u32; 3] {
+    narrow(corner).map(|x| (x + 0.0).to_bits())
 }

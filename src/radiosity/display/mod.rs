@@ -7,6 +7,7 @@ mod corners;
 mod fans;
 mod resample;
 
+use glam::DVec3;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Machine, TextureId, VertexSource};
 use refsim::output::DepthFormat;
@@ -213,7 +214,7 @@ impl VertexBuilder<'_> {
     /// fans.
     fn vertices(&self) -> [Vec<Vertex>; 3] {
         let list = self.patches.list();
-        let within = list.first().map_or([0.0; 3], |patch| patch.corners()[0]);
+        let within = list.first().map_or(DVec3::ZERO, |patch| patch.corners()[0]);
         let projection = Projection::of(self.camera, within, self.patches.extent());
         let mut vertices = [const { Vec::new() }; 3];
         for (i, (patch, fan)) in list.iter().zip(fans::fans(self.patches)).enumerate() {

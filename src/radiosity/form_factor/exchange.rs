@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::gauss::{FIVE, Node, THREE};
 use super::{contour, polygon};
-use crate::geom::vector::{Vec3, dot, sub};
 use crate::radiosity::Patch;
+use glam::DVec3;
 
 /// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points a direction.
 const FAR: f64 = 8.0;
@@ -23,7 +23,7 @@ pub(super) struct Prepared<'a> {
 }
 
 /// A point and the area for which it stands.
-type Weighted = (Vec3, f64);
+type Weighted = (DVec3, f64);
 
 impl<'a> Prepared<'a> {
     pub(super) fn new(patch: &'a Patch) -> Self {
@@ -83,8 +83,8 @@ pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
         let (p_part, q_part) = (polygon::in_front_of(p.corners(), q), polygon::in_front_of(q.corners(), p));
         return if p_part.len() < 3 || q_part.len() < 3 { 0.0 } else { contour::exchange(&p_part, &q_part).max(0.0) };
     }
-    let apart = sub(q.centre(), p.centre());
-    let (square, radii) = (dot(apart, apart), p.radius() + q.radius());
+    let apart = q.centre() - p.centre();
+    let (square, radii) = (apart.dot(apart), p.radius() + q.radius());
     if square >= FAR * FAR * radii * radii {
         kernel_sum([p, q], &one.three, &other.three)
     } else if square >= NEAR * NEAR * radii * radii {
@@ -104,8 +104,8 @@ fn kernel_sum([p, q]: [&Patch; 2], from: &[Weighted], to: &[Weighted]) -> f64 {
 
 /// What a point of one patch and a point of the other exchange an area squared: the cosines at both over pi times the distance squared;
 /// 0 behind either.
-pub(super) fn kernel([p, q]: [&Patch; 2], x: Vec3, y: Vec3) -> f64 {
-    let to = sub(y, x);
-    let (cosines, square) = (dot(p.normal(), to).max(0.0) * (-dot(q.normal(), to)).max(0.0), dot(to, to));
+pub(super) fn kernel([p, q]: [&Patch; 2], x: DVec3, y: DVec3) -> f64 {
+    let to = y - x;
+    let (cosines, square) = (p.normal().dot(to).max(0.0) * (-q.normal().dot(to)).max(0.0), to.dot(to));
     if square > 0.0 { cosines / (PI * square * square) } else { 0.0 }
 }

@@ -3,12 +3,13 @@
 //! The weights make the share the right one for large samples, and exactly 1 where every ray gets through: a room without anything
 //! in it keeps its closed-form factors to the bit.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::exchange::kernel;
 use super::{FormFactorError, Patches};
 use crate::geom::random::Keyed;
-use crate::geom::vector::{Vec3, add, dot, length, scale, sub};
+use crate::geom::vector::narrow;
 use crate::geom::{Caster, Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::open::lift;
@@ -89,17 +90,17 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
         let left = (far.len() - sample) as u64;
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
         let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
-        let (ray, arrives) = ray_between(add(x, scale(lift, pair[0].normal())), y, lift);
+        let (ray, arrives) = ray_between(x + lift * pair[0].normal(), y, lift);
         dealt.push(Sample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
     }
     dealt
 }
 
 /// The ray from a point to another, and the share of the way after which a hit is at its end.
-fn ray_between(start: Vec3, end: Vec3, lift: f64) -> (Option<Ray>, f32) {
-    let to = sub(end, start);
-    let ray = Ray::new(start.map(|x| x as f32), to.map(|x| x as f32)).ok();
-    (ray, (1.0 - 2.0 * lift / length(to)) as f32)
+fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
+    let to = end - start;
+    let ray = Ray::new(narrow(start), narrow(to)).ok();
+    (ray, (1.0 - 2.0 * lift / to.length()) as f32)
 }
 
 /// The share of the samples' weight that gets through; takes a hit for each ray.
@@ -120,7 +121,7 @@ fn share(patches: &Patches, faces: [u32; 2], samples: &[Sample], hits: &mut impl
 /// The share of each of some patches that a point with a normal sees, of what it would see with nothing in the way.
 pub(in crate::radiosity) fn point_share(
     patches: &Patches,
-    [point, normal]: [Vec3; 2],
+    [point, normal]: [DVec3; 2],
     targets: &[usize],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
@@ -129,14 +130,14 @@ pub(in crate::radiosity) fn point_share(
         return Err(FormFactorError::NoSamples);
     }
     let (side, lift) = (u64::from(parameters.side), lift(patches.extent()));
-    let (random, start) = (Keyed::new(parameters.seed), add(point, scale(lift, normal)));
+    let (random, start) = (Keyed::new(parameters.seed), point + lift * normal);
     let count = side.saturating_mul(side);
     let sample = |target: usize, k: u64| {
         let patch = &patches.list()[target];
         let along = |stratum: u64, d| ((stratum as f64) + random.unit(target as u64, k, d)) / side as f64;
         let there = patches.open_point(target, [along(k % side, 0), along(k / side, 1)]);
-        let to = sub(there.at, point);
-        let (cosines, square) = (dot(normal, to).max(0.0) * (-dot(patch.normal(), to)).max(0.0), dot(to, to));
+        let to = there.at - point;
+        let (cosines, square) = (normal.dot(to).max(0.0) * (-patch.normal().dot(to)).max(0.0), to.dot(to));
         let (ray, arrives) = ray_between(start, there.at, lift);
         let weight = if square > 0.0 { there.density * cosines / (square * square) } else { 0.0 };
         Sample { weight, ray, arrives }

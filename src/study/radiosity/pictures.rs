@@ -12,7 +12,7 @@ use crate::renderer::tone;
 /// Linear light that is seen as the middle between black and white.
 const MIDDLE_GREY: f64 = 0.18;
 /// Rec. 709's weights of red, green and blue.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
 /// The card keeps all digits; the curve of a display comes after it.
 const OPTIONS: DisplayOptions =
     DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
@@ -42,7 +42,7 @@ pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
         if e.iter().all(|&e| e == 0.0) {
-            light += patches.open_area(i) * crate::geom::vector::dot(LUMINANCE, *b) / std::f64::consts::PI;
+            light += patches.open_area(i) * LUMINANCE.dot((*b).into()) / std::f64::consts::PI;
             area += patches.open_area(i);
         }
     }

@@ -1,10 +1,10 @@
 //! Physics: furnaces, energy, and light that is gathered at points.
 
-use crossbar::geom::vector::Vec3;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, display, gather};
+use glam::DVec3;
 
 use super::{cornell, tracer};
 
@@ -133,7 +133,7 @@ fn irradiance_at_a_point_is_what_the_patch_around_it_reflects() {
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
     let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
     // The patch in the middle of the back wall: nothing near it changes fast.
-    let middle = |p: &Vec3| (p[0] - 2.75).abs() + (p[1] - 5.5).abs() + (p[2] - 4.0).abs();
+    let middle = |p: &DVec3| (p[0] - 2.75).abs() + (p[1] - 5.5).abs() + (p[2] - 4.0).abs();
     let nearest = (0..b.len())
         .min_by(|&i, &j| middle(&patches.list()[i].centre()).total_cmp(&middle(&patches.list()[j].centre())));
     let i = nearest.expect("a patch");

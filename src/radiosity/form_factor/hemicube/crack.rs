@@ -4,9 +4,9 @@
 //! pixel. A pixel centre that falls into one is asked of the geometry itself; a real opening stays one.
 
 use super::item::Eye;
-use crate::geom::vector::{Vec3, add, cross, dot, scale, sub};
 use crate::radiosity::draw::Projection;
 use crate::radiosity::{Patch, Patches};
+use glam::DVec3;
 
 /// How far outside a side of a patch a ray may pass and still meet it, in shares of the side: neighbours' corners agree in f32.
 const SLACK: f64 = 1e-6;
@@ -37,21 +37,21 @@ fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
 
 /// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right angles, but for
 /// `upwards` of a side, which is twice the normal less `forward`.
-fn direction(face: &Projection, [x, y]: [f64; 2]) -> Vec3 {
-    let leaning = dot(face.upwards, face.forward);
-    let up = sub(face.upwards, scale(leaning, face.forward));
-    let height = (y - leaning) / dot(up, up);
-    add(add(face.forward, scale(x, face.across)), scale(height, up))
+fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
+    let leaning = face.upwards.dot(face.forward);
+    let up = face.upwards - leaning * face.forward;
+    let height = (y - leaning) / up.dot(up);
+    face.forward + x * face.across + height * up
 }
 
 /// The colour of the nearest patch along a ray from the eye; 0 for none.
-fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: Vec3) -> f64 {
+fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: DVec3) -> f64 {
     let (mut best, mut first) = (0.0, f64::INFINITY);
     for &(i, code) in &eye.seen {
         let patch = &patches.list()[i as usize];
-        let (height, fall) = (patch.height(face.eye), dot(patch.normal(), direction));
+        let (height, fall) = (patch.height(face.eye), patch.normal().dot(direction));
         let t = -height / fall;
-        if t > 0.0 && t < first && holds(patch, add(face.eye, scale(t, direction))) {
+        if t > 0.0 && t < first && holds(patch, face.eye + t * direction) {
             (best, first) = (code, t);
         }
     }
@@ -59,11 +59,11 @@ fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: Vec3) -> 
 }
 
 /// Whether a point of a patch's plane is in the patch, or a hair outside.
-fn holds(patch: &Patch, point: Vec3) -> bool {
+fn holds(patch: &Patch, point: DVec3) -> bool {
     let corners = patch.corners();
     (0..corners.len()).all(|i| {
-        let side = sub(corners[(i + 1) % corners.len()], corners[i]);
-        dot(cross(side, sub(point, corners[i])), patch.normal()) >= -SLACK * dot(side, side)
+        let side = corners[(i + 1) % corners.len()] - corners[i];
+        side.cross(point - corners[i]).dot(patch.normal()) >= -SLACK * side.dot(side)
     })
 }
 
@@ -80,7 +80,7 @@ mod tests {
         for face in &eye.faces {
             for [x, y] in [[0.3, -0.7], [-1.0, 1.0], [0.0, 0.25]] {
                 let d = direction(face, [x, y]);
-                let found = [face.across, face.upwards, face.forward].map(|axis| dot(axis, d));
+                let found = [face.across, face.upwards, face.forward].map(|axis| axis.dot(d));
                 assert!(found.iter().zip([x, y, 1.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
             }
         }

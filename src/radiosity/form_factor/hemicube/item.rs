@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
@@ -10,7 +11,7 @@ use refsim::raster::{Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
 use crate::card::{NearestTarget, Texels};
-use crate::geom::vector::{Vec3, cross, scale, sub, unit};
+use crate::geom::vector::unit;
 use crate::radiosity::draw::{DrawError, Projection, bits};
 use crate::radiosity::kernels;
 use crate::radiosity::{Patch, Patches};
@@ -83,7 +84,7 @@ impl ItemBuffer {
     }
 }
 
-fn vertex(projection: &Projection, corner: Vec3, code: f64) -> Vertex {
+fn vertex(projection: &Projection, corner: DVec3, code: f64) -> Vertex {
     let mut vertex = projection.vertex(corner, [0.0; 2], crate::radiosity::draw::Side::Front);
     vertex.texcoords[3] = bits([0.0, 0.0, code, 0.0]);
     vertex
@@ -120,22 +121,22 @@ const ON_PLANE: f64 = 1e-9;
 
 impl Eye {
     /// An eye on a point of a patch.
-    pub(super) fn new(patches: &Patches, patch: &Patch, point: Vec3) -> Self {
+    pub(super) fn new(patches: &Patches, patch: &Patch, point: DVec3) -> Self {
         let corners = patch.corners();
         let normal = patch.normal();
-        let along = unit(sub(corners[1], corners[0])).unwrap_or(normal);
-        let aside = cross(normal, along);
+        let along = unit(corners[1] - corners[0]).unwrap_or(normal);
+        let aside = normal.cross(along);
         let far = patches.extent();
         let top = Projection { eye: point, forward: normal, across: along, upwards: aside, far };
         // The lower edge of a side lies on the patch's plane, the upper one on the top face: y runs over twice the height less w.
-        let side = |forward: Vec3| Projection {
+        let side = |forward: DVec3| Projection {
             eye: point,
             forward,
-            across: cross(forward, normal),
-            upwards: sub(scale(2.0, normal), forward),
+            across: forward.cross(normal),
+            upwards: 2.0 * normal - forward,
             far,
         };
-        let back = |v: Vec3| scale(-1.0, v);
+        let back = |v: DVec3| -1.0 * v;
         let faces = [top, side(along), side(aside), side(back(along)), side(back(aside))];
         let in_front = |other: &Patch| {
             other.face != patch.face && other.corners().iter().any(|&c| patch.height(c) > ON_PLANE * other.radius())

@@ -7,12 +7,12 @@ mod item;
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
 use super::{FormFactorError, FormFactors};
-use crate::geom::vector::Vec3;
 use crate::linalg::Matrix;
 use crate::radiosity::draw::{DrawError, patch_of};
 use crate::radiosity::{Patch, Patches};
@@ -130,7 +130,7 @@ impl Work<'_> {
     }
 
     /// Adds what a hemicube sees to a row; false if it sees nothing.
-    fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: Vec3, row: &mut [f64]) -> Result<bool, DrawError> {
+    fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: DVec3, row: &mut [f64]) -> Result<bool, DrawError> {
         let eye = Eye::new(self.patches, patch, point);
         let mut any = false;
         for (face, mut codes) in buffer.see(self.patches, &eye)?.into_iter().enumerate() {
