@@ -1,4 +1,4 @@
-//! Patches on their way to the rasteriser: how they are projected, and the vertices that they become.
+//! Projection of patches to vertices.
 
 use glam::DVec3;
 use refsim::machine::MachineError;
@@ -10,10 +10,10 @@ use crate::card::KernelError;
 use crate::geom::vector::{narrow, wide};
 use crate::scene::Camera;
 
-/// An eye within this of a patch's plane, in shares of the patch's radius, sees neither side.
+/// An eye within this distance of a patch's plane, relative to the patch's radius, sees neither side.
 const EDGE_ON: f64 = 1e-9;
 
-/// Why nothing was drawn.
+/// Patches cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DrawError {
     /// The card refused.
@@ -22,8 +22,8 @@ pub enum DrawError {
     /// The device refuses a program.
     #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
     Kernel(#[from] KernelError),
-    /// Not one radiosity a patch.
-    #[error("expected {patches} radiosities, one a patch, found {found}")]
+    /// Not one radiosity per patch.
+    #[error("expected {patches} radiosities, one per patch, found {found}")]
     Count {
         /// The patches.
         patches: usize,
@@ -32,22 +32,22 @@ pub enum DrawError {
     },
 }
 
-/// Where an eye is and what it sees: clip space as three directions.
+/// A perspective projection: an eye, and the axes of its clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
     pub(super) eye: DVec3,
     /// Clip space's w is the component along this; its length is 1.
     pub(super) forward: DVec3,
-    /// Its x.
+    /// Clip space's x is the component along this.
     pub(super) across: DVec3,
-    /// Its y, upwards.
+    /// Clip space's y, upwards, is the component along this.
     pub(super) upwards: DVec3,
-    /// Nothing is farther away, measured along `forward`.
+    /// A bound on the distance of anything, measured along `forward`.
     pub(super) far: f64,
 }
 
 impl Projection {
-    /// That of a camera, for a scene that reaches no farther than `extent` from the point `within`.
+    /// The projection of a camera, for a scene within `extent` of the point `within`.
     pub(super) fn of(camera: &Camera, within: DVec3, extent: f64) -> Self {
         let eye = wide(camera.eye());
         let per_square = |v: DVec3| 1.0 / v.dot(v) * v;
@@ -66,7 +66,7 @@ impl Projection {
         [self.across, self.upwards, self.forward].map(|axis| axis.dot(to))
     }
 
-    /// Whether all of a patch is outside one side of what is seen.
+    /// Whether all of a patch lies outside one plane of the view frustum.
     pub(super) fn misses(&self, patch: &Patch) -> bool {
         let mut outside = [true; 5];
         for &corner in patch.corners() {
@@ -98,26 +98,26 @@ impl Projection {
 /// A side of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// The one with the light.
+    /// The one that receives and emits light.
     Front,
     /// The black one.
     Back,
 }
 
 impl Side {
-    /// A patch's number as a colour: from 1, negative from behind; 0 is nothing.
+    /// A patch's number as a color: from 1, negative for the back; 0 is no patch.
     pub(super) fn code(self, patch: usize) -> f64 {
         let number = (patch + 1) as f64;
         if self == Self::Front { number } else { -number }
     }
 }
 
-/// What a colour says: the patch whose front was seen there.
+/// The patch whose front was seen in a pixel, by the pixel's color.
 pub(super) fn patch_of(code: f32) -> Option<u32> {
     (code >= 1.0).then(|| code as u32 - 1)
 }
 
-/// A corner that neighbours in other faces have to the bit: they agree in f32.
+/// A corner rounded to f32, in which neighbours in other faces agree to the bit.
 fn shared(corner: DVec3) -> DVec3 {
     wide(narrow(corner))
 }

@@ -28,7 +28,7 @@ const LIFT: f64 = 1.0 / 65_536.0;
 /// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
 const FINEST: f64 = 4.0;
 /// Cells of a patch at most; beyond, the cells stay as they are.
-const MOST_CELLS: usize = 4096;
+const MAX_CELLS: usize = 4096;
 /// Test points between a cell's centre and its corners lie this far out.
 const OUTWARDS: f64 = 0.75;
 /// Tangents of the tested directions, along two axes of the plane: the normal first.
@@ -41,17 +41,17 @@ pub(super) fn lift(extent: f64) -> f64 {
 }
 
 /// A line segment in a raised plane.
-type Section = [DVec3; 2];
+type PlaneSegment = [DVec3; 2];
 
 /// The open parts of the patches that are not wholly open, by patch; none for a patch that is covered altogether.
 pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
     let triangles: Vec<[DVec3; 3]> = mesh.iter_corners().map(|t| t.map(wide)).collect();
     let lift = lift(extent);
-    let mut faces: BTreeMap<u32, Vec<Section>> = BTreeMap::new();
+    let mut faces: BTreeMap<u32, Vec<PlaneSegment>> = BTreeMap::new();
     for patch in list {
         faces.entry(patch.face).or_insert_with(|| {
             let others = triangles.iter().zip(face_of).filter(|&(_, &face)| face != patch.face);
-            others.filter_map(|(triangle, _)| section(patch, lift, triangle)).collect()
+            others.filter_map(|(triangle, _)| crossing_segment(patch, lift, triangle)).collect()
         });
     }
     let tracer = Tracer::new(mesh);
@@ -67,10 +67,10 @@ pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f
 }
 
 /// A convex polygon in the patch's plane, counter-clockwise from its front.
-type Cell = Vec<DVec3>;
+type ConvexCell = Vec<DVec3>;
 
 /// Where a triangle crosses a patch's plane raised by `lift`.
-fn section(patch: &Patch, lift: f64, triangle: &[DVec3; 3]) -> Option<Section> {
+fn crossing_segment(patch: &Patch, lift: f64, triangle: &[DVec3; 3]) -> Option<PlaneSegment> {
     let heights = triangle.map(|corner| patch.height(corner) - lift);
     let crossing = |k: usize| {
         let (from, to) = (k, (k + 1) % 3);
@@ -81,18 +81,18 @@ fn section(patch: &Patch, lift: f64, triangle: &[DVec3; 3]) -> Option<Section> {
     Some([ends.next()?, ends.next()?])
 }
 
-/// Cuts a cell along the lines of all sections that enter it by more than `finest`.
-fn cut(cell: Cell, normal: DVec3, sections: &[Section], finest: f64, into: &mut Vec<Cell>) {
-    for (k, &[a, b]) in sections.iter().enumerate() {
+/// Cuts a cell along the lines of all segments that enter it by more than `finest`.
+fn cut(cell: ConvexCell, normal: DVec3, segments: &[PlaneSegment], finest: f64, into: &mut Vec<ConvexCell>) {
+    for (k, &[a, b]) in segments.iter().enumerate() {
         let Some(along) = unit(b - a) else { continue };
         let aside = normal.cross(along);
         let beside = |point: DVec3| aside.dot(point - a);
         let (low, high) = cell.iter().map(|&c| beside(c)).fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
         if low < -finest && high > finest && inside(&cell, normal, [a, along], (b - a).length()) > finest {
-            if into.len() >= MOST_CELLS {
+            if into.len() >= MAX_CELLS {
                 break;
             }
-            let rest = &sections[k + 1..];
+            let rest = &segments[k + 1..];
             cut(clipped(&cell, beside), normal, rest, finest, into);
             cut(clipped(&cell, |point| -beside(point)), normal, rest, finest, into);
             return;
@@ -122,7 +122,7 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
 /// Whether every test ray of a cell sees the back of a surface first. Most cells are open, as their first ray tells.
 fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
     let normal = patch.normal();
-    let along = unit(patch.centre() - patch.corners()[0]).unwrap_or(normal);
+    let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);
     let aside = normal.cross(along);
     test_points(cell).into_iter().all(|point| {
         let start = narrow(point + lift * normal);

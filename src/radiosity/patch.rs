@@ -9,7 +9,7 @@ pub struct Patch {
     corners: [DVec3; 4],
     sides: usize,
     area: f64,
-    centre: DVec3,
+    center: DVec3,
     normal: DVec3,
     radius: f64,
     /// The face that it is a part of: patches of one face lie in one plane and never see each other.
@@ -46,9 +46,9 @@ impl Patch {
         if area.is_nan() || area <= least {
             return None;
         }
-        let centre = centroid(&corners[..sides], normal);
-        let radius = corners[..sides].iter().map(|&c| (c - centre).length()).fold(0.0, f64::max);
-        Some(Self { corners, sides, area, centre, normal: unit(normal)?, radius, face, material })
+        let center = centroid(&corners[..sides], normal);
+        let radius = corners[..sides].iter().map(|&c| (c - center).length()).fold(0.0, f64::max);
+        Some(Self { corners, sides, area, center, normal: unit(normal)?, radius, face, material })
     }
 
     /// Its corners, counter-clockwise from the front: three or four.
@@ -65,8 +65,8 @@ impl Patch {
 
     /// Its centre of gravity.
     #[must_use]
-    pub fn centre(&self) -> DVec3 {
-        self.centre
+    pub fn center(&self) -> DVec3 {
+        self.center
     }
 
     /// Its normal, of length 1.
@@ -84,7 +84,7 @@ impl Patch {
     /// How far a point lies in front of its plane (behind it: below 0).
     #[must_use]
     pub fn height(&self, point: DVec3) -> f64 {
-        self.normal.dot(point - self.centre)
+        self.normal.dot(point - self.center)
     }
 
     /// The unit square laid over the patch: four corners bilinearly, three with one side of the square drawn together. Integrals over
@@ -127,7 +127,7 @@ mod tests {
         let outline = [[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [1.0, 3.0]].map(|[x, y]| DVec3::new(x, y, 1.0));
         let patch = Patch::new(&outline, 0, 0).expect("a patch");
         assert_eq!((patch.area(), patch.normal()), (9.0, DVec3::Z));
-        let [x, y, z] = patch.centre().into();
+        let [x, y, z] = patch.center().into();
         assert!((x - 2.0).abs() < 1e-15 && (y - 4.0 / 3.0).abs() < 1e-15 && z == 1.0, "{x} {y} {z}");
         let middle = patch.at(0.5, 0.5);
         assert_eq!((middle.at, middle.density), (DVec3::new(2.0, 1.5, 1.0), 9.0));

@@ -13,7 +13,7 @@ use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
 
 /// The most patches: those of the largest matrix.
-pub const MOST_PATCHES: usize = MAX_SQUARE;
+pub const MAX_PATCHES: usize = MAX_SQUARE;
 
 /// How finely faces are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub enum PatchError {
         triangle: u32,
     },
     /// More patches than the largest matrix has rows.
-    #[error("expected at most {MOST_PATCHES} patches, found {found}; cut the faces into fewer")]
+    #[error("expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer")]
     TooMany {
         /// How many it would be.
         found: usize,
@@ -84,7 +84,7 @@ impl Patches {
             Subdivision::AtMost(most) => steps_for_at_most(&faces, most),
         };
         let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
-        if found > MOST_PATCHES {
+        if found > MAX_PATCHES {
             return Err(PatchError::TooMany { found });
         }
         let mut list = Vec::with_capacity(found);

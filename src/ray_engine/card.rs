@@ -13,7 +13,7 @@ use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
 use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState};
 
-use super::outputs::{Code, Told};
+use super::outputs::{PixelResult, TargetEncoding};
 use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Hit, Kernel, RayBatch};
 use crate::card::NearestTarget;
@@ -21,19 +21,19 @@ use crate::geom::{Mesh, Ray};
 
 /// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct RayTextures {
     /// All ray textures made so far: sampler, size, texture. Origins take one texel or one a ray.
     made: Vec<(usize, Region, TextureId)>,
     /// Those with the rays that were loaded last.
     textures: Vec<(usize, TextureId)>,
-    code: Code,
+    code: TargetEncoding,
     /// Ids, and t as depth.
     target: NearestTarget,
 }
 
 /// What is drawn, beside the triangles.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pass<'a> {
+pub(super) struct PassInputs<'a> {
     pub(super) kernel: &'a Kernel,
     pub(super) units: &'a Units,
     /// What the vertex program knows of the rays, if it culls: c3 and on.
@@ -59,7 +59,7 @@ impl CardHit {
 
 /// What to read back of a bucket, and how.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading<'a> {
+pub(super) struct ReadBack<'a> {
     pub(super) rays: &'a RayBatch,
     pub(super) units: &'a Units,
     /// The triangles drawn, in their order.
@@ -70,14 +70,14 @@ pub(super) struct Reading<'a> {
     pub(super) wait: bool,
 }
 
-impl Sheet {
+impl RayTextures {
     /// Uploads rays, and makes targets of their size.
     pub(super) fn new(
         machine: &mut Machine,
         kernel: &Kernel,
         rays: &RayBatch,
         units: &Units,
-        code: Code,
+        code: TargetEncoding,
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
@@ -107,7 +107,7 @@ impl Sheet {
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
-        Pass { kernel, units, bucket }: Pass<'_>,
+        PassInputs { kernel, units, bucket }: PassInputs<'_>,
         streams: &Streams,
     ) -> Result<DrawEvents, EngineError> {
         let mut float = units.vertex_constants();
@@ -130,7 +130,7 @@ impl Sheet {
     pub(super) fn read_back(
         &self,
         machine: &Machine,
-        reading: &Reading<'_>,
+        reading: &ReadBack<'_>,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         // The fence of the last transfer stands behind the others too.
         let (mut fence, image) = match reading.wait {
@@ -150,9 +150,9 @@ impl Sheet {
     }
 }
 
-impl Reading<'_> {
+impl ReadBack<'_> {
     /// Hits from colours and depths.
-    fn hits(&self, code: Code, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
+    fn hits(&self, code: TargetEncoding, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
         let width = self.rays.width();
         let t = |i: usize, ray: &Ray| {
             let depth = depth?;
@@ -160,7 +160,7 @@ impl Reading<'_> {
             Some(self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray))
         };
         let pixel = |(i, ray): (usize, &Ray)| {
-            let Told { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
+            let PixelResult { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
             Some(CardHit { triangle, t: t(i, ray), uvw })
         };
         self.rays.rays().iter().enumerate().map(pixel).collect()
@@ -198,7 +198,7 @@ pub(super) struct Card {
     machine: Machine,
     kernel: Arc<Kernel>,
     units: Units,
-    sheet: Sheet,
+    sheet: RayTextures,
 }
 
 impl Card {
@@ -209,7 +209,7 @@ impl Card {
         rays: &RayBatch,
         units: Units,
     ) -> Result<Self, EngineError> {
-        let sheet = Sheet::new(&mut machine, &kernel, rays, &units, Code::Id)?;
+        let sheet = RayTextures::new(&mut machine, &kernel, rays, &units, TargetEncoding::Id)?;
         Ok(Self { machine, kernel, units, sheet })
     }
 
@@ -225,13 +225,13 @@ impl Card {
 
     /// One screen-filling quad a triangle.
     pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
-        let pass = Pass { kernel: &self.kernel, units: &self.units, bucket: &[] };
+        let pass = PassInputs { kernel: &self.kernel, units: &self.units, bucket: &[] };
         self.sheet.draw(&mut self.machine, pass, streams)
     }
 
     /// What each of the rays hits.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
-        let reading = Reading { rays, units: &self.units, triangles: &[], t: true, wait: true };
+        let reading = ReadBack { rays, units: &self.units, triangles: &[], t: true, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
         Ok(hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect())
     }
@@ -253,7 +253,7 @@ pub(super) struct Streams {
 impl Streams {
     /// Triangles in their order, coloured as a target's code says. The fourth component of a is the place in the pass,
     /// that of b the edge scale, that of c nothing.
-    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: Code) -> Self {
+    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: TargetEncoding) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));

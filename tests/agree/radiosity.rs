@@ -77,7 +77,8 @@ fn passes_agree(name: &str, executor: &Executor, systems: &[CardSystem]) {
 }
 
 fn luminance(system: &System, block: usize) -> Vec<CardSystem> {
-    let channel = |c| CardSystem::luminance(system.matrix(c), &system.right(c), block, LIMIT).expect("it fits");
+    let channel =
+        |c| CardSystem::luminance(system.matrix(c), &system.right_hand_side(c), block, LIMIT).expect("it fits");
     (0..3).map(channel).collect()
 }
 

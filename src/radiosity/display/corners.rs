@@ -11,14 +11,14 @@ const CREASE: f64 = 0.9;
 
 /// Which patches a corner's radiosity is the mean of.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Meetings {
+pub(super) struct CornerSets {
     /// Each different set of patches, in rising order, never empty.
     pub(super) sets: Vec<Vec<u32>>,
     /// Of each corner of each patch the place of its set; a triangle's fourth is 0.
     pub(super) of: Vec<[u32; 4]>,
 }
 
-impl Meetings {
+impl CornerSets {
     /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not
     /// covered.
     pub(super) fn new(patches: &Patches) -> Self {
@@ -62,7 +62,7 @@ impl Meetings {
 #[must_use]
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
-    let Meetings { sets, of } = Meetings::new(patches);
+    let CornerSets { sets, of } = CornerSets::new(patches);
     let mean = |set: &Vec<u32>| {
         let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
         set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)

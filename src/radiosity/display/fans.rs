@@ -17,13 +17,13 @@ use glam::DVec3;
 const ON_SIDE: f64 = 1e-6;
 
 /// A point of a patch with its coordinates in it.
-pub(super) type Point = (DVec3, [f64; 2]);
+pub(super) type FanVertex = (DVec3, [f64; 2]);
 
-type Place = [u32; 3];
+type SnappedCorner = [u32; 3];
 
 /// Sides that no other patch shares from end to end.
-fn loose_sides(patches: &Patches) -> BTreeSet<[Place; 2]> {
-    let mut count: BTreeMap<[Place; 2], u32> = BTreeMap::new();
+fn loose_sides(patches: &Patches) -> BTreeSet<[SnappedCorner; 2]> {
+    let mut count: BTreeMap<[SnappedCorner; 2], u32> = BTreeMap::new();
     for patch in patches.list() {
         for side in sides(patch) {
             *count.entry(key(side)).or_default() += 1;
@@ -38,16 +38,16 @@ fn sides(patch: &Patch) -> impl Iterator<Item = [DVec3; 2]> + '_ {
 }
 
 /// A side without its direction.
-fn key(side: [DVec3; 2]) -> [Place; 2] {
+fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     let mut ends = side.map(place);
     ends.sort_unstable();
     ends
 }
 
 /// The triangles of each patch on whose sides others have corners; `None` for a patch that is drawn as it is.
-pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[Point; 3]>>> {
+pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     let loose = loose_sides(patches);
-    let ends: BTreeSet<Place> = loose.iter().flatten().copied().collect();
+    let ends: BTreeSet<SnappedCorner> = loose.iter().flatten().copied().collect();
     let ends: Vec<DVec3> = ends.into_iter().map(|end| wide(end.map(f32::from_bits))).collect();
     let near = ON_SIDE * patches.extent();
     let outline = |patch: &Patch| {
@@ -78,7 +78,7 @@ fn share(point: DVec3, [a, b]: [DVec3; 2], near: f64) -> Option<f64> {
     (off <= near && t > margin && t < 1.0 - margin).then_some(t)
 }
 
-fn fan(patch: &Patch, outline: &[Point]) -> Vec<[Point; 3]> {
+fn fan(patch: &Patch, outline: &[FanVertex]) -> Vec<[FanVertex; 3]> {
     let corners = patch.corners();
     let shares = 1.0 / corners.len() as f64;
     let middle = shares * corners.iter().sum::<DVec3>();

@@ -18,7 +18,7 @@ use super::draw::{DrawError, Projection, bits, patch_of};
 use super::{Patch, Patches, kernels};
 use crate::card::{NearestTarget, Texels};
 use crate::scene::Camera;
-use corners::Meetings;
+use corners::CornerSets;
 pub use corners::at_corners;
 use resample::Resampler;
 
@@ -107,10 +107,10 @@ impl Display {
         let profile = machine.profile();
         let (flat, id) = (kernels::FLAT.checked(profile)?, kernels::ID.checked(profile)?);
         let (quad, triangle) = (kernels::SMOOTH_QUAD.checked(profile)?, kernels::SMOOTH_TRIANGLE.checked(profile)?);
-        let meetings = Meetings::new(patches);
-        let resampler = Resampler::new(machine, &meetings, options.vector)?;
+        let corner_sets = CornerSets::new(patches);
+        let resampler = Resampler::new(machine, &corner_sets, options.vector)?;
         let builder =
-            VertexBuilder { patches, camera, meetings: &meetings, resampler: &resampler, vector: options.vector };
+            VertexBuilder { patches, camera, corner_sets: &corner_sets, resampler: &resampler, vector: options.vector };
         let [quads, quad_fans, triangles] = builder.vertices();
         let shapes = [
             PatchShape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
@@ -204,7 +204,7 @@ impl Display {
 struct VertexBuilder<'a> {
     patches: &'a Patches,
     camera: &'a Camera,
-    meetings: &'a Meetings,
+    corner_sets: &'a CornerSets,
     resampler: &'a Resampler,
     vector: VectorTexture,
 }
@@ -233,7 +233,7 @@ impl VertexBuilder<'_> {
 
     /// A vertex with the texels of its patch and of the patch's corners.
     fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
-        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.meetings.of[patch].map(|set| self.resampler.texel(set));
+        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.corner_sets.of[patch].map(|set| self.resampler.texel(set));
         let [x, y] = self.vector.texel(patch);
         vertex.texcoords[1] = bits([ax, ay, bx, by]);
         vertex.texcoords[2] = bits([cx, cy, dx, dy]);

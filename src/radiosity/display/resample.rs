@@ -6,7 +6,7 @@ use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
 use super::VectorTexture;
-use super::corners::Meetings;
+use super::corners::CornerSets;
 use crate::card::{FullScreenPass, PingPong, Texels};
 use crate::radiosity::draw::DrawError;
 use crate::radiosity::kernels;
@@ -29,9 +29,13 @@ pub(super) struct Resampler {
 
 impl Resampler {
     /// Uploads which patches meet where.
-    pub(super) fn new(machine: &mut Machine, meetings: &Meetings, vector: VectorTexture) -> Result<Self, DrawError> {
+    pub(super) fn new(
+        machine: &mut Machine,
+        corner_sets: &CornerSets,
+        vector: VectorTexture,
+    ) -> Result<Self, DrawError> {
         let program = kernels::RESAMPLE.checked(machine.profile())?;
-        let sets = &meetings.sets;
+        let sets = &corner_sets.sets;
         let width = sets.len().clamp(1, WIDTH);
         let size = [width, sets.len().div_ceil(width).max(1)];
         let most = sets.iter().map(Vec::len).max().unwrap_or(1);

@@ -19,7 +19,7 @@ const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
 #[derive(Clone, Copy, Debug)]
-struct Side {
+struct Edge {
     start: DVec3,
     direction: DVec3,
     length: f64,
@@ -28,7 +28,7 @@ struct Side {
 /// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from its front, and
 /// lies wholly in front of the other's plane.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
-    let others: Vec<Side> = sides(other).collect();
+    let others: Vec<Edge> = sides(other).collect();
     let mut sum = 0.0;
     for a in sides(one) {
         for b in &others {
@@ -41,16 +41,16 @@ pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     sum / (2.0 * PI)
 }
 
-fn sides(polygon: &[DVec3]) -> impl Iterator<Item = Side> + '_ {
+fn sides(polygon: &[DVec3]) -> impl Iterator<Item = Edge> + '_ {
     (0..polygon.len()).filter_map(|i| {
         let (start, end) = (polygon[i], polygon[(i + 1) % polygon.len()]);
         let vector = end - start;
-        Some(Side { start, direction: unit(vector)?, length: vector.length() })
+        Some(Edge { start, direction: unit(vector)?, length: vector.length() })
     })
 }
 
 /// The integral of ln r over both sides.
-fn logarithm_between(a: &Side, b: &Side) -> f64 {
+fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
     let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
     let off = ON_LINE * a.length.max(b.length);
     if near[1] <= off && far[1] <= off {
@@ -71,7 +71,7 @@ fn logarithm_between(a: &Side, b: &Side) -> f64 {
         }
 }
 
-impl Side {
+impl Edge {
     fn at(&self, t: f64) -> DVec3 {
         self.start + t * self.length * self.direction
     }

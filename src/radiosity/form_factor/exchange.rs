@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::gauss::{FIVE, Node, THREE};
+use super::gauss::{FIVE, GaussPoint, THREE};
 use super::{contour, polygon};
 use crate::radiosity::Patch;
 use glam::DVec3;
@@ -16,22 +16,22 @@ const ON_PLANE: f64 = 1e-9;
 
 /// A patch with the points at which its far field is integrated.
 #[derive(Clone, Debug)]
-pub(super) struct Prepared<'a> {
+pub(super) struct QuadraturePatch<'a> {
     pub(super) patch: &'a Patch,
-    three: Vec<Weighted>,
-    five: Vec<Weighted>,
+    three: Vec<WeightedPoint>,
+    five: Vec<WeightedPoint>,
 }
 
 /// A point and the area for which it stands.
-type Weighted = (DVec3, f64);
+type WeightedPoint = (DVec3, f64);
 
-impl<'a> Prepared<'a> {
+impl<'a> QuadraturePatch<'a> {
     pub(super) fn new(patch: &'a Patch) -> Self {
         Self { patch, three: points(patch, &THREE), five: points(patch, &FIVE) }
     }
 }
 
-fn points(patch: &Patch, rule: &[Node]) -> Vec<Weighted> {
+fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
     let mut points = Vec::with_capacity(rule.len() * rule.len());
     for &(v, across) in rule {
         for &(u, along) in rule {
@@ -73,7 +73,7 @@ fn facing(one: &Patch, other: &Patch) -> Facing {
 }
 
 /// Area of one patch times its form factor to the other, with nothing between them.
-pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
+pub(super) fn unoccluded(one: &QuadraturePatch<'_>, other: &QuadraturePatch<'_>) -> f64 {
     let (p, q) = (one.patch, other.patch);
     let facing = facing(p, q);
     if facing == Facing::Not {
@@ -83,7 +83,7 @@ pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
         let (p_part, q_part) = (polygon::in_front_of(p.corners(), q), polygon::in_front_of(q.corners(), p));
         return if p_part.len() < 3 || q_part.len() < 3 { 0.0 } else { contour::exchange(&p_part, &q_part).max(0.0) };
     }
-    let apart = q.centre() - p.centre();
+    let apart = q.center() - p.center();
     let (square, radii) = (apart.dot(apart), p.radius() + q.radius());
     if square >= FAR * FAR * radii * radii {
         kernel_sum([p, q], &one.three, &other.three)
@@ -94,7 +94,7 @@ pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
     }
 }
 
-fn kernel_sum([p, q]: [&Patch; 2], from: &[Weighted], to: &[Weighted]) -> f64 {
+fn kernel_sum([p, q]: [&Patch; 2], from: &[WeightedPoint], to: &[WeightedPoint]) -> f64 {
     let mut sum = 0.0;
     for &(x, weight) in from {
         sum += weight * to.iter().map(|&(y, area)| area * kernel([p, q], x, y)).sum::<f64>();

@@ -22,7 +22,7 @@ use thiserror::Error;
 use super::{DrawError, Patches};
 use crate::geom::{CastError, Caster};
 use crate::linalg::{Matrix, MatrixError};
-use exchange::Prepared;
+use exchange::QuadraturePatch;
 
 pub use closure::RowSums;
 pub use hemicube::Hemicube;
@@ -202,8 +202,8 @@ impl FormFactors {
 
 /// Area times form factor of the open parts of every two patches, above the diagonal, with nothing between them.
 fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
-    let parts = |i| patches.open_parts(i).iter().map(Prepared::new).collect();
-    let list: Vec<Vec<Prepared<'_>>> = (0..patches.list().len()).map(parts).collect();
+    let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
+    let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
     let mut matrix = Matrix::zeros([list.len(); 2])?;
     matrix.par_rows_mut().enumerate().for_each(|(i, row)| {
         for (into, others) in row.iter_mut().zip(&list).skip(i + 1) {

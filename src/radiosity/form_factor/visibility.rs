@@ -33,7 +33,7 @@ impl Default for VisibilityParameters {
 
 /// A ray between two patches, and what it counts for.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct VisibilitySample {
     weight: f64,
     ray: Option<Ray>,
     /// Hits from here on are at the far end.
@@ -59,7 +59,7 @@ pub(super) fn hide(
     let rays_a_pair = (parameters.side as usize).saturating_mul(parameters.side as usize);
     let at_a_time = (parameters.bundle / rays_a_pair).max(1);
     for (round, bundle) in pairs.chunks(at_a_time).enumerate() {
-        let samples: Vec<Sample> =
+        let samples: Vec<VisibilitySample> =
             bundle.par_iter().flat_map_iter(|&pair| samples(patches, pair, parameters)).collect();
         let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
         let mut hits = caster.cast(&rays)?.into_iter();
@@ -74,7 +74,7 @@ pub(super) fn hide(
 
 /// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
 /// other, dealt out at random.
-fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<Sample> {
+fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
     let (side, lift) = (parameters.side as usize, lift(patches.extent()));
@@ -91,7 +91,7 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
         let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
         let (ray, arrives) = ray_between(x + lift * pair[0].normal(), y, lift);
-        dealt.push(Sample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
+        dealt.push(VisibilitySample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
     }
     dealt
 }
@@ -104,7 +104,12 @@ fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
 }
 
 /// The share of the samples' weight that gets through; takes a hit for each ray.
-fn share(patches: &Patches, faces: [u32; 2], samples: &[Sample], hits: &mut impl Iterator<Item = Option<Hit>>) -> f64 {
+fn share(
+    patches: &Patches,
+    faces: [u32; 2],
+    samples: &[VisibilitySample],
+    hits: &mut impl Iterator<Item = Option<Hit>>,
+) -> f64 {
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
@@ -140,9 +145,9 @@ pub(in crate::radiosity) fn point_share(
         let (cosines, square) = (normal.dot(to).max(0.0) * (-patch.normal().dot(to)).max(0.0), to.dot(to));
         let (ray, arrives) = ray_between(start, there.at, lift);
         let weight = if square > 0.0 { there.density * cosines / (square * square) } else { 0.0 };
-        Sample { weight, ray, arrives }
+        VisibilitySample { weight, ray, arrives }
     };
-    let samples: Vec<Sample> =
+    let samples: Vec<VisibilitySample> =
         targets.iter().flat_map(|&target| (0..count).map(move |k| (target, k))).map(|(t, k)| sample(t, k)).collect();
     let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
     let mut hits = caster.cast(&rays)?.into_iter();

@@ -43,11 +43,11 @@ pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::radiosity::model::{BLOCK, MOST_INSTRUCTIONS};
+    use crate::radiosity::model::{BLOCK, MAX_INSTRUCTIONS};
 
     #[test]
     fn a_block_of_the_paper_is_the_longest_that_fits() {
-        let most = MOST_INSTRUCTIONS as usize;
+        let most = MAX_INSTRUCTIONS as usize;
         for kernel in BLOCKS {
             let [rest, each] = [kernel.overhead(), kernel.per_texel()];
             let block = kernel.block(most);

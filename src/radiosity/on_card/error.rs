@@ -1,4 +1,4 @@
-//! Why a card does not solve a system.
+//! Errors of solving on a card.
 
 use refsim::device::Profile;
 use refsim::isa::Version;
@@ -35,7 +35,7 @@ pub enum CardError {
     /// The device refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
-    /// Something of another size than the system on the card.
+    /// A size that differs from that of the system on the card.
     #[error("expected {expected} {what}, found {found}")]
     Size {
         /// Of what, and why so many.
@@ -45,13 +45,13 @@ pub enum CardError {
         /// How many there are.
         found: usize,
     },
-    /// The iteration runs away.
+    /// The iteration diverges.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
     Diverged {
         /// Iterations done.
         iterations: u32,
     },
-    /// The card refuses a resource or a draw, or there is none.
+    /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
 }

@@ -1,4 +1,4 @@
-//! One system on the card: its matrix and emittance, and three vectors that take turns.
+//! The textures of one system: its matrix, its emittance, and three vectors of which one holds the radiosities.
 
 use refsim::exec::Constants;
 use refsim::machine::{Machine, TextureId};
@@ -10,7 +10,7 @@ use crate::card::{FullScreenPass, PingPong, Texels, new_target};
 use crate::radiosity::card_order::CardSystem;
 use crate::radiosity::packing::Packing;
 
-/// Sizes of a system's textures.
+/// Packing and sizes of a system's textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SystemLayout {
     pub(super) packing: Packing,
@@ -39,7 +39,8 @@ pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<
     if expected == found { Ok(()) } else { Err(CardError::Size { what, expected, found }) }
 }
 
-/// A system's textures. Its radiosities are one of three vectors: a pass reads it and what the pass before wrote, and writes the third.
+/// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next partial
+/// sums; the last ones are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
     layout: SystemLayout,
@@ -98,7 +99,7 @@ impl Layer {
         }
     }
 
-    /// A quad over the target, `row` added to the matrix's row that its place stands for.
+    /// A quad over the target, whose fragments read the matrix `row` rows below their own.
     fn draw(
         &self,
         machine: &mut Machine,
@@ -122,7 +123,7 @@ impl Layer {
         Ok(())
     }
 
-    /// The last pass's target holds the radiosities from now on.
+    /// Makes the last pass's target the radiosities.
     pub(super) fn turn(&mut self, passes: usize) {
         if let Some(last) = passes.checked_sub(1) {
             self.partial.exchange(last, &mut self.radiosity);

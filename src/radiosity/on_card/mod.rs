@@ -1,7 +1,9 @@
-//! Equation 4 on an emulated card: matrix and emittance uploaded once, a quad a pass, radiosities in a 1-D texture.
+//! Jacobi iteration (equation 4) on an emulated card: matrix and emittance are uploaded once, a pass is a full-screen quad,
+//! radiosities are a 1-D texture.
 //!
-//! A target is one row of texels, a patch each (RGB) or four (luminance), so that a texture coordinate along it is a patch's number, as
-//! the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that row and is lost.
+//! A target is one row of texels, with one patch (RGB) or four (luminance) per texel, so that a texture coordinate along it
+//! is a patch's number, as the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that
+//! row and is lost.
 
 mod cycle;
 mod error;
@@ -22,7 +24,7 @@ pub use error::CardError;
 pub use fit::{Fit, Storage};
 pub use product::{product, product_block};
 pub use programs::PassProgram;
-pub use solve::{CardOptions, CardSolution, Iteration};
+pub use solve::{CardOptions, CardSolution, Iteration, to_f64};
 
 use super::System;
 use super::card_order::{CardSystem, emittances};
@@ -32,18 +34,18 @@ use crate::card::Texels;
 use layer::{Layer, SystemLayout, same};
 use programs::Programs;
 
-/// What sizes are about, in messages.
+/// What the sizes in messages count.
 const PATCHES: &str = "patches, as the card has";
 const SYSTEMS: &str = "systems (RGB: one; luminance: one, or three for the channels)";
 
-/// A system on a card. Radiosities are 0 at first, and stay where they are when light or reflectances change.
+/// A system on a card. Radiosities are 0 at first, and are kept when emittances or reflectances change.
 #[derive(Debug)]
 pub struct CardSolver {
     machine: Machine,
     fit: Fit,
     layout: SystemLayout,
     programs: Programs,
-    /// One system of three channels, or one a channel.
+    /// One system of three channels, or one per channel.
     layers: Vec<Layer>,
 }
 
@@ -131,7 +133,7 @@ impl CardSolver {
         self.iterate_watched(&mut |_, _, _| Ok(()))
     }
 
-    /// One iteration; `each` is told what each pass leaves, by system and pass. That reads every pass back.
+    /// One iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
     ///
     /// # Errors
     /// [`CardError::Machine`].
@@ -154,6 +156,17 @@ impl CardSolver {
         Ok(())
     }
 
+    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: what is bound,
+    /// not what is computed.
+    pub(in crate::radiosity) fn bind_as_after_iteration(&mut self) -> Result<(), CardError> {
+        let passes = self.passes();
+        if let (Some(layer), Some(last)) = (self.layers.last(), passes.checked_sub(1)) {
+            layer.pass(&mut self.machine, &self.programs, last)?;
+        }
+        self.layers.iter_mut().for_each(|layer| layer.turn(passes));
+        Ok(())
+    }
+
     /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
     ///
     /// # Errors
@@ -168,7 +181,7 @@ impl CardSolver {
         })
     }
 
-    /// The same as it lies in the textures, one a system.
+    /// The radiosities as the textures hold them, one per system.
     ///
     /// # Errors
     /// [`CardError::Machine`].
@@ -177,10 +190,10 @@ impl CardSolver {
         Ok(layers.map(|layer| Texels::read_back(&self.machine, layer.radiosity)).collect::<Result<_, _>>()?)
     }
 
-    /// Continues from these radiosities.
+    /// Replaces the radiosities.
     ///
     /// # Errors
-    /// [`CardError::Size`] if there is not one a patch.
+    /// [`CardError::Size`] if there is not one per patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
         same(PATCHES, self.len(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
@@ -193,7 +206,7 @@ impl CardSolver {
         self.load_texels(&layouts)
     }
 
-    /// The same as it lies in the textures, one a system.
+    /// Replaces the radiosities, in the layout of the textures, one per system.
     ///
     /// # Errors
     /// [`CardError::Size`].
@@ -203,7 +216,7 @@ impl CardSolver {
         self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
 
-    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card; radiosities stay.
+    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
@@ -215,7 +228,7 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// New reflectances: uploads matrix and emittances of a system of as many patches; radiosities stay.
+    /// New reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
@@ -230,28 +243,28 @@ impl CardSolver {
         Ok(())
     }
 
-    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one a channel with four patches a
-    /// texel. Each iteration leaves them in others.
+    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with four
+    /// patches per texel. An iteration changes which textures these are.
     #[must_use]
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()
     }
 
-    /// The card: to draw from the radiosities where they are.
+    /// The emulated card, for drawing from the radiosities without reading them back.
     pub fn machine_mut(&mut self) -> &mut Machine {
         &mut self.machine
     }
 
-    /// Starts or stops writing down what is asked of the card.
+    /// Starts or stops recording the log.
     pub fn record(&mut self, on: bool) {
         self.machine.record(on);
     }
 
-    /// What was asked of it since the last time.
+    /// The log recorded since the last call.
     pub fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 }
 
-/// Hears of a pass: the card, which system, which pass.
+/// Called after a pass: the card, which system, which pass.
 type PassObserver<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;

@@ -48,7 +48,7 @@ fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u
 #[test]
 fn the_cornell_box_stays_within_its_bound() {
     let system = cornell(300);
-    let systems = [0, 1, 2].map(|c| (system.matrix(c), system.right(c)));
+    let systems = [0, 1, 2].map(|c| (system.matrix(c), system.right_hand_side(c)));
     check("RGB", &CardSystem::rgb(&system, 254, 2048).expect("it fits"), &systems, 110);
     for (matrix, right) in systems {
         let card = CardSystem::luminance(matrix.clone(), &right, 254, 2048).expect("it fits");

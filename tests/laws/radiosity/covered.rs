@@ -94,7 +94,7 @@ fn open_areas_are_what_the_feet_leave() {
     let finest = 4.0 * (3.0_f64 * 5.5 * 5.5).sqrt() / 65_536.0;
     for count in [20, 150, 700, 2000] {
         let patches = Patches::new(&scene, Subdivision::AtMost(count)).expect("patches");
-        let floor = |i: &usize| patches.list()[*i].normal()[2] > 0.5 && patches.list()[*i].centre()[2] == 0.0;
+        let floor = |i: &usize| patches.list()[*i].normal()[2] > 0.5 && patches.list()[*i].center()[2] == 0.0;
         let open: f64 = (0..patches.list().len()).filter(floor).map(|i| patches.open_area(i)).sum();
         let left = 5.5 * 5.5 - feet;
         assert!((open - left).abs() <= finest * perimeter, "{count} patches: {open}, expected {left}");
@@ -145,7 +145,7 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
     let closed = solved(&patches, &factors);
     let mut caster = tracer(&scene);
     let (mut compared, mut bias) = (0, [const { Vec::new() }; 3]);
-    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.centre()[2] == 0.0) {
+    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.center()[2] == 0.0) {
         let (points, share) = open_points(patch, 24, 5);
         if !(0.01..0.35).contains(&share) {
             continue;

@@ -124,7 +124,7 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     let mut machine = card("nv35");
     let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
     let slope = |DVec3 { x, y, z }| [1.0 + x + 2.0 * y, 1.0 + z * z, 1.0 + x * y];
-    let radiosity: Vec<[f64; 3]> = patches.list().iter().map(|patch| slope(patch.centre())).collect();
+    let radiosity: Vec<[f64; 3]> = patches.list().iter().map(|patch| slope(patch.center())).collect();
     let corners = at_corners(&patches, &radiosity);
     let texture = display.upload(&mut machine, &radiosity).expect("a texture");
     let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");

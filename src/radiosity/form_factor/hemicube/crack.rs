@@ -3,7 +3,7 @@
 //! Where the patches of one face end in the middle of a patch of the next, snapping to the raster's grid opens cracks of a sixteenth of a
 //! pixel. A pixel centre that falls into one is asked of the geometry itself; a real opening stays one.
 
-use super::item::Eye;
+use super::item::HemicubeView;
 use crate::radiosity::draw::Projection;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
@@ -12,14 +12,14 @@ use glam::DVec3;
 const SLACK: f64 = 1e-6;
 
 /// Fills the cracks of a face of `width` pixels a row; returns how many there were.
-pub(super) fn fill(patches: &Patches, eye: &Eye, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
+pub(super) fn fill(patches: &Patches, eye: &HemicubeView, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
     let height = codes.len() / width;
     let cracks: Vec<usize> =
         (0..codes.len()).filter(|&at| codes[at] <= 0.0 && is_edge(codes, width, height, at)).collect();
     let mut filled = 0;
     for at in cracks {
-        let centre = [(at % width, width), (at / width, height)].map(|(i, n)| (2 * i + 1) as f64 / n as f64 - 1.0);
-        let found = nearest(patches, eye, face, direction(face, [centre[0], -centre[1]]));
+        let center = [(at % width, width), (at / width, height)].map(|(i, n)| (2 * i + 1) as f64 / n as f64 - 1.0);
+        let found = nearest(patches, eye, face, direction(face, [center[0], -center[1]]));
         codes[at] = found as f32;
         filled += usize::from(found > 0.0);
     }
@@ -45,7 +45,7 @@ fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
 }
 
 /// The colour of the nearest patch along a ray from the eye; 0 for none.
-fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: DVec3) -> f64 {
+fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: DVec3) -> f64 {
     let (mut best, mut first) = (0.0, f64::INFINITY);
     for &(i, code) in &eye.seen {
         let patch = &patches.list()[i as usize];
@@ -76,7 +76,7 @@ mod tests {
     fn a_direction_goes_through_its_pixel() {
         let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
         let patch = &patches.list()[5];
-        let eye = Eye::new(&patches, patch, patch.centre());
+        let eye = HemicubeView::new(&patches, patch, patch.center());
         for face in &eye.faces {
             for [x, y] in [[0.3, -0.7], [-1.0, 1.0], [0.0, 0.25]] {
                 let d = direction(face, [x, y]);
@@ -90,7 +90,7 @@ mod tests {
     fn cracks_are_filled_with_what_is_there() {
         let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
         let patch = &patches.list()[0];
-        let eye = Eye::new(&patches, patch, patch.centre());
+        let eye = HemicubeView::new(&patches, patch, patch.center());
         let ceiling = |code: f32| patches.list()[code as usize - 1].face == 1;
         let mut codes = vec![0.0; 25];
         codes[12] = 9.0;

@@ -38,7 +38,7 @@ impl ItemBuffer {
     }
 
     /// What a hemicube sees: patches' numbers from 1, negative from behind, 0 for nothing; each face row by row from the top.
-    pub(super) fn see(&mut self, patches: &Patches, hemicube: &Eye) -> Result<[Vec<f32>; FACES], DrawError> {
+    pub(super) fn see(&mut self, patches: &Patches, hemicube: &HemicubeView) -> Result<[Vec<f32>; FACES], DrawError> {
         self.target.clear(&mut self.machine)?;
         for (face, projection) in hemicube.faces.iter().enumerate() {
             self.draw(patches, hemicube, projection, place(face, self.resolution))?;
@@ -54,7 +54,7 @@ impl ItemBuffer {
     fn draw(
         &mut self,
         patches: &Patches,
-        hemicube: &Eye,
+        hemicube: &HemicubeView,
         projection: &Projection,
         face: Region,
     ) -> Result<(), DrawError> {
@@ -110,7 +110,7 @@ fn place(face: usize, resolution: u32) -> Region {
 
 /// A hemicube's eye on a patch: what its faces look at, and what they may see.
 #[derive(Clone, Debug)]
-pub(super) struct Eye {
+pub(super) struct HemicubeView {
     pub(super) faces: [Projection; FACES],
     /// Patches that are not wholly behind the eye's plane, with their colours.
     pub(super) seen: Vec<(u32, f64)>,
@@ -119,7 +119,7 @@ pub(super) struct Eye {
 /// Corners this far behind the eye's plane, in shares of the patch's radius, still count as behind it.
 const ON_PLANE: f64 = 1e-9;
 
-impl Eye {
+impl HemicubeView {
     /// An eye on a point of a patch.
     pub(super) fn new(patches: &Patches, patch: &Patch, point: DVec3) -> Self {
         let corners = patch.corners();
