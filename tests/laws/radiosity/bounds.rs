@@ -8,7 +8,7 @@ use crossbar::radiosity::solve::{Options, Problem, Solver, solve};
 use super::{cornell, random_system};
 
 fn truth(matrix: &Matrix, right: &[f64]) -> Vec<f64> {
-    let problem = Problem { matrix, right, areas: &vec![1.0; right.len()], start: None };
+    let problem = Problem { matrix, right_hand_side: right, areas: &vec![1.0; right.len()], start: None };
     solve(Solver::Direct, &problem, &Options::default()).expect("a solution").radiosity
 }
 
