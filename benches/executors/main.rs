@@ -1,7 +1,7 @@
 //! How fast the executors are, on the host: the Ray Engine's own programs, 256 rays against 256 triangles, and draws that
 //! are bound by one thing each; beside them, ray-triangle tests of other people's crates.
 //!
-//! `cargo bench --bench executors` measures, on two threads; `cargo bench --bench executors -- --table` writes what was
+//! `cargo bench -p crossbar-benches --bench executors` measures, on two threads; `cargo bench -p crossbar-benches --bench executors -- --table` writes what was
 //! measured last into docs/performance.md.
 //!
 //! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex where

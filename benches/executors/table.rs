@@ -26,7 +26,7 @@ type Figures = BTreeMap<String, BTreeMap<String, f64>>;
 
 /// Puts the figures into the document, between its two marks.
 pub(crate) fn write() -> io::Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     let mut figures = Figures::new();
     collect(&target.join("criterion").join("executors"), &mut figures)?;

@@ -38,7 +38,7 @@ pub(crate) fn write() -> io::Result<()> {
             }
         }
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/performance.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/performance.md");
     let text = fs::read_to_string(&path)?;
     let missing = || io::Error::other(format!("{}: expected `{BEGIN}` and `{END}`", path.display()));
     let (before, rest) = text.split_once(BEGIN).ok_or_else(missing)?;

@@ -1,6 +1,6 @@
 //! How fast the emulated cards are: criterion on modelled time.
 //!
-//! `cargo bench --bench modelled`. What is measured is the timeline of a run in picoseconds, so every sample is the same, on every
+//! `cargo bench -p crossbar-benches --bench modelled`. What is measured is the timeline of a run in picoseconds, so every sample is the same, on every
 //! machine, and a change is a change of the model. (Criterion's own confidence intervals are then points.)
 //!
 //! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment of a crossbar draw: a

@@ -4,13 +4,14 @@
 //! Figures to beat: the batch executor no slower than ten times the loop, the product level with nalgebra's matrix-vector product. Ratios
 //! are of one run. One element is one texel of the matrix, or one element.
 //!
-//! `cargo bench --bench radiosity`; `-- "f64 product"` for the second alone, which needs less memory (the first takes 1.5 GB).
+//! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` for the second alone, which needs less memory (the first takes 1.5 GB).
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use crossbar::card::Texels;
 use crossbar::geom::random::Keyed;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::packing::{Packing, Texels};
+use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::{CardSolver, FormFactors, Storage, System};
 use nalgebra::{DMatrix, DVector};
 use refsim::device::Profile;
@@ -26,7 +27,7 @@ const SIZES: [usize; 3] = [512, 1954, 4096];
 /// Form factors whose rows sum to 1, no two alike.
 fn factors(size: usize) -> Matrix {
     let random = Keyed::new(size as u64);
-    let mut matrix = Matrix::zero(size).expect("a matrix");
+    let mut matrix = Matrix::zeros([size; 2]).expect("a matrix");
     for i in 0..size {
         let row = matrix.row_mut(i);
         for (j, value) in row.iter_mut().enumerate() {

@@ -1,6 +1,6 @@
 //! Other people's intersectors before the oracle: the crates `bvh`, `obvhs` and `parry3d`, and this project's own host tracer.
 //!
-//! `cargo run --release --example foreign_intersector` prints the tables of foreign_intersector.md; a test holds the page to them.
+//! `cargo run --release -p crossbar-benches --example foreign_intersector` prints the tables of foreign_intersector.md; a test holds the page to them.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::fmt::Write as _;

@@ -1,72 +1,88 @@
-//! Square matrices by rows.
+//! Dense matrices by rows.
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::dot;
 
-/// The largest matrix that is made: 2 GiB of f64.
-pub const MOST_ROWS: usize = 16_384;
+/// Rows of the largest square matrix.
+pub const MAX_SQUARE: usize = 16_384;
+/// Elements of the largest matrix: 2 GiB of f64.
+pub const MAX_ELEMENTS: usize = MAX_SQUARE * MAX_SQUARE;
 
 /// Products of fewer elements than this stay on one thread.
-const WORTH_THREADS: usize = 1 << 16;
+const MIN_PARALLEL_ELEMENTS: usize = 1 << 16;
 
-/// A square matrix of f64, row by row.
+/// A matrix of f64, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
-    size: usize,
+    rows: usize,
+    columns: usize,
     values: Vec<f64>,
 }
 
-/// Why numbers make no matrix.
+/// Why a matrix cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum MatrixError {
-    /// Too many rows.
-    #[error("expected a matrix of at most {MOST_ROWS} rows, found {rows}")]
+    /// Too many elements.
+    #[error(
+        "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {rows} x {columns}"
+    )]
     TooLarge {
         /// The rows asked for.
         rows: usize,
+        /// The columns asked for.
+        columns: usize,
     },
-    /// The number of values is not the square of the number of rows.
-    #[error("expected {rows} x {rows} values, found {values}")]
-    Shape {
+    /// The number of values is not rows times columns.
+    #[error("expected {rows} x {columns} values, found {values}")]
+    Count {
         /// The rows asked for.
         rows: usize,
+        /// The columns asked for.
+        columns: usize,
         /// The values given.
         values: usize,
     },
 }
 
 impl Matrix {
-    /// A matrix of `size` rows and columns.
+    /// A matrix of so many rows and columns.
     ///
     /// # Errors
     /// [`MatrixError`] if it is too large, or the values do not fill it.
-    pub fn new(size: usize, values: Vec<f64>) -> Result<Self, MatrixError> {
-        if size > MOST_ROWS {
-            return Err(MatrixError::TooLarge { rows: size });
+    pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, MatrixError> {
+        if elements([rows, columns])? != values.len() {
+            return Err(MatrixError::Count { rows, columns, values: values.len() });
         }
-        if values.len() != size * size {
-            return Err(MatrixError::Shape { rows: size, values: values.len() });
-        }
-        Ok(Self { size, values })
+        Ok(Self { rows, columns, values })
     }
 
     /// A matrix of zeros.
     ///
     /// # Errors
     /// [`MatrixError::TooLarge`].
-    pub fn zero(size: usize) -> Result<Self, MatrixError> {
-        if size > MOST_ROWS {
-            return Err(MatrixError::TooLarge { rows: size });
-        }
-        Ok(Self { size, values: vec![0.0; size * size] })
+    pub fn zeros([rows, columns]: [usize; 2]) -> Result<Self, MatrixError> {
+        Ok(Self { rows, columns, values: vec![0.0; elements([rows, columns])?] })
     }
 
-    /// Rows, and columns.
+    /// The number of rows.
     #[must_use]
-    pub fn size(&self) -> usize {
-        self.size
+    pub fn row_count(&self) -> usize {
+        self.rows
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub fn column_count(&self) -> usize {
+        self.columns
+    }
+
+    /// Whether there are as many rows as columns.
+    #[must_use]
+    pub fn is_square(&self) -> bool {
+        self.rows == self.columns
     }
 
     /// A row.
@@ -75,7 +91,7 @@ impl Matrix {
     /// If there is no such row.
     #[must_use]
     pub fn row(&self, row: usize) -> &[f64] {
-        &self.values[row * self.size..(row + 1) * self.size]
+        &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
     /// A row, to be written.
@@ -83,52 +99,74 @@ impl Matrix {
     /// # Panics
     /// If there is no such row.
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
-        &mut self.values[row * self.size..(row + 1) * self.size]
+        &mut self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// All rows, from the first.
+    /// All rows, from the first; none if they have no columns.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        // A matrix without rows still needs a width that is not 0.
-        self.values.chunks_exact(self.size.max(1))
+        self.values.chunks_exact(self.columns.max(1))
     }
 
     /// All rows, to be written on all threads.
     pub fn par_rows_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [f64]> {
-        self.values.par_chunks_exact_mut(self.size.max(1))
+        self.values.par_chunks_exact_mut(self.columns.max(1))
     }
 
     /// The elements of the diagonal.
     #[must_use]
     pub fn diagonal(&self) -> Vec<f64> {
-        self.rows().enumerate().map(|(i, row)| row[i]).collect()
+        self.rows().take(self.columns).enumerate().map(|(i, row)| row[i]).collect()
     }
 
-    /// The product with a vector, a [`dot`] a row.
+    /// The product with a vector, one [`dot`] per row.
     #[must_use]
     pub fn times(&self, vector: &[f64]) -> Vec<f64> {
-        if self.values.len() < WORTH_THREADS {
+        if self.values.len() < MIN_PARALLEL_ELEMENTS {
             return self.rows().map(|row| dot(row, vector)).collect();
         }
-        self.values.par_chunks_exact(self.size.max(1)).map(|row| dot(row, vector)).collect()
+        self.values.par_chunks_exact(self.columns.max(1)).map(|row| dot(row, vector)).collect()
     }
 
-    /// Rows as columns.
+    /// The product with a matrix, one [`dot`] per element.
+    ///
+    /// # Errors
+    /// [`MatrixError::TooLarge`].
+    ///
+    /// # Panics
+    /// If the other has not as many rows as this one has columns.
+    pub fn product(&self, other: &Self) -> Result<Self, MatrixError> {
+        assert_eq!(self.columns, other.rows, "as many rows as columns");
+        let (mut product, columns) = (Self::zeros([self.rows, other.columns])?, other.transposed());
+        product.par_rows_mut().zip(0..self.rows).for_each(|(into, i)| {
+            into.iter_mut().zip(columns.rows()).for_each(|(value, column)| *value = dot(self.row(i), column));
+        });
+        Ok(product)
+    }
+
+    /// The transposed matrix.
     #[must_use]
     pub fn transposed(&self) -> Self {
         let mut values = vec![0.0; self.values.len()];
-        values.par_chunks_exact_mut(self.size.max(1)).enumerate().for_each(|(column, into)| {
-            for (value, row) in into.iter_mut().zip(self.rows()) {
-                *value = row[column];
-            }
+        values.par_chunks_exact_mut(self.rows.max(1)).enumerate().for_each(|(column, into)| {
+            into.iter_mut().zip(self.rows()).for_each(|(value, row)| *value = row[column]);
         });
-        Self { size: self.size, values }
+        Self { rows: self.columns, columns: self.rows, values }
     }
 
-    /// The largest row sum of magnitudes: the norm that belongs to the largest element of a vector.
-    #[must_use]
-    pub fn norm(&self) -> f64 {
-        self.rows().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max)
+    pub(super) fn to_nalgebra(&self) -> DMatrix<f64> {
+        DMatrix::from_row_slice(self.rows, self.columns, &self.values)
     }
+
+    pub(super) fn from_nalgebra(matrix: &DMatrix<f64>) -> Self {
+        let [rows, columns] = [matrix.nrows(), matrix.ncols()];
+        // nalgebra stores columns.
+        Self { rows: columns, columns: rows, values: matrix.as_slice().to_vec() }.transposed()
+    }
+}
+
+fn elements([rows, columns]: [usize; 2]) -> Result<usize, MatrixError> {
+    let elements = rows.checked_mul(columns).filter(|&elements| elements <= MAX_ELEMENTS);
+    elements.ok_or(MatrixError::TooLarge { rows, columns })
 }
 
 #[cfg(test)]
@@ -137,16 +175,20 @@ mod tests {
 
     #[test]
     fn rows_columns_and_products() {
-        let m = Matrix::new(2, vec![1.0, 2.0, 3.0, 4.0]).expect("a matrix");
-        assert_eq!(m.times(&[1.0, 10.0]), [21.0, 43.0]);
-        assert_eq!(m.transposed().times(&[1.0, 10.0]), [31.0, 42.0]);
-        assert_eq!((m.diagonal(), m.norm()), (vec![1.0, 4.0], 7.0));
-        assert_eq!(Matrix::zero(0).expect("a matrix").times(&[]), Vec::<f64>::new());
+        let m = Matrix::new([2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).expect("a matrix");
+        assert_eq!((m.times(&[1.0, 10.0, 100.0]), m.diagonal()), (vec![321.0, 654.0], vec![1.0, 5.0]));
+        let squares = Matrix::new([2, 2], vec![14.0, 32.0, 32.0, 77.0]).expect("a matrix");
+        assert_eq!(m.product(&m.transposed()), Ok(squares));
+        assert_eq!(Matrix::from_nalgebra(&m.to_nalgebra()), m);
+        assert_eq!(Matrix::zeros([0, 0]).expect("a matrix").times(&[]), Vec::<f64>::new());
     }
 
     #[test]
     fn what_makes_no_matrix_is_refused() {
-        assert_eq!(Matrix::new(2, vec![0.0; 3]), Err(MatrixError::Shape { rows: 2, values: 3 }));
-        assert_eq!(Matrix::zero(MOST_ROWS + 1), Err(MatrixError::TooLarge { rows: MOST_ROWS + 1 }));
+        let [rows, columns] = [2, 2];
+        assert_eq!(Matrix::new([2, 2], vec![0.0; 3]), Err(MatrixError::Count { rows, columns, values: 3 }));
+        for size in [[MAX_SQUARE + 1, MAX_SQUARE], [usize::MAX, 2]] {
+            assert_eq!(Matrix::zeros(size), Err(MatrixError::TooLarge { rows: size[0], columns: size[1] }));
+        }
     }
 }

@@ -1,15 +1,17 @@
-//! Dense numerics in f64. Every sum has a fixed shape: the same bits on any processor and any number of threads.
+//! Dense linear algebra in f64, with the same bits on every processor, number of threads and set of cargo features.
 //!
-//! - [`dot`]: the inner product, eight partial sums side by side;
-//! - [`Matrix`]: a square matrix by rows, and its product with a vector;
-//! - [`Lu`]: the direct solver, Gaussian elimination with partial pivoting.
+//! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
+//! - [`Lu`], [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra.
 //!
-//! Own code, and small on purpose: a library's product chooses its kernels by the processor (docs/architecture.md).
+//! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its `std`
+//! feature is on (docs/decisions/0016).
 
 mod dot;
+mod factor;
 mod lu;
 mod matrix;
 
 pub use dot::dot;
+pub use factor::{FactorError, Qr, Svd, SymmetricEigen};
 pub use lu::{Lu, Singular};
-pub use matrix::{MOST_ROWS, Matrix, MatrixError};
+pub use matrix::{MAX_ELEMENTS, MAX_SQUARE, Matrix, MatrixError};

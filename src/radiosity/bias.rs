@@ -1,5 +1,5 @@
-//! What the step of a short accumulator does to a solution, to first order: why half precision makes a room dark, and
-//! more patches make it darker.
+//! First-order effect of a short accumulator on a solution: why half precision makes a room too dark, and more patches
+//! make it darker still.
 //!
 //! An accumulator S of p mantissa bits lies on its own grid, of step `q = 2^(floor(log2 |S|) - p)`. What is added to it
 //! therefore changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or
@@ -20,7 +20,7 @@ use super::System;
 use super::packing::Packing;
 use super::solve::{self, Options, SolveError, Solver};
 
-/// How the sums of a row are formed.
+/// The precision and the shape of the sums of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Accumulator {
     /// Explicit mantissa bits: 10 of fp16, 23 of fp32.
@@ -29,7 +29,7 @@ pub struct Accumulator {
     pub least_exponent: i32,
     /// Truncation, or one of the roundings to nearest.
     pub rounding: Rounding,
-    /// One sum of a channel, or four partial ones per block.
+    /// One sum per channel, or four partial sums per block.
     pub packing: Packing,
     /// Texels of a block.
     pub block: usize,
@@ -44,7 +44,7 @@ impl Accumulator {
         Some(Self { mantissa: man_bits, least_exponent, rounding: format.rounding, packing, block })
     }
 
-    /// What is lost where `term` is added to `sum`: the difference between what arrives and the term.
+    /// The rounding error of adding `term` to `sum`: the change of the sum less the term.
     fn loss(&self, sum: f64, term: f64) -> f64 {
         let after = sum + term;
         let size = sum.abs().max(after.abs());
@@ -65,7 +65,7 @@ impl Accumulator {
         counted * step - term
     }
 
-    /// The sum of the losses of a row: it starts from `start`, and takes up the terms.
+    /// The sum of the rounding errors of a row that starts from `start` and adds the terms.
     fn row(&self, start: f64, terms: &[f64]) -> f64 {
         let mut lost = 0.0;
         let mut add = |sum: &mut f64, term: f64| {
@@ -89,15 +89,15 @@ impl Accumulator {
     }
 }
 
-/// By how much each radiosity will be off, to first order, given the exact solution.
+/// The predicted error of each radiosity, to first order, given the exact solution.
 ///
 /// # Errors
 /// [`SolveError`].
 ///
 /// # Panics
-/// If there is not one radiosity a patch.
+/// If there is not one radiosity per patch.
 pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Result<Vec<[f64; 3]>, SolveError> {
-    assert_eq!(exact.len(), system.factors().len(), "one radiosity a patch");
+    assert_eq!(exact.len(), system.factors().len(), "one radiosity per patch");
     let mut off = vec![[0.0; 3]; exact.len()];
     for c in 0..3 {
         let matrix = system.matrix(c);
@@ -108,7 +108,8 @@ pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Resul
             how.row(exact[i][c] + system.emittance()[i][c] / diagonal, &terms) * diagonal
         };
         let lost: Vec<f64> = (0..exact.len()).map(row).collect();
-        let problem = solve::Problem { matrix: &matrix, right: &lost, areas: system.factors().areas(), start: None };
+        let problem =
+            solve::Problem { matrix: &matrix, right_hand_side: &lost, areas: system.factors().areas(), start: None };
         let found = solve::solve(Solver::GaussSeidel, &problem, &Options { tolerance: 1e-6, most_iterations: 1000 })?;
         off.iter_mut().zip(found.radiosity).for_each(|(off, x)| off[c] = x);
     }

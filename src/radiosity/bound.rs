@@ -9,8 +9,9 @@
 //! A rounded operation is off by at most `2^-24` of its result (or 2^-150 near zero), so |d| is known from the results that a step had:
 //! [`bounded_step`]. Before any step it is bounded by how many roundings an element goes through: [`before`].
 
-use super::card_order::{CardSystem, Watch};
-use super::packing::{Packing, Texels};
+use super::card_order::{CardSystem, RoundingObserver};
+use super::packing::Packing;
+use crate::card::Texels;
 use crate::linalg::Matrix;
 
 /// Half of the distance from 1 to the next f32.
@@ -60,7 +61,7 @@ struct Magnitudes {
     operations: u32,
 }
 
-impl Watch for Magnitudes {
+impl RoundingObserver for Magnitudes {
     fn product(&mut self, value: [f32; 4]) {
         self.operations += 1;
         for (sum, x) in self.products.iter_mut().zip(value) {
@@ -93,8 +94,8 @@ pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4])
     let rows = card.matrix().height;
     let (mut partial, mut totals) = (card.zero(), vec![Magnitudes::default(); rows]);
     for pass in 0..card.passes() {
-        let (next, watched) = card.watched(radiosity, &partial, pass, |_| Magnitudes::default());
-        for (total, part) in totals.iter_mut().zip(watched) {
+        let (next, observed) = card.observed(radiosity, &partial, pass, |_| Magnitudes::default());
+        for (total, part) in totals.iter_mut().zip(observed) {
             total.operations += part.operations;
             for c in 0..4 {
                 total.sums[c] += part.sums[c];

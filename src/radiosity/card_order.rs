@@ -10,7 +10,8 @@
 use rayon::prelude::*;
 
 use super::System;
-use super::packing::{self, Packing, Texels, TooLarge};
+use super::packing::{self, Packing, TooLarge};
+use crate::card::Texels;
 use crate::linalg::Matrix;
 
 /// Rows that one worker takes at a time.
@@ -51,7 +52,7 @@ impl CardSystem {
     /// # Errors
     /// [`TooLarge`].
     pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
-        let size = matrix.size();
+        let size = matrix.row_count();
         let (matrix, diagonal) = divided(matrix);
         let right: Vec<f64> = right.iter().zip(diagonal).map(|(e, d)| e / d).collect();
         let matrix = packing::luminance_matrix(&matrix, limit)?;
@@ -68,8 +69,8 @@ impl CardSystem {
             Packing::Rgb => [size; 2],
             Packing::Luminance => [size.div_ceil(4), 4 * size.div_ceil(4)],
         };
-        let matrix = Texels::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
-        let emittance = Texels::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
+        let matrix = packing::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
+        let emittance = packing::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })
     }
 
@@ -118,7 +119,7 @@ impl CardSystem {
     /// A texture of zeros, where an iteration begins.
     #[must_use]
     pub fn zero(&self) -> Texels {
-        Texels { width: self.emittance.width, height: 1, texels: vec![[0.0; 4]; self.emittance.width] }
+        Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
     /// One pass: `radiosity` is the last iteration's, `partial` what the pass before left (pass 0 does not read it).
@@ -127,7 +128,7 @@ impl CardSystem {
     /// If a texture is too small, or there is no such pass.
     #[must_use]
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
-        self.watched(radiosity, partial, pass, |_| ()).0
+        self.observed(radiosity, partial, pass, |_| ()).0
     }
 
     /// One iteration: all passes.
@@ -136,86 +137,87 @@ impl CardSystem {
         (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
     }
 
-    /// A pass, and what `watch` made of the results of each row's operations.
-    pub(super) fn watched<W: Watch>(
+    /// A pass, and what `observer` made of the results of each row's operations.
+    pub(super) fn observed<W: RoundingObserver>(
         &self,
         radiosity: &Texels,
         partial: &Texels,
         pass: usize,
-        new_watch: impl Fn(usize) -> W + Sync,
+        new_observer: impl Fn(usize) -> W + Sync,
     ) -> (Texels, Vec<W>) {
         let from = pass * self.block;
         let to = (from + self.block).min(self.matrix.width);
         let row = |i: usize| {
-            let mut watch = new_watch(i);
+            let mut observer = new_observer(i);
             let matrix = &self.matrix.row(i)[from..to];
             let b = &radiosity.texels[from..to];
             let value = match self.packing {
                 Packing::Rgb => {
                     let begin =
-                        begin(pass, radiosity.texels[i], self.emittance.texels[i], partial.texels[i], &mut watch);
-                    rgb_row(begin, matrix, b, &mut watch)
+                        begin(pass, radiosity.texels[i], self.emittance.texels[i], partial.texels[i], &mut observer);
+                    rgb_row(begin, matrix, b, &mut observer)
                 }
                 Packing::Luminance => {
                     let (x, c) = (i / 4, i % 4);
                     let pick = |texels: &Texels| [texels.texels[x][c]; 4];
-                    let begin = begin(pass, pick(radiosity), pick(&self.emittance), pick(partial), &mut watch);
-                    [luminance_row(begin[0], matrix, b, &mut watch); 4]
+                    let begin = begin(pass, pick(radiosity), pick(&self.emittance), pick(partial), &mut observer);
+                    [luminance_row(begin[0], matrix, b, &mut observer); 4]
                 }
             };
-            (value, watch)
+            (value, observer)
         };
         let rows = self.matrix.height;
-        let (values, watches): (Vec<[f32; 4]>, Vec<W>) = (0..rows).into_par_iter().with_min_len(ROWS).map(row).unzip();
+        let (values, observers): (Vec<[f32; 4]>, Vec<W>) =
+            (0..rows).into_par_iter().with_min_len(ROWS).map(row).unzip();
         let texels = match self.packing {
             Packing::Rgb => values,
             Packing::Luminance => {
                 values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
             }
         };
-        (Texels { width: self.emittance.width, height: 1, texels }, watches)
+        (Texels::vector(texels), observers)
     }
 }
 
 /// Hears the result of every rounded operation of a row, four at a time, one a channel.
-pub(super) trait Watch: Send {
+pub(super) trait RoundingObserver: Send {
     /// Of a product.
     fn product(&mut self, value: [f32; 4]);
     /// Of a sum or difference.
     fn sum(&mut self, value: [f32; 4]);
 }
 
-impl Watch for () {
+impl RoundingObserver for () {
     fn product(&mut self, _: [f32; 4]) {}
     fn sum(&mut self, _: [f32; 4]) {}
 }
 
-fn begin<W: Watch>(pass: usize, b: [f32; 4], e: [f32; 4], partial: [f32; 4], watch: &mut W) -> [f32; 4] {
+fn begin<W: RoundingObserver>(pass: usize, b: [f32; 4], e: [f32; 4], partial: [f32; 4], observer: &mut W) -> [f32; 4] {
     if pass > 0 {
         return partial;
     }
     let sum = [0, 1, 2, 3].map(|c| b[c] + e[c]);
-    watch.sum(sum);
+    observer.sum(sum);
     sum
 }
 
 /// `MAD acc, -m, b, acc` a texel.
-fn rgb_row<W: Watch>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]], watch: &mut W) -> [f32; 4] {
+fn rgb_row<W: RoundingObserver>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> [f32; 4] {
     for (m, b) in matrix.iter().zip(b) {
         let product = [m[0] * b[0], m[1] * b[1], m[2] * b[2], m[3] * b[3]];
         acc = [acc[0] - product[0], acc[1] - product[1], acc[2] - product[2], acc[3] - product[3]];
-        watch.product(product);
-        watch.sum(acc);
+        observer.product(product);
+        observer.sum(acc);
     }
     acc
 }
 
 /// The same on four elements of the row at a time; then their sum from the left (`DP4` with ones), and what was there.
-fn luminance_row<W: Watch>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], watch: &mut W) -> f32 {
-    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b, watch);
+fn luminance_row<W: RoundingObserver>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> f32 {
+    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b, observer);
     let (two, three, four) = (x + y, (x + y) + z, ((x + y) + z) + w);
     let sum = begin + four;
-    watch.sum([two, three, four, sum]);
+    observer.sum([two, three, four, sum]);
     sum
 }
 

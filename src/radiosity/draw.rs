@@ -1,34 +1,29 @@
-//! Patches on their way to the rasteriser: how they are projected, and the vertices that they become.
+//! Projection of patches to vertices.
 
+use glam::DVec3;
 use refsim::machine::MachineError;
 use refsim::raster::Vertex;
 use thiserror::Error;
 
 use super::Patch;
-use crate::geom::vector::{Vec3, dot, length, scale, sub};
+use crate::card::KernelError;
+use crate::geom::vector::{narrow, wide};
 use crate::scene::Camera;
 
-/// An eye within this of a patch's plane, in shares of the patch's radius, sees neither side.
+/// An eye within this distance of a patch's plane, relative to the patch's radius, sees neither side.
 const EDGE_ON: f64 = 1e-9;
 
-/// Why nothing was drawn.
+/// Patches cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DrawError {
     /// The card refused.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The card does not run a program.
-    #[error("{device} does not run {kernel}: {problem}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
-    Refused {
-        /// The program.
-        kernel: &'static str,
-        /// The device.
-        device: String,
-        /// What the assembler or checker said.
-        problem: String,
-    },
-    /// Not one radiosity a patch.
-    #[error("expected {patches} radiosities, one a patch, found {found}")]
+    /// The device refuses a program.
+    #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
+    Kernel(#[from] KernelError),
+    /// Not one radiosity per patch.
+    #[error("expected {patches} radiosities, one per patch, found {found}")]
     Count {
         /// The patches.
         patches: usize,
@@ -37,41 +32,41 @@ pub enum DrawError {
     },
 }
 
-/// Where an eye is and what it sees: clip space as three directions.
+/// A perspective projection: an eye, and the axes of its clip space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
-    pub(super) eye: Vec3,
+    pub(super) eye: DVec3,
     /// Clip space's w is the component along this; its length is 1.
-    pub(super) forward: Vec3,
-    /// Its x.
-    pub(super) across: Vec3,
-    /// Its y, upwards.
-    pub(super) upwards: Vec3,
-    /// Nothing is farther away, measured along `forward`.
+    pub(super) forward: DVec3,
+    /// Clip space's x is the component along this.
+    pub(super) across: DVec3,
+    /// Clip space's y, upwards, is the component along this.
+    pub(super) upwards: DVec3,
+    /// A bound on the distance of anything, measured along `forward`.
     pub(super) far: f64,
 }
 
 impl Projection {
-    /// That of a camera, for a scene that reaches no farther than `extent` from the point `within`.
-    pub(super) fn of(camera: &Camera, within: Vec3, extent: f64) -> Self {
-        let eye = camera.eye().map(f64::from);
-        let per_square = |v: Vec3| scale(1.0 / dot(v, v), v);
+    /// The projection of a camera, for a scene within `extent` of the point `within`.
+    pub(super) fn of(camera: &Camera, within: DVec3, extent: f64) -> Self {
+        let eye = wide(camera.eye());
+        let per_square = |v: DVec3| 1.0 / v.dot(v) * v;
         Self {
             eye,
             forward: camera.forward(),
             across: per_square(camera.right()),
             upwards: per_square(camera.up()),
-            far: length(sub(within, eye)) + extent,
+            far: (within - eye).length() + extent,
         }
     }
 
     /// x, y and w in clip space.
-    fn clip(&self, point: Vec3) -> Vec3 {
-        let to = sub(point, self.eye);
-        [self.across, self.upwards, self.forward].map(|axis| dot(axis, to))
+    fn clip(&self, point: DVec3) -> [f64; 3] {
+        let to = point - self.eye;
+        [self.across, self.upwards, self.forward].map(|axis| axis.dot(to))
     }
 
-    /// Whether all of a patch is outside one side of what is seen.
+    /// Whether all of a patch lies outside one plane of the view frustum.
     pub(super) fn misses(&self, patch: &Patch) -> bool {
         let mut outside = [true; 5];
         for &corner in patch.corners() {
@@ -92,7 +87,7 @@ impl Projection {
     ///
     /// Depth is the distance along the view as a share of the farthest, which the program writes: as fine far away as near by, and
     /// the eye may touch what it sees. Clip space's z cuts nothing.
-    pub(super) fn vertex(&self, corner: Vec3, [u, v]: [f64; 2], side: Side) -> Vertex {
+    pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], side: Side) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
         vertex.texcoords[0] = bits([u, v, w / self.far, if side == Side::Front { 1.0 } else { 0.0 }]);
@@ -103,28 +98,28 @@ impl Projection {
 /// A side of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// The one with the light.
+    /// The one that receives and emits light.
     Front,
     /// The black one.
     Back,
 }
 
 impl Side {
-    /// A patch's number as a colour: from 1, negative from behind; 0 is nothing.
+    /// A patch's number as a color: from 1, negative for the back; 0 is no patch.
     pub(super) fn code(self, patch: usize) -> f64 {
         let number = (patch + 1) as f64;
         if self == Self::Front { number } else { -number }
     }
 }
 
-/// What a colour says: the patch whose front was seen there.
+/// The patch whose front was seen in a pixel, by the pixel's color.
 pub(super) fn patch_of(code: f32) -> Option<u32> {
     (code >= 1.0).then(|| code as u32 - 1)
 }
 
-/// A corner that neighbours in other faces have to the bit: they agree in f32.
-fn shared(corner: Vec3) -> Vec3 {
-    corner.map(|x| f64::from(x as f32))
+/// A corner rounded to f32, in which neighbours in other faces agree to the bit.
+fn shared(corner: DVec3) -> DVec3 {
+    wide(narrow(corner))
 }
 
 /// A vector for the card, each component rounded once.
@@ -135,13 +130,12 @@ pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::vector::add;
 
     #[test]
     fn a_camera_projects_as_it_casts() {
         let camera = Camera::new([1.0, -2.0, 0.5], [1.5, 3.0, 0.0], [0.0, 0.0, 1.0], 0.5, 40, 20).expect("a camera");
-        let projection = Projection::of(&camera, [0.0; 3], 10.0);
-        let through = |x, y| add(projection.eye, scale(3.0, camera.direction_at(x, y)));
+        let projection = Projection::of(&camera, DVec3::ZERO, 10.0);
+        let through = |x, y| projection.eye + 3.0 * camera.direction_at(x, y);
         let outline = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]].map(|[x, y]| through(x, y));
         for (corner, want) in outline.iter().zip([[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]) {
             let [x, y, w] = projection.clip(*corner);

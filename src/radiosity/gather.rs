@@ -4,24 +4,24 @@ use super::Patches;
 use super::form_factor::point_to_polygon;
 use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
 use crate::geom::Caster;
-use crate::geom::vector::Vec3;
+use glam::DVec3;
 
 /// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the point in closed form,
-/// and the share of sample rays that get through. `caster` traces [`Patches::mesh`] from both sides.
+/// and the fraction of sample rays that are unoccluded. `caster` traces [`Patches::mesh`] from both sides.
 ///
 /// # Errors
-/// [`FormFactorError`] for no samples, or rays that could not be traced.
+/// [`FormFactorError`] for no samples, or rays that the ray caster fails on.
 ///
 /// # Panics
-/// If there is not one radiosity a patch.
+/// If there is not one radiosity per patch.
 pub fn irradiance(
     patches: &Patches,
     radiosity: &[[f64; 3]],
-    [point, normal]: [Vec3; 2],
+    [point, normal]: [DVec3; 2],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
 ) -> Result<[f64; 3], FormFactorError> {
-    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
+    assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let seen: Vec<(usize, f64)> = (0..patches.list().len())
         .map(|j| {
             (j, patches.open_parts(j).iter().map(|part| point_to_polygon(point, normal, part.corners())).sum::<f64>())

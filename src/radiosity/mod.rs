@@ -51,5 +51,5 @@ pub use draw::DrawError;
 pub use form_factor::{FormFactorError, FormFactors};
 pub use on_card::{CardError, CardOptions, CardSolution, CardSolver, Storage};
 pub use patch::Patch;
-pub use patches::{MOST_PATCHES, PatchError, Patches, Subdivision};
+pub use patches::{MAX_PATCHES, PatchError, Patches, Subdivision};
 pub use system::{RgbSolution, System, SystemError};

@@ -1,13 +1,13 @@
 //! The paper's counts (sections 3 and 3.1): instructions and passes, floating-point operations, and what they say of the size of its scene.
 
 /// Instructions of a GeForce FX fragment program, at most.
-pub const MOST_INSTRUCTIONS: u32 = 1024;
+pub const MAX_INSTRUCTIONS: u32 = 1024;
 /// Instructions a texel: fetch the matrix, fetch the vector, multiply and subtract, step the texture coordinates.
 pub const PER_TEXEL: u32 = 4;
 /// Instructions of a pass for all the rest: 1024 = 254 x 4 + 8.
 pub const OVERHEAD: u32 = 8;
-/// Texels of a block on a card of [`MOST_INSTRUCTIONS`]: the paper's 254.
-pub const BLOCK: u32 = block(MOST_INSTRUCTIONS);
+/// Texels of a block on a card of [`MAX_INSTRUCTIONS`]: the paper's 254.
+pub const BLOCK: u32 = block(MAX_INSTRUCTIONS);
 
 /// Texels of a block that a program of so many instructions can take, at least 1.
 #[must_use]
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn a_block_is_254_texels() {
-        assert_eq!((BLOCK, BLOCK * PER_TEXEL + OVERHEAD), (254, MOST_INSTRUCTIONS));
+        assert_eq!((BLOCK, BLOCK * PER_TEXEL + OVERHEAD), (254, MAX_INSTRUCTIONS));
         assert_eq!([1, 254, 255, 1540].map(|n| passes(n, 1, BLOCK)), [1, 1, 2, 7]);
         assert_eq!([4, 1016, 1017, 2048].map(|n| passes(n, 4, BLOCK)), [1, 1, 2, 3]);
         assert_eq!((block(96), block(0)), (22, 1));

@@ -14,12 +14,13 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::form_factor::clipped;
 use super::patch::Patch;
 use crate::geom::exact::{Sides, Tracer};
-use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub, unit};
+use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 
 /// See [`lift`].
@@ -27,7 +28,7 @@ const LIFT: f64 = 1.0 / 65_536.0;
 /// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
 const FINEST: f64 = 4.0;
 /// Cells of a patch at most; beyond, the cells stay as they are.
-const MOST_CELLS: usize = 4096;
+const MAX_CELLS: usize = 4096;
 /// Test points between a cell's centre and its corners lie this far out.
 const OUTWARDS: f64 = 0.75;
 /// Tangents of the tested directions, along two axes of the plane: the normal first.
@@ -40,17 +41,17 @@ pub(super) fn lift(extent: f64) -> f64 {
 }
 
 /// A line segment in a raised plane.
-type Section = [Vec3; 2];
+type PlaneSegment = [DVec3; 2];
 
 /// The open parts of the patches that are not wholly open, by patch; none for a patch that is covered altogether.
 pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
-    let triangles: Vec<[Vec3; 3]> = mesh.iter_corners().map(|t| t.map(|c| c.map(f64::from))).collect();
+    let triangles: Vec<[DVec3; 3]> = mesh.iter_corners().map(|t| t.map(wide)).collect();
     let lift = lift(extent);
-    let mut faces: BTreeMap<u32, Vec<Section>> = BTreeMap::new();
+    let mut faces: BTreeMap<u32, Vec<PlaneSegment>> = BTreeMap::new();
     for patch in list {
         faces.entry(patch.face).or_insert_with(|| {
             let others = triangles.iter().zip(face_of).filter(|&(_, &face)| face != patch.face);
-            others.filter_map(|(triangle, _)| section(patch, lift, triangle)).collect()
+            others.filter_map(|(triangle, _)| crossing_segment(patch, lift, triangle)).collect()
         });
     }
     let tracer = Tracer::new(mesh);
@@ -66,32 +67,32 @@ pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f
 }
 
 /// A convex polygon in the patch's plane, counter-clockwise from its front.
-type Cell = Vec<Vec3>;
+type ConvexCell = Vec<DVec3>;
 
 /// Where a triangle crosses a patch's plane raised by `lift`.
-fn section(patch: &Patch, lift: f64, triangle: &[Vec3; 3]) -> Option<Section> {
+fn crossing_segment(patch: &Patch, lift: f64, triangle: &[DVec3; 3]) -> Option<PlaneSegment> {
     let heights = triangle.map(|corner| patch.height(corner) - lift);
     let crossing = |k: usize| {
         let (from, to) = (k, (k + 1) % 3);
         let (h, g) = (heights[from], heights[to]);
-        ((h > 0.0) != (g > 0.0)).then(|| add(triangle[from], scale(h / (h - g), sub(triangle[to], triangle[from]))))
+        ((h > 0.0) != (g > 0.0)).then(|| triangle[from] + h / (h - g) * (triangle[to] - triangle[from]))
     };
     let mut ends = (0..3).filter_map(crossing);
     Some([ends.next()?, ends.next()?])
 }
 
-/// Cuts a cell along the lines of all sections that enter it by more than `finest`.
-fn cut(cell: Cell, normal: Vec3, sections: &[Section], finest: f64, into: &mut Vec<Cell>) {
-    for (k, &[a, b]) in sections.iter().enumerate() {
-        let Some(along) = unit(sub(b, a)) else { continue };
-        let aside = cross(normal, along);
-        let beside = |point: Vec3| dot(aside, sub(point, a));
+/// Cuts a cell along the lines of all segments that enter it by more than `finest`.
+fn cut(cell: ConvexCell, normal: DVec3, segments: &[PlaneSegment], finest: f64, into: &mut Vec<ConvexCell>) {
+    for (k, &[a, b]) in segments.iter().enumerate() {
+        let Some(along) = unit(b - a) else { continue };
+        let aside = normal.cross(along);
+        let beside = |point: DVec3| aside.dot(point - a);
         let (low, high) = cell.iter().map(|&c| beside(c)).fold((0.0_f64, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
-        if low < -finest && high > finest && inside(&cell, normal, [a, along], length(sub(b, a))) > finest {
-            if into.len() >= MOST_CELLS {
+        if low < -finest && high > finest && inside(&cell, normal, [a, along], (b - a).length()) > finest {
+            if into.len() >= MAX_CELLS {
                 break;
             }
-            let rest = &sections[k + 1..];
+            let rest = &segments[k + 1..];
             cut(clipped(&cell, beside), normal, rest, finest, into);
             cut(clipped(&cell, |point| -beside(point)), normal, rest, finest, into);
             return;
@@ -101,11 +102,11 @@ fn cut(cell: Cell, normal: Vec3, sections: &[Section], finest: f64, into: &mut V
 }
 
 /// How much of a segment of this length lies inside a cell.
-fn inside(cell: &[Vec3], normal: Vec3, [start, along]: [Vec3; 2], length: f64) -> f64 {
+fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64) -> f64 {
     let (mut from, mut to) = (0.0_f64, length);
     for (i, &corner) in cell.iter().enumerate() {
-        let inwards = cross(normal, sub(cell[(i + 1) % cell.len()], corner));
-        let (height, slope) = (dot(inwards, sub(start, corner)), dot(inwards, along));
+        let inwards = normal.cross(cell[(i + 1) % cell.len()] - corner);
+        let (height, slope) = (inwards.dot(start - corner), inwards.dot(along));
         // Inside where height + t slope is not negative.
         if slope > 0.0 {
             from = from.max(-height / slope);
@@ -119,16 +120,16 @@ fn inside(cell: &[Vec3], normal: Vec3, [start, along]: [Vec3; 2], length: f64) -
 }
 
 /// Whether every test ray of a cell sees the back of a surface first. Most cells are open, as their first ray tells.
-fn is_covered(cell: &[Vec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
+fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
     let normal = patch.normal();
-    let along = unit(sub(patch.centre(), patch.corners()[0])).unwrap_or(normal);
-    let aside = cross(normal, along);
+    let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);
+    let aside = normal.cross(along);
     test_points(cell).into_iter().all(|point| {
-        let start = add(point, scale(lift, normal)).map(|x| x as f32);
+        let start = narrow(point + lift * normal);
         let mut tangents = TANGENTS.iter().flat_map(|&x| TANGENTS.map(|y| [x, y]));
         tangents.all(|[x, y]| {
-            let direction = add(normal, add(scale(x, along), scale(y, aside)));
-            Ray::new(start, direction.map(|x| x as f32)).is_ok_and(|ray| sees_a_back(&ray, mesh, tracer))
+            let direction = normal + (x * along + y * aside);
+            Ray::new(start, narrow(direction)).is_ok_and(|ray| sees_a_back(&ray, mesh, tracer))
         })
     })
 }
@@ -136,31 +137,30 @@ fn is_covered(cell: &[Vec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &
 fn sees_a_back(ray: &Ray, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
     let hit = tracer.nearest(ray, Sides::Both).and_then(|hit| mesh.corners(hit.triangle));
     hit.is_some_and(|corners| {
-        let [a, b, c] = corners.map(|corner| corner.map(f64::from));
-        dot(cross(sub(b, a), sub(c, a)), ray.direction().map(f64::from)) > 0.0
+        let [a, b, c] = corners.map(wide);
+        (b - a).cross(c - a).dot(wide(ray.direction())) > 0.0
     })
 }
 
 /// The mean of a cell's corners.
-fn middle(cell: &[Vec3]) -> Vec3 {
-    let sum = cell.iter().fold([0.0; 3], |sum, &corner| add(sum, corner));
-    scale(1.0 / cell.len() as f64, sum)
+fn middle(cell: &[DVec3]) -> DVec3 {
+    1.0 / cell.len() as f64 * cell.iter().sum::<DVec3>()
 }
 
 /// The middle of a cell, and a point towards each corner.
-fn test_points(cell: &[Vec3]) -> Vec<Vec3> {
+fn test_points(cell: &[DVec3]) -> Vec<DVec3> {
     let middle = middle(cell);
-    let towards = |&corner: &Vec3| add(middle, scale(OUTWARDS, sub(corner, middle)));
+    let towards = |&corner: &DVec3| middle + OUTWARDS * (corner - middle);
     std::iter::once(middle).chain(cell.iter().map(towards)).collect()
 }
 
 /// A cell as patches of three or four corners.
-fn pieces(cell: &[Vec3], patch: &Patch) -> Vec<Patch> {
+fn pieces(cell: &[DVec3], patch: &Patch) -> Vec<Patch> {
     let rest = &cell[1..];
     (0..rest.len().saturating_sub(1))
         .step_by(2)
         .filter_map(|k| {
-            let outline: Vec<Vec3> = std::iter::once(cell[0]).chain(rest[k..].iter().copied().take(3)).collect();
+            let outline: Vec<DVec3> = std::iter::once(cell[0]).chain(rest[k..].iter().copied().take(3)).collect();
             Patch::new(&outline, patch.face, patch.material)
         })
         .collect()

@@ -10,18 +10,8 @@
 
 use thiserror::Error;
 
+use crate::card::Texels;
 use crate::linalg::Matrix;
-
-/// Texels of four f32, row by row. A vector is one row: a 1-D texture.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Texels {
-    /// Texels in a row.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// Red, green, blue, alpha; `width * height` of them.
-    pub texels: Vec<[f32; 4]>,
-}
 
 /// How elements lie in texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,34 +58,22 @@ pub struct TooLarge {
     pub height: usize,
 }
 
-impl Texels {
-    /// A texture whose texels a function gives, by column and row.
-    pub(super) fn filled(
-        what: &'static str,
-        [width, height]: [usize; 2],
-        limit: usize,
-        texel: impl Fn(usize, usize) -> [f32; 4],
-    ) -> Result<Self, TooLarge> {
-        if width > limit || height > limit {
-            return Err(TooLarge { what, limit, width, height });
-        }
-        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-        Ok(Self { width, height, texels })
+/// A texture whose texels a function gives, by column and row.
+pub(super) fn filled(
+    what: &'static str,
+    [width, height]: [usize; 2],
+    limit: usize,
+    texel: impl Fn(usize, usize) -> [f32; 4],
+) -> Result<Texels, TooLarge> {
+    if width > limit || height > limit {
+        return Err(TooLarge { what, limit, width, height });
     }
-
-    /// A row of texels.
-    ///
-    /// # Panics
-    /// If there is no such row.
-    #[must_use]
-    pub fn row(&self, y: usize) -> &[[f32; 4]] {
-        &self.texels[y * self.width..(y + 1) * self.width]
-    }
+    Ok(Texels::from_fn([width, height], texel))
 }
 
 /// An element, or 0 outside.
 fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
-    if row < matrix.size() && column < matrix.size() { matrix.row(row)[column] as f32 } else { 0.0 }
+    if row < matrix.row_count() && column < matrix.column_count() { matrix.row(row)[column] as f32 } else { 0.0 }
 }
 
 /// Three matrices of one size, one texel an element. `limit` is the card's largest texture side.
@@ -103,7 +81,7 @@ fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
 /// # Errors
 /// [`TooLarge`].
 pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLarge> {
-    Texels::filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].size()), limit, |x, y| {
+    filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].row_count()), limit, |x, y| {
         let [r, g, b] = matrices.map(|m| element(m, y, x));
         [r, g, b, 0.0]
     })
@@ -114,7 +92,7 @@ pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLar
 /// # Errors
 /// [`TooLarge`].
 pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge> {
-    Texels::filled("a vector", [values.len(), 1], limit, |x, _| {
+    filled("a vector", [values.len(), 1], limit, |x, _| {
         let [r, g, b] = values[x].map(|value| value as f32);
         [r, g, b, 0.0]
     })
@@ -125,7 +103,7 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge>
 /// # Errors
 /// [`TooLarge`].
 pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
-    Texels::filled("a matrix", Packing::Luminance.matrix_texels(matrix.size()), limit, |x, y| {
+    filled("a matrix", Packing::Luminance.matrix_texels(matrix.row_count()), limit, |x, y| {
         [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c))
     })
 }
@@ -136,7 +114,7 @@ pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarg
 /// [`TooLarge`].
 pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge> {
     let value = |i: usize| values.get(i).map_or(0.0, |&value| value as f32);
-    Texels::filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
+    filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
 }
 
 /// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8 of the paper).
@@ -144,8 +122,8 @@ pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge
 /// # Errors
 /// [`TooLarge`].
 pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
-    let half = matrix.size().div_ceil(2);
-    Texels::filled("a matrix", [half, half], limit, |x, y| {
+    let half = matrix.row_count().div_ceil(2);
+    filled("a matrix", [half, half], limit, |x, y| {
         [(0, 0), (0, half), (half, 0), (half, half)].map(|(down, across)| element(matrix, y + down, x + across))
     })
 }
@@ -212,6 +190,5 @@ pub fn block_channel_product(a: &Texels, b: &Texels) -> Texels {
         }
         sum
     };
-    let texels = (0..half).flat_map(|y| (0..half).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
-    Texels { width: half, height: half, texels }
+    Texels::from_fn([half; 2], texel)
 }

@@ -1,15 +1,16 @@
 //! One patch: a flat convex polygon of three or four corners.
 
-use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub, unit};
+use crate::geom::vector::unit;
+use glam::DVec3;
 
 /// A flat convex patch of constant radiosity. Its front is the side from which the corners run counter-clockwise; its back is black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
-    corners: [Vec3; 4],
+    corners: [DVec3; 4],
     sides: usize,
     area: f64,
-    centre: Vec3,
-    normal: Vec3,
+    center: DVec3,
+    normal: DVec3,
     radius: f64,
     /// The face that it is a part of: patches of one face lie in one plane and never see each other.
     pub face: u32,
@@ -21,7 +22,7 @@ pub struct Patch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchPoint {
     /// Where it is.
-    pub at: Vec3,
+    pub at: DVec3,
     /// Area for the part of the unit square that it stands for.
     pub density: f64,
 }
@@ -29,30 +30,30 @@ pub struct PatchPoint {
 impl Patch {
     /// A patch of three or four corners; `None` for any other number, or if it has no area.
     #[must_use]
-    pub fn new(outline: &[Vec3], face: u32, material: u32) -> Option<Self> {
+    pub fn new(outline: &[DVec3], face: u32, material: u32) -> Option<Self> {
         let sides = outline.len();
         let corners = match *outline {
             [a, b, c] => [a, b, c, c],
             [a, b, c, d] => [a, b, c, d],
             _ => return None,
         };
-        let doubled = cross(sub(corners[2], corners[0]), sub(corners[sides - 1], corners[1]));
-        let normal = if sides == 3 { cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])) } else { doubled };
-        let area = 0.5 * length(normal);
-        let longest = (0..sides).map(|i| length(sub(corners[(i + 1) % sides], corners[i]))).fold(0.0, f64::max);
+        let doubled = (corners[2] - corners[0]).cross(corners[sides - 1] - corners[1]);
+        let normal = if sides == 3 { (corners[1] - corners[0]).cross(corners[2] - corners[0]) } else { doubled };
+        let area = 0.5 * normal.length();
+        let longest = (0..sides).map(|i| (corners[(i + 1) % sides] - corners[i]).length()).fold(0.0, f64::max);
         // Corners come from f32: a height of 2^-40 of the longest side is rounding, not area.
         let least = longest * longest * f64::EPSILON * 4096.0;
         if area.is_nan() || area <= least {
             return None;
         }
-        let centre = centroid(&corners[..sides], normal);
-        let radius = corners[..sides].iter().map(|&c| length(sub(c, centre))).fold(0.0, f64::max);
-        Some(Self { corners, sides, area, centre, normal: unit(normal)?, radius, face, material })
+        let center = centroid(&corners[..sides], normal);
+        let radius = corners[..sides].iter().map(|&c| (c - center).length()).fold(0.0, f64::max);
+        Some(Self { corners, sides, area, center, normal: unit(normal)?, radius, face, material })
     }
 
     /// Its corners, counter-clockwise from the front: three or four.
     #[must_use]
-    pub fn corners(&self) -> &[Vec3] {
+    pub fn corners(&self) -> &[DVec3] {
         &self.corners[..self.sides]
     }
 
@@ -64,13 +65,13 @@ impl Patch {
 
     /// Its centre of gravity.
     #[must_use]
-    pub fn centre(&self) -> Vec3 {
-        self.centre
+    pub fn center(&self) -> DVec3 {
+        self.center
     }
 
     /// Its normal, of length 1.
     #[must_use]
-    pub fn normal(&self) -> Vec3 {
+    pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
@@ -82,8 +83,8 @@ impl Patch {
 
     /// How far a point lies in front of its plane (behind it: below 0).
     #[must_use]
-    pub fn height(&self, point: Vec3) -> f64 {
-        dot(self.normal, sub(point, self.centre))
+    pub fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.center)
     }
 
     /// The unit square laid over the patch: four corners bilinearly, three with one side of the square drawn together. Integrals over
@@ -92,29 +93,29 @@ impl Patch {
     pub fn at(&self, u: f64, v: f64) -> PatchPoint {
         let [a, b, c, d] = self.corners;
         if self.sides == 3 {
-            let along = add(sub(b, a), scale(v, sub(c, b)));
-            return PatchPoint { at: add(a, scale(u, along)), density: 2.0 * self.area * u };
+            let along = b - a + v * (c - b);
+            return PatchPoint { at: a + u * along, density: 2.0 * self.area * u };
         }
-        let (near, far) = (sub(b, a), sub(c, d));
-        let (left, right) = (sub(d, a), sub(c, b));
-        let du = add(scale(1.0 - v, near), scale(v, far));
-        let dv = add(scale(1.0 - u, left), scale(u, right));
-        let at = add(add(a, scale(u, near)), scale(v, dv));
-        PatchPoint { at, density: dot(self.normal, cross(du, dv)) }
+        let (near, far) = (b - a, c - d);
+        let (left, right) = (d - a, c - b);
+        let du = (1.0 - v) * near + v * far;
+        let dv = (1.0 - u) * left + u * right;
+        let at = a + u * near + v * dv;
+        PatchPoint { at, density: self.normal.dot(du.cross(dv)) }
     }
 }
 
 /// The centre of gravity of a flat convex polygon.
-fn centroid(corners: &[Vec3], normal: Vec3) -> Vec3 {
+fn centroid(corners: &[DVec3], normal: DVec3) -> DVec3 {
     let first = corners[0];
-    let (mut sum, mut weight) = ([0.0; 3], 0.0);
+    let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
     for pair in corners[1..].windows(2) {
-        let (a, b) = (sub(pair[0], first), sub(pair[1], first));
-        let part = dot(cross(a, b), normal);
-        sum = add(sum, scale(part / 3.0, add(a, b)));
+        let (a, b) = (pair[0] - first, pair[1] - first);
+        let part = a.cross(b).dot(normal);
+        sum += part / 3.0 * (a + b);
         weight += part;
     }
-    add(first, scale(1.0 / weight, sum))
+    first + 1.0 / weight * sum
 }
 
 #[cfg(test)]
@@ -123,21 +124,21 @@ mod tests {
 
     #[test]
     fn a_trapezoid_has_its_area_and_centre() {
-        let outline = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [3.0, 3.0, 1.0], [1.0, 3.0, 1.0]];
+        let outline = [[0.0, 0.0], [4.0, 0.0], [3.0, 3.0], [1.0, 3.0]].map(|[x, y]| DVec3::new(x, y, 1.0));
         let patch = Patch::new(&outline, 0, 0).expect("a patch");
-        assert_eq!((patch.area(), patch.normal()), (9.0, [0.0, 0.0, 1.0]));
-        let [x, y, z] = patch.centre();
+        assert_eq!((patch.area(), patch.normal()), (9.0, DVec3::Z));
+        let [x, y, z] = patch.center().into();
         assert!((x - 2.0).abs() < 1e-15 && (y - 4.0 / 3.0).abs() < 1e-15 && z == 1.0, "{x} {y} {z}");
         let middle = patch.at(0.5, 0.5);
-        assert_eq!((middle.at, middle.density), ([2.0, 1.5, 1.0], 9.0));
+        assert_eq!((middle.at, middle.density), (DVec3::new(2.0, 1.5, 1.0), 9.0));
         assert_eq!(patch.at(1.0, 1.0).at, outline[2]);
     }
 
     #[test]
     fn what_has_no_area_is_no_patch() {
-        let line = [[0.0; 3], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]];
+        let line = [0.0, 1.0, 2.0].map(|x| DVec3::new(x, x, 0.0));
         assert_eq!(Patch::new(&line, 0, 0), None);
         assert_eq!(Patch::new(&line[..2], 0, 0), None);
-        assert_eq!(Patch::new(&[[f64::NAN; 3]; 3], 0, 0), None);
+        assert_eq!(Patch::new(&[DVec3::NAN; 3], 0, 0), None);
     }
 }

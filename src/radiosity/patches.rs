@@ -8,12 +8,12 @@ use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
 use super::subdivide::{Face, faces_of, steps_for_at_most};
 use crate::geom::Mesh;
-use crate::geom::vector::{length, sub};
-use crate::linalg::MOST_ROWS;
+use crate::geom::vector::wide;
+use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
 
 /// The most patches: those of the largest matrix.
-pub const MOST_PATCHES: usize = MOST_ROWS;
+pub const MAX_PATCHES: usize = MAX_SQUARE;
 
 /// How finely faces are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub enum PatchError {
         triangle: u32,
     },
     /// More patches than the largest matrix has rows.
-    #[error("expected at most {MOST_PATCHES} patches, found {found}; cut the faces into fewer")]
+    #[error("expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer")]
     TooMany {
         /// How many it would be.
         found: usize,
@@ -84,15 +84,15 @@ impl Patches {
             Subdivision::AtMost(most) => steps_for_at_most(&faces, most),
         };
         let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
-        if found > MOST_PATCHES {
+        if found > MAX_PATCHES {
             return Err(PatchError::TooMany { found });
         }
         let mut list = Vec::with_capacity(found);
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
             face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
         }
-        let [low, high] = bounds.map(|corner| corner.map(f64::from));
-        let (materials, extent) = (materials?, length(sub(high, low)));
+        let [low, high] = bounds.map(wide);
+        let (materials, extent) = (materials?, (high - low).length());
         let open = open_parts(&list, mesh, &face_of, extent);
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }

@@ -1,6 +1,6 @@
-//! How fast a card would iterate: an iteration is drawn, and its log timed by the pipeline model. Figures of section 3.1.
+//! Iterations per second of a card (section 3.1): an iteration is drawn, and its log timed by the pipeline model.
 //!
-//! Time depends on sizes and programs alone, so the system that is drawn is black.
+//! Time depends on sizes and programs alone, so the system that is drawn is all zeros.
 
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event};
@@ -14,10 +14,10 @@ use super::model;
 use super::on_card::{CardError, CardSolver, Fit, Storage};
 use super::packing::Packing;
 
-/// Why an iteration could not be timed.
+/// An iteration cannot be timed.
 #[derive(Debug, Error)]
 pub enum RateError {
-    /// The card does not make it.
+    /// The card cannot run it.
     #[error(transparent)]
     Card(#[from] CardError),
     /// The card's rates are not known.
@@ -25,45 +25,46 @@ pub enum RateError {
     Timing(#[from] TimingError),
 }
 
-/// What is timed.
+/// The iteration that is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
     /// Patches.
     pub patches: usize,
-    /// Four elements a texel is one channel only, as in the paper.
+    /// With luminance packing one channel is timed, as in the paper.
     pub packing: Packing,
     /// Single or half floats.
     pub storage: Storage,
-    /// Whether the texture cache is simulated texel by texel, which takes some thousand times as long; else the least traffic is taken.
+    /// Whether the texture cache is simulated texel by texel, which takes some thousand times as long, or the least traffic
+    /// is assumed.
     pub cache: bool,
 }
 
-/// An iteration, timed.
+/// The time of an iteration.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Timed {
+pub struct TimedIteration {
     /// Passes.
     pub passes: usize,
-    /// Draws: a pass with four elements a texel takes four, one a channel of its target.
+    /// Draws: a pass with luminance packing takes four, one per channel of its target.
     pub draws: usize,
     /// The whole iteration: draws and changes of state, one after the other, since each reads what the last wrote.
     pub time: Picoseconds,
-    /// Clocks of the texture units, of arithmetic, and of memory, all of which work at once.
+    /// Clocks of the texture units, which work at the same time as the other units.
     pub textures: u64,
-    /// Arithmetic.
+    /// Clocks of arithmetic.
     pub arithmetic: u64,
-    /// Memory.
+    /// Clocks of memory.
     pub memory: u64,
-    /// What most of the time waits for.
+    /// What the longest draw waits for.
     pub bottleneck: Bottleneck,
     /// Bytes between the card and its memory.
     pub bytes: u64,
-    /// Their share of what memory could move in the time.
+    /// Those bytes relative to the bandwidth of the memory, in [0, 1].
     pub bandwidth: f64,
-    /// The share of shaded fragments that are in the target: others fill up quads of 2 x 2.
+    /// The fraction of shaded fragments that lie in the target; the others complete quads of 2 x 2.
     pub filled: f64,
-    /// Iterations a second.
+    /// Iterations per second.
     pub per_s: f64,
-    /// Million operations a second, 2 N^2 an iteration and system.
+    /// Million operations per second, at 2 N^2 per iteration and system.
     pub mflops: f64,
 }
 
@@ -71,7 +72,7 @@ pub struct Timed {
 ///
 /// # Errors
 /// [`RateError`]: the card has no such programs or textures, or its rates are not known.
-pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<Timed, RateError> {
+pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIteration, RateError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let log = iteration_log(profile, timing)?;
     let state = log.iter().fold(Picoseconds::ZERO, |sum, event| match event {
@@ -89,7 +90,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<Timed, Rate
     let moved = profile.rates.memory_bytes_per_s.unwrap_or(1) as f64 * time.seconds();
     let per_s = 1.0 / time.seconds();
     let longest = costs.iter().max_by_key(|cost| cost.total);
-    Ok(Timed {
+    Ok(TimedIteration {
         passes: model::passes(
             timing.patches as u32,
             timing.packing.elements(),
@@ -109,13 +110,13 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<Timed, Rate
     })
 }
 
-/// What is asked of the card in the second of two iterations, as in any but the first.
+/// The log of an iteration that follows another one.
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
-    let black = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)
+    let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)
         .map_err(|problem| CardError::TooLarge { device: profile.name.clone(), problem })?;
-    let mut card = CardSolver::of(profile.clone(), ExecutorKind::Batch, &[black], timing.storage)?;
-    card.iterate()?;
+    let mut card = CardSolver::of(profile.clone(), ExecutorKind::Batch, &[zeros], timing.storage)?;
+    card.bind_as_after_iteration()?;
     if timing.cache {
         card.machine_mut().observe_textures(Some(Box::new(TextureCaches::new(profile)?)));
     }

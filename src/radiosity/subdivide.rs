@@ -2,8 +2,9 @@
 
 use super::PatchError;
 use super::patch::Patch;
-use crate::geom::vector::{Vec3, add, cross, dot, length, scale, sub};
+use crate::geom::vector::wide;
 use crate::scene::Scene;
+use glam::DVec3;
 
 /// How far out of its plane the fourth corner of a face may be, in shares of the longest diagonal: what f32 corners need.
 const FLAT: f64 = 1e-6;
@@ -12,7 +13,7 @@ const FLAT: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Face {
     /// Three corners or four, counter-clockwise from the front.
-    pub(super) corners: Vec<Vec3>,
+    pub(super) corners: Vec<DVec3>,
     /// The (first) triangle of the mesh.
     pub(super) triangle: u32,
     material: u32,
@@ -20,7 +21,7 @@ pub(super) struct Face {
 
 /// The faces of a scene, and the face of each triangle.
 pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchError> {
-    let triangles: Vec<[Vec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(|c| c.map(f64::from))).collect();
+    let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();
     if let Some(flat) = triangles.iter().position(|t| Patch::new(t, 0, 0).is_none()) {
         return Err(PatchError::ZeroArea { triangle: flat as u32 });
     }
@@ -40,7 +41,7 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchErro
 }
 
 /// The flat convex quadrilateral that two triangles with a common side make, if they do.
-fn quadrilateral(one: &[Vec3; 3], other: &[Vec3; 3]) -> Option<[Vec3; 4]> {
+fn quadrilateral(one: &[DVec3; 3], other: &[DVec3; 3]) -> Option<[DVec3; 4]> {
     for i in 0..3 {
         let [a, b, c] = [one[i], one[(i + 1) % 3], one[(i + 2) % 3]];
         for j in 0..3 {
@@ -53,16 +54,16 @@ fn quadrilateral(one: &[Vec3; 3], other: &[Vec3; 3]) -> Option<[Vec3; 4]> {
     None
 }
 
-fn is_flat_and_convex(quad: &[Vec3; 4]) -> bool {
-    let diagonals = [sub(quad[2], quad[0]), sub(quad[3], quad[1])];
-    let normal = cross(diagonals[0], diagonals[1]);
-    let longest = length(diagonals[0]).max(length(diagonals[1]));
-    let lift = dot(normal, sub(quad[1], quad[0])).abs();
+fn is_flat_and_convex(quad: &[DVec3; 4]) -> bool {
+    let diagonals = [quad[2] - quad[0], quad[3] - quad[1]];
+    let normal = diagonals[0].cross(diagonals[1]);
+    let longest = diagonals[0].length().max(diagonals[1].length());
+    let lift = normal.dot(quad[1] - quad[0]).abs();
     let turns = (0..4).all(|i| {
-        let side = |k: usize| sub(quad[(k + 1) % 4], quad[k % 4]);
-        dot(cross(side(i), side(i + 1)), normal) > FLAT * dot(normal, normal)
+        let side = |k: usize| quad[(k + 1) % 4] - quad[k % 4];
+        side(i).cross(side(i + 1)).dot(normal) > FLAT * normal.dot(normal)
     });
-    lift <= FLAT * longest * length(normal) && turns
+    lift <= FLAT * longest * normal.length() && turns
 }
 
 /// Parts a side of each face so that all faces together make at most `most` patches, parts as short as that allows.
@@ -86,7 +87,7 @@ impl Face {
     /// Lengths across and along: of opposite sides the longer one.
     fn sides(&self) -> [f64; 2] {
         let n = self.corners.len();
-        let side = |i: usize| length(sub(self.corners[(i + 1) % n], self.corners[i]));
+        let side = |i: usize| (self.corners[(i + 1) % n] - self.corners[i]).length();
         if n == 3 { [side(0).max(side(1)).max(side(2)); 2] } else { [side(0).max(side(2)), side(1).max(side(3))] }
     }
 
@@ -110,7 +111,7 @@ impl Face {
             return Some(());
         }
         let (a, b, c, n) = (self.corners[0], self.corners[1], self.corners[2], across);
-        let at = |i, j| add(a, add(scale(part(i, n), sub(b, a)), scale(part(j, n), sub(c, a))));
+        let at = |i, j| a + (part(i, n) * (b - a) + part(j, n) * (c - a));
         for j in 0..n {
             for i in 0..n - j {
                 into.push(Patch::new(&[at(i, j), at(i + 1, j), at(i, j + 1)], id, self.material)?);
@@ -125,29 +126,29 @@ impl Face {
 }
 
 /// A point between two; exactly the ends at 0 and 1.
-fn mix(a: Vec3, b: Vec3, t: f64) -> Vec3 {
-    add(scale(1.0 - t, a), scale(t, b))
+fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
+    (1.0 - t) * a + t * b
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const SQUARE: [Vec3; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    const SQUARE: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
 
     #[test]
     fn two_halves_make_a_square_and_a_kink_does_not() {
         let [a, b, c, d] = SQUARE;
         assert_eq!(quadrilateral(&[b, c, a], &[c, d, a]), Some([a, b, c, d]));
-        assert_eq!(quadrilateral(&[a, b, c], &[a, c, [0.0, 1.0, 0.1]]), None);
+        assert_eq!(quadrilateral(&[a, b, c], &[a, c, DVec3::new(0.0, 1.0, 0.1)]), None);
         assert_eq!(quadrilateral(&[a, b, c], &[c, a, d]), None, "it faces the other way");
-        assert_eq!(quadrilateral(&[a, b, c], &[a, c, [0.9, 0.8, 0.0]]), None, "not convex");
+        assert_eq!(quadrilateral(&[a, b, c], &[a, c, DVec3::new(0.9, 0.8, 0.0)]), None, "not convex");
     }
 
     #[test]
     fn parts_are_as_short_as_the_number_allows() {
-        let face = |corners: Vec<Vec3>| Face { corners, triangle: 0, material: 0 };
-        let long = SQUARE.map(|[x, y, z]| [2.0 * x, y, z]).to_vec();
+        let face = |corners: Vec<DVec3>| Face { corners, triangle: 0, material: 0 };
+        let long = SQUARE.map(|corner| DVec3::new(2.0, 1.0, 1.0) * corner).to_vec();
         let faces = [face(SQUARE.to_vec()), face(long)];
         assert_eq!(steps_for_at_most(&faces, 12), [[2, 2], [4, 2]]);
         assert_eq!(steps_for_at_most(&faces, 11), [[2, 2], [3, 2]]);
@@ -164,7 +165,7 @@ mod tests {
             face.cut(7, steps, &mut patches).expect("patches");
             let sum: f64 = patches.iter().map(Patch::area).sum();
             assert!(patches.len() == count && (sum - area).abs() < 1e-14, "{} patches, {sum}", patches.len());
-            assert!(patches.iter().all(|p| p.normal() == [0.0, 0.0, 1.0] && (p.face, p.material) == (7, 3)));
+            assert!(patches.iter().all(|p| p.normal() == DVec3::Z && (p.face, p.material) == (7, 3)));
         }
     }
 }

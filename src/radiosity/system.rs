@@ -12,8 +12,8 @@ pub enum SystemError {
     /// No patches.
     #[error("expected patches, found none")]
     Empty,
-    /// Not one value a patch.
-    #[error("expected {patches} {what}, one a patch, found {found}")]
+    /// Not one value per patch.
+    #[error("expected {patches} {what}, one per patch, found {found}")]
     Count {
         /// `reflectances`, `emittances`, ...
         what: &'static str,
@@ -43,10 +43,10 @@ pub enum SystemError {
     },
 }
 
-/// A colour a patch: red, green, blue.
+/// Red, green and blue per patch.
 type PerPatch = Vec<[f64; 3]>;
 
-/// Form factors with what patches reflect and emit. Both may change; the form factors stay.
+/// Form factors with the reflectances and emittances of the patches, which may change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
     factors: FormFactors,
@@ -85,10 +85,10 @@ impl System {
         Ok(system)
     }
 
-    /// Changes what patches reflect; the matrix has to be made again, the form factors not.
+    /// Replaces the reflectances. The matrix changes with them, the form factors do not.
     ///
     /// # Errors
-    /// [`SystemError`]; the system is then as it was.
+    /// [`SystemError`]; the system is then unchanged.
     pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), SystemError> {
         self.count("reflectances", &reflectance)?;
         if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
@@ -98,10 +98,10 @@ impl System {
         Ok(())
     }
 
-    /// Changes what patches emit; the matrix stays.
+    /// Replaces the emittances. The matrix does not change.
     ///
     /// # Errors
-    /// [`SystemError`]; the system is then as it was.
+    /// [`SystemError`]; the system is then unchanged.
     pub fn set_emittance(&mut self, emittance: PerPatch) -> Result<(), SystemError> {
         self.count("emittances", &emittance)?;
         if let Some((patch, value)) = first(&emittance, |value| !(value >= 0.0 && value.is_finite())) {
@@ -122,24 +122,24 @@ impl System {
         &self.factors
     }
 
-    /// What each patch reflects.
+    /// The reflectance of each patch.
     #[must_use]
     pub fn reflectance(&self) -> &[[f64; 3]] {
         &self.reflectance
     }
 
-    /// What each patch emits.
+    /// The emittance of each patch.
     #[must_use]
     pub fn emittance(&self) -> &[[f64; 3]] {
         &self.emittance
     }
 
-    /// The right side of equation 2 in a channel (0 red, 1 green, 2 blue).
+    /// The right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue).
     ///
     /// # Panics
     /// For another channel.
     #[must_use]
-    pub fn right(&self, channel: usize) -> Vec<f64> {
+    pub fn right_hand_side(&self, channel: usize) -> Vec<f64> {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
 
@@ -158,7 +158,7 @@ impl System {
         matrix
     }
 
-    /// Solves one channel, from `start` if there is one: the last solution after a change of light, say.
+    /// Solves one channel. `start` is the initial guess, for example the solution before a change of light.
     ///
     /// # Errors
     /// [`SolveError`].
@@ -169,15 +169,15 @@ impl System {
         options: &Options,
         start: Option<&[f64]>,
     ) -> Result<Solution, SolveError> {
-        let right = self.right(channel);
+        let right_hand_side = &self.right_hand_side(channel);
         solve::solve(
             solver,
-            &solve::Problem { matrix: &self.matrix(channel), right: &right, areas: self.factors.areas(), start },
+            &solve::Problem { matrix: &self.matrix(channel), right_hand_side, areas: self.factors.areas(), start },
             options,
         )
     }
 
-    /// Solves all three channels, one after the other; `start` as the radiosities of an earlier solution.
+    /// Solves all three channels. `start` is the initial guess: the radiosities of an earlier solution.
     ///
     /// # Errors
     /// [`SolveError`].
@@ -194,13 +194,13 @@ impl System {
         Ok(RgbSolution { channels: [channel(0)?, channel(1)?, channel(2)?] })
     }
 
-    /// The mean square of what radiosities leave of equation 2, E - M B, in each channel: Figure 3's error. No matrix is made for it.
+    /// The mean square of the residual of equation 2, E - M B, in each channel: Figure 3's error. M is not formed.
     ///
     /// # Panics
-    /// If there is not one radiosity a patch.
+    /// If there is not one radiosity per patch.
     #[must_use]
     pub fn residual(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
-        assert_eq!(radiosity.len(), self.factors.len(), "one radiosity a patch");
+        assert_eq!(radiosity.len(), self.factors.len(), "one radiosity per patch");
         [0, 1, 2].map(|c| {
             let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();
             let arriving = self.factors.matrix().times(&b);
@@ -209,10 +209,10 @@ impl System {
         })
     }
 
-    /// Power that a solution leaves unaccounted for in each channel: what is emitted, less what is absorbed and what leaves the room.
-    /// Reciprocal form factors and an exact solution give 0.
+    /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room. It is 0
+    /// for reciprocal form factors and an exact solution.
     #[must_use]
-    pub fn imbalance(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
+    pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();
             let arriving = self.factors.matrix().times(&b);
@@ -229,6 +229,6 @@ impl System {
 
 /// The first value that is `wrong`, with its patch.
 fn first(values: &PerPatch, wrong: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
-    let mut all = values.iter().enumerate().flat_map(|(patch, colour)| colour.map(|value| (patch, value)));
+    let mut all = values.iter().enumerate().flat_map(|(patch, color)| color.map(|value| (patch, value)));
     all.find(|&(_, value)| wrong(value))
 }

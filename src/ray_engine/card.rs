@@ -6,33 +6,34 @@ use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event, FenceId};
 use refsim::exec::Constants;
 use refsim::machine::{
-    AttributeStream, DepthId, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
+    AttributeStream, DrawCall, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
 };
 use refsim::num::Format;
-use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthState, DepthSurface};
-use refsim::raster::{PixelCenter, Primitive};
+use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
+use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState};
 
-use super::outputs::{Code, Told};
+use super::outputs::{PixelResult, TargetEncoding};
 use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Hit, Kernel, RayBatch};
+use crate::card::NearestTarget;
 use crate::geom::{Mesh, Ray};
 
 /// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct RayTextures {
     /// All ray textures made so far: sampler, size, texture. Origins take one texel or one a ray.
     made: Vec<(usize, Region, TextureId)>,
     /// Those with the rays that were loaded last.
     textures: Vec<(usize, TextureId)>,
-    code: Code,
-    ids: TextureId,
-    depth: DepthId,
+    code: TargetEncoding,
+    /// Ids, and t as depth.
+    target: NearestTarget,
 }
 
 /// What is drawn, beside the triangles.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pass<'a> {
+pub(super) struct PassInputs<'a> {
     pub(super) kernel: &'a Kernel,
     pub(super) units: &'a Units,
     /// What the vertex program knows of the rays, if it culls: c3 and on.
@@ -58,7 +59,7 @@ impl CardHit {
 
 /// What to read back of a bucket, and how.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading<'a> {
+pub(super) struct ReadBack<'a> {
     pub(super) rays: &'a RayBatch,
     pub(super) units: &'a Units,
     /// The triangles drawn, in their order.
@@ -69,21 +70,20 @@ pub(super) struct Reading<'a> {
     pub(super) wait: bool,
 }
 
-impl Sheet {
+impl RayTextures {
     /// Uploads rays, and makes targets of their size.
     pub(super) fn new(
         machine: &mut Machine,
         kernel: &Kernel,
         rays: &RayBatch,
         units: &Units,
-        code: Code,
+        code: TargetEncoding,
     ) -> Result<Self, EngineError> {
         let mut made = Vec::new();
         let textures = upload(&mut made, machine, kernel, rays, units)?;
-        let ids = machine.create_target(code.format(), rays.width(), rays.height())?;
-        let format = depth_format(machine.profile(), kernel.form);
-        let depth = machine.create_depth(format, rays.width(), rays.height())?;
-        Ok(Self { made, textures, code, ids, depth })
+        let formats = (code.format(), depth_format(machine.profile(), kernel.form));
+        let target = NearestTarget::new(machine, formats, [rays.width(), rays.height()])?;
+        Ok(Self { made, textures, code, target })
     }
 
     /// Uploads other rays, as many.
@@ -100,16 +100,14 @@ impl Sheet {
 
     /// No ids, and the depth of no hit.
     pub(super) fn clear(&self, machine: &mut Machine) -> Result<(), EngineError> {
-        machine.clear_target(self.ids, [0; 4])?;
-        machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
-        Ok(())
+        Ok(self.target.clear(machine)?)
     }
 
     /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
-        Pass { kernel, units, bucket }: Pass<'_>,
+        PassInputs { kernel, units, bucket }: PassInputs<'_>,
         streams: &Streams,
     ) -> Result<DrawEvents, EngineError> {
         let mut float = units.vertex_constants();
@@ -118,15 +116,13 @@ impl Sheet {
         let pixel_constants = Constants { float: units.pixel_constants(), ..Constants::default() };
         let source =
             VertexSource::Program { program: &kernel.vertex, constants: &vertex_constants, streams: streams.bind() };
-        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.ids);
+        let mut call = DrawCall::new(source, Primitive::QuadList, &kernel.pixel, &pixel_constants, self.target.color);
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
-        call.center = PixelCenter::OpenGl;
         // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by themselves.
         call.alpha_test = (!kernel.weights).then_some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
-        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-        call.depth_buffer = Some(self.depth);
+        self.target.keep_nearest(&mut call);
         Ok(machine.draw(&call)?)
     }
 
@@ -134,18 +130,18 @@ impl Sheet {
     pub(super) fn read_back(
         &self,
         machine: &Machine,
-        reading: &Reading<'_>,
+        reading: &ReadBack<'_>,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         // The fence of the last transfer stands behind the others too.
         let (mut fence, image) = match reading.wait {
-            true => (None, machine.read_back(self.ids)?),
-            false => machine.read_back_async(self.ids).map(|(fence, image)| (Some(fence), image))?,
+            true => (None, machine.read_back(self.target.color)?),
+            false => machine.read_back_async(self.target.color).map(|(fence, image)| (Some(fence), image))?,
         };
         let depth = match (reading.t, reading.wait) {
             (false, _) => None,
-            (true, true) => Some(machine.read_depth(self.depth)?),
+            (true, true) => Some(machine.read_depth(self.target.depth)?),
             (true, false) => {
-                let (last, depth) = machine.read_depth_async(self.depth)?;
+                let (last, depth) = machine.read_depth_async(self.target.depth)?;
                 fence = Some(last);
                 Some(depth)
             }
@@ -154,9 +150,9 @@ impl Sheet {
     }
 }
 
-impl Reading<'_> {
+impl ReadBack<'_> {
     /// Hits from colours and depths.
-    fn hits(&self, code: Code, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
+    fn hits(&self, code: TargetEncoding, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
         let width = self.rays.width();
         let t = |i: usize, ray: &Ray| {
             let depth = depth?;
@@ -164,7 +160,7 @@ impl Reading<'_> {
             Some(self.units.t(f32::from_bits(depth.format().to_format(stored, Format::FP32)), ray))
         };
         let pixel = |(i, ray): (usize, &Ray)| {
-            let Told { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
+            let PixelResult { triangle, uvw } = code.read(image, i as u32 % width, i as u32 / width, self.triangles)?;
             Some(CardHit { triangle, t: t(i, ray), uvw })
         };
         self.rays.rays().iter().enumerate().map(pixel).collect()
@@ -202,7 +198,7 @@ pub(super) struct Card {
     machine: Machine,
     kernel: Arc<Kernel>,
     units: Units,
-    sheet: Sheet,
+    sheet: RayTextures,
 }
 
 impl Card {
@@ -213,7 +209,7 @@ impl Card {
         rays: &RayBatch,
         units: Units,
     ) -> Result<Self, EngineError> {
-        let sheet = Sheet::new(&mut machine, &kernel, rays, &units, Code::Id)?;
+        let sheet = RayTextures::new(&mut machine, &kernel, rays, &units, TargetEncoding::Id)?;
         Ok(Self { machine, kernel, units, sheet })
     }
 
@@ -229,13 +225,13 @@ impl Card {
 
     /// One screen-filling quad a triangle.
     pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
-        let pass = Pass { kernel: &self.kernel, units: &self.units, bucket: &[] };
+        let pass = PassInputs { kernel: &self.kernel, units: &self.units, bucket: &[] };
         self.sheet.draw(&mut self.machine, pass, streams)
     }
 
     /// What each of the rays hits.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
-        let reading = Reading { rays, units: &self.units, triangles: &[], t: true, wait: true };
+        let reading = ReadBack { rays, units: &self.units, triangles: &[], t: true, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
         Ok(hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect())
     }
@@ -257,7 +253,7 @@ pub(super) struct Streams {
 impl Streams {
     /// Triangles in their order, coloured as a target's code says. The fourth component of a is the place in the pass,
     /// that of b the edge scale, that of c nothing.
-    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: Code) -> Self {
+    pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: TargetEncoding) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));

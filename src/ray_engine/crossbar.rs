@@ -12,16 +12,17 @@ use refsim::texture::Region;
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
 use super::kept::KeptCard;
-use super::outputs::{Code, Outputs};
-use super::pass::{PassCard, PassWish};
+use super::outputs::{Outputs, TargetEncoding};
+use super::pass::{PassCard, PassRequirements};
 use super::range::Range;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
+use crate::card::KernelError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
 /// Triangle ids are 24-bit colours.
-const MOST_TRIANGLES: usize = 1 << 24;
+const MAX_TRIANGLES: usize = 1 << 24;
 /// Sides of the buckets of a batch of eye rays, in pixels.
 const BUCKET: u32 = 32;
 /// Sides of the buckets of a list: the squares that it is laid out in.
@@ -39,19 +40,12 @@ pub enum EngineError {
         /// The device.
         device: String,
     },
-    /// The card's rules refuse the program.
-    #[error("device `{device}` refuses `{kernel}`: {problem}")]
-    #[diagnostic(code(ray_engine::refused))]
-    Refused {
-        /// The program's file.
-        kernel: &'static str,
-        /// The device.
-        device: String,
-        /// The first thing that is wrong.
-        problem: String,
-    },
+    /// The device refuses a program.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Kernel(#[from] KernelError),
     /// More triangles than ids.
-    #[error("expected at most {MOST_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
+    #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
     #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
     TooManyTriangles {
         /// Triangles of the mesh.
@@ -97,14 +91,14 @@ pub struct Crossbar {
     executor: Executor,
     all_pairs: bool,
     /// Programs that have been assembled and checked, by what they were chosen for.
-    kernels: Arc<Mutex<Vec<Chosen>>>,
+    kernels: Arc<Mutex<Vec<ChosenKernel>>>,
 }
 
 /// Whether the rays have one origin, and the sides that count.
 type KernelUse = (bool, Sides);
 
 /// A program with what it was chosen for.
-type Chosen = (KernelUse, Arc<Kernel>);
+type ChosenKernel = (KernelUse, Arc<Kernel>);
 
 impl Crossbar {
     /// A card of this profile.
@@ -164,7 +158,7 @@ impl Crossbar {
         sides: Sides,
         cull: bool,
     ) -> Result<Answer, EngineError> {
-        let wish = PassWish { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
+        let wish = PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
         let mut card = self.pass_card(mesh, sides, wish)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
@@ -176,7 +170,7 @@ impl Crossbar {
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassWish) -> Result<PassCard, EngineError> {
+    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Result<PassCard, EngineError> {
         let weights =
             wish.outputs == Outputs::IdAndBarycentrics && tells_apart(&self.profile.rules.format, wish.triangles);
         let kernel = Kernel::for_passes(&self.profile, sides, wish.cull, weights)?;
@@ -199,7 +193,7 @@ impl Crossbar {
         let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(KeptCard::new(card, Streams::new(mesh, &units, &ids, Code::Id), rays.clone(), name))
+        Ok(KeptCard::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
     }
 
     /// The program for a use: chosen once.
@@ -236,7 +230,7 @@ impl Crossbar {
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
             // New targets hold just that; a card that keeps them from bucket to bucket has to be told.
             card.clear()?;
-            let events = card.draw(&Streams::new(mesh, &units, &triangles, Code::Id))?;
+            let events = card.draw(&Streams::new(mesh, &units, &triangles, TargetEncoding::Id))?;
             Ok((region, card.read_back(&bucket)?, events, card.take_log()))
         };
         let buckets = self.buckets(mesh, rays, side);
@@ -288,7 +282,7 @@ impl Crossbar {
 }
 
 fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
-    if mesh.len() > MOST_TRIANGLES {
+    if mesh.len() > MAX_TRIANGLES {
         return Err(EngineError::TooManyTriangles { found: mesh.len() });
     }
     Ok(())

@@ -1,14 +1,13 @@
 //! Which program a device runs.
 
-use refsim::asm::assemble;
-use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::EngineError;
-use super::kernels::{self, KernelText};
+use super::kernels;
+use crate::card::KernelText;
 use crate::geom::exact::Sides;
 
 /// Which rays a program serves, and what its texture and constants are.
@@ -89,12 +88,12 @@ impl Kernel {
             Form::Float => kernels::SEVEN_VECTORS_BUCKET_SETUP,
             _ => kernels::ANY_ORIGIN_BUCKET_SETUP,
         };
-        let vertex = checked(profile, setup)?;
+        let vertex = setup.checked(profile)?;
         if !weights {
             return Ok(Self { vertex, culls: cull, ..plain });
         }
         let pixel = if sides == Sides::Front { kernels::FLOAT_UVW } else { kernels::FLOAT_UVW_BOTH };
-        Ok(Self { vertex, pixel: checked(profile, pixel)?, name: pixel.name, culls: cull, weights, ..plain })
+        Ok(Self { vertex, pixel: pixel.checked(profile)?, name: pixel.name, culls: cull, weights, ..plain })
     }
 
     /// Whether the vertex program wants the constants of a bucket.
@@ -112,18 +111,11 @@ impl Kernel {
         Ok(Self {
             form,
             name: pixel.name,
-            vertex: checked(profile, setup)?,
-            pixel: checked(profile, pixel)?,
+            vertex: setup.checked(profile)?,
+            pixel: pixel.checked(profile)?,
             signed_rays,
             culls: false,
             weights: false,
         })
     }
-}
-
-/// A program of this folder, judged by the device's own rules.
-pub(super) fn checked(profile: &Profile, kernel: KernelText) -> Result<CheckedProgram, EngineError> {
-    let refused = |problem: String| EngineError::Refused { kernel: kernel.name, device: profile.name.clone(), problem };
-    let program = assemble(kernel.text).map_err(|e| refused(e.to_string()))?;
-    check(program, profile).map_err(|e| refused(e.to_string()))
 }

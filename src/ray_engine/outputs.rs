@@ -21,7 +21,7 @@ pub enum Outputs {
 
 /// What a colour target of a pass holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
+pub(super) enum TargetEncoding {
     /// Ids of the mesh, 24 bits and a hit mask.
     Id,
     /// Places in the pass's list from 1, 5, 6 and 5 bits.
@@ -34,12 +34,12 @@ pub(super) enum Code {
 
 /// What one pixel says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Told {
+pub(super) struct PixelResult {
     pub(super) triangle: u32,
     pub(super) uvw: Option<[f32; 3]>,
 }
 
-impl Code {
+impl TargetEncoding {
     /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells them apart.
     pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
         let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
@@ -77,16 +77,17 @@ impl Code {
     }
 
     /// What a pixel of a target says; `None` if nothing was hit.
-    pub(super) fn read(self, image: &Image, x: u32, y: u32, triangles: &[u32]) -> Option<Told> {
-        let at = |place: u32| Some(Told { triangle: *triangles.get(place.checked_sub(1)? as usize)?, uvw: None });
+    pub(super) fn read(self, image: &Image, x: u32, y: u32, triangles: &[u32]) -> Option<PixelResult> {
+        let at =
+            |place: u32| Some(PixelResult { triangle: *triangles.get(place.checked_sub(1)? as usize)?, uvw: None });
         let texel = image.raw(0, 0, y, x);
         if self == Self::Weights {
             let [u, v, w, place] = [0, 32, 64, 96].map(|shift| f32::from_bits((texel >> shift) as u32));
-            return at(place as u32).map(|told| Told { uvw: Some([u, v, w]), ..told });
+            return at(place as u32).map(|told| PixelResult { uvw: Some([u, v, w]), ..told });
         }
         let raw = texel as u32;
         match self {
-            Self::Id => (raw >> 24 != 0).then(|| Told { triangle: id_of_color(raw), uvw: None }),
+            Self::Id => (raw >> 24 != 0).then(|| PixelResult { triangle: id_of_color(raw), uvw: None }),
             Self::Place16 => at(raw >> 11 & 31 | (raw >> 5 & 63) << 5 | (raw & 31) << 11),
             Self::Place8 | Self::Weights => at(raw & 0xff),
         }

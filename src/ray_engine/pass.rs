@@ -6,9 +6,9 @@ use std::collections::btree_map::Entry;
 use refsim::event::{DrawEvents, Event, FenceId};
 use refsim::machine::Machine;
 
-use super::card::{CardHit, Pass, Reading, Sheet, Streams};
+use super::card::{CardHit, PassInputs, RayTextures, ReadBack, Streams};
 use super::cull;
-use super::outputs::{Code, Outputs};
+use super::outputs::{Outputs, TargetEncoding};
 use super::range::Range;
 use super::units::Units;
 use super::{EngineError, Kernel, RayBatch};
@@ -17,7 +17,7 @@ use crate::geom::exact::Sides;
 
 /// What passes are to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PassWish {
+pub(super) struct PassRequirements {
     pub(super) outputs: Outputs,
     pub(super) small_ids: bool,
     pub(super) cull: bool,
@@ -31,10 +31,10 @@ pub(super) struct PassCard {
     machine: Machine,
     kernel: Kernel,
     sides: Sides,
-    wish: PassWish,
+    wish: PassRequirements,
     /// Of the mesh that all passes are about.
     bounds: [[f32; 3]; 2],
-    sheets: BTreeMap<(usize, u32, u32, Format), Sheet>,
+    sheets: BTreeMap<(usize, u32, u32, Format), RayTextures>,
 }
 
 /// The name of a target's format, to tell sheets apart.
@@ -42,9 +42,9 @@ type Format = &'static str;
 
 /// What a draw hands on to its read-back.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn {
+pub(super) struct DrawnPass {
     units: Units,
-    code: Code,
+    code: TargetEncoding,
     sheet: usize,
     /// What happened.
     pub(super) events: DrawEvents,
@@ -52,7 +52,7 @@ pub(super) struct Drawn {
 
 impl PassCard {
     /// A card for passes over triangles of one mesh.
-    pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides, wish: PassWish) -> Self {
+    pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
         Self { machine, kernel, sides, wish, bounds, sheets: BTreeMap::new() }
     }
@@ -79,7 +79,7 @@ impl PassCard {
         mesh: &Mesh,
         triangles: &[u32],
         rays: &RayBatch,
-    ) -> Result<Drawn, EngineError> {
+    ) -> Result<DrawnPass, EngineError> {
         let (machine, kernel) = (&mut self.machine, &self.kernel);
         let units = Units::within(kernel.form, Range::of_pixels(&machine.profile().rules), self.bounds, rays);
         let bucket = match (kernel.takes_bucket(), kernel.culls) {
@@ -87,25 +87,25 @@ impl PassCard {
             (true, false) => cull::nothing(),
             (false, _) => Vec::new(),
         };
-        let code = Code::choose(machine.profile(), kernel.weights, self.wish.small_ids, triangles.len());
+        let code = TargetEncoding::choose(machine.profile(), kernel.weights, self.wish.small_ids, triangles.len());
         let loaded = match self.sheets.entry((sheet, rays.width(), rays.height(), code.format().name())) {
             Entry::Occupied(held) => {
                 let loaded = held.into_mut();
                 loaded.load(machine, kernel, rays, &units)?;
                 loaded
             }
-            Entry::Vacant(slot) => slot.insert(Sheet::new(machine, kernel, rays, &units, code)?),
+            Entry::Vacant(slot) => slot.insert(RayTextures::new(machine, kernel, rays, &units, code)?),
         };
         loaded.clear(machine)?;
-        let pass = Pass { kernel, units: &units, bucket: &bucket };
+        let pass = PassInputs { kernel, units: &units, bucket: &bucket };
         let events = loaded.draw(machine, pass, &Streams::new(mesh, &units, triangles, code))?;
-        Ok(Drawn { units, code, sheet, events })
+        Ok(DrawnPass { units, code, sheet, events })
     }
 
     /// What each ray of a draw hits. If the host does not wait, a fence tells when it may look.
     pub(super) fn read_back(
         &self,
-        drawn: &Drawn,
+        drawn: &DrawnPass,
         triangles: &[u32],
         rays: &RayBatch,
         wait: bool,
@@ -115,7 +115,7 @@ impl PassCard {
             return Ok((vec![None; rays.rays().len()], None));
         };
         let t = self.wish.outputs == Outputs::IdAndT;
-        sheet.read_back(&self.machine, &Reading { rays, units: &drawn.units, triangles, t, wait })
+        sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, triangles, t, wait })
     }
 
     /// The host waits for a fence.

@@ -3,20 +3,20 @@
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::Constants;
-use refsim::machine::{DepthId, DrawCall, Executor, Machine, MachineError, TextureId, VertexSource, VertexStreams};
+use refsim::machine::{DrawCall, Executor, Machine, MachineError, VertexSource, VertexStreams};
 use refsim::num::Format;
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive};
+use refsim::output::DepthFormat;
+use refsim::raster::Primitive;
 use refsim::texture::TexelFormat;
 
 use super::card::bind;
 use super::crossbar::{Answer, EngineError, color_of_id, id_of_color};
 use super::host_test::{cross, scaled, scaled_corners, sub};
-use super::kernel::checked;
 use super::range::Range;
 use super::rays::normalise_range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};
+use crate::card::NearestTarget;
 use crate::geom::{Hit, Mesh, Ray};
 
 /// Corners of a triangle around a pixel's centre, in pixels.
@@ -52,9 +52,9 @@ impl VertexCrossbar {
     /// # Errors
     /// As [`VertexCrossbar::intersect`].
     pub fn intersect_on(&self, machine: &mut Machine, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
-        let (vertex, pixel) = (checked(&self.profile, kernels::VERTEX_TEST)?, checked(&self.profile, kernels::ID)?);
-        let ids = machine.create_target(TexelFormat::Bgra8, rays.width(), rays.height())?;
-        let depth = machine.create_depth(DepthFormat::Unorm24, rays.width(), rays.height())?;
+        let (vertex, pixel) = (kernels::VERTEX_TEST.checked(&self.profile)?, kernels::ID.checked(&self.profile)?);
+        let formats = (TexelFormat::Bgra8, DepthFormat::Unorm24);
+        let target = NearestTarget::new(machine, formats, [rays.width(), rays.height()])?;
         let units = Units::choose(Form::Float, Range::of(&self.profile.rules.vertex_format), mesh, rays);
         let streams = Streams::new(mesh, rays, units.scale());
         let mut events = DrawEvents::default();
@@ -73,24 +73,22 @@ impl VertexCrossbar {
             let constants = Constants { float: float.map(|c| c.map(f32::to_bits)).to_vec(), ..Constants::default() };
             let source = VertexSource::Program { program: &vertex, constants: &constants, streams: streams.bind() };
             let none = Constants::default();
-            let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &none, ids);
-            call.center = PixelCenter::OpenGl;
-            call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-            call.depth_buffer = Some(depth);
+            let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &none, target.color);
+            target.keep_nearest(&mut call);
             events += machine.draw(&call)?;
         }
-        let hits = read_back(machine, (ids, depth), rays, &units)?;
+        let hits = read_back(machine, target, rays, &units)?;
         Ok(Answer { hits, events, kernel: kernels::VERTEX_TEST.name, log: Vec::new() })
     }
 }
 
 fn read_back(
     machine: &Machine,
-    (ids, depth): (TextureId, DepthId),
+    target: NearestTarget,
     rays: &RayBatch,
     units: &Units,
 ) -> Result<Vec<Option<Hit>>, MachineError> {
-    let (image, depth) = (machine.read_back(ids)?, machine.read_depth(depth)?);
+    let (image, depth) = (machine.read_back(target.color)?, machine.read_depth(target.depth)?);
     let width = depth.width() as usize;
     let hit = |(i, ray): (usize, &Ray)| {
         let raw = image.raw(0, 0, (i / width) as u32, (i % width) as u32) as u32;

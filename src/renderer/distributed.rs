@@ -5,11 +5,12 @@ use super::lamps::Lamps;
 use super::lobes::{Lobes, one_way, ways};
 use super::surfel::Surfel;
 use super::tracer::{Kind, Tracer, Watch};
-use super::vector::{largest, mul, wide};
 use super::wave::{Flight, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::vector::wide;
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use glam::DVec3;
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the point lights if
 /// the scene has no emitters); a glossy
@@ -40,14 +41,14 @@ struct Distributed<'a> {
 impl Shade for Distributed<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+            return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));
+        let mut scatter = Scatter::of(flight.weight * Lamps::seen(&surfel));
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => {
                 direct(&self.lamps, flight, &surfel, &lobes, &mut scatter);
-                if more && largest(lobes.specular) > 0.0 {
+                if more && lobes.specular.max_element() > 0.0 {
                     gloss(flight, &surfel, lobes, &mut scatter);
                 }
             }
@@ -64,8 +65,8 @@ pub(super) fn direct(lamps: &Lamps<'_>, flight: &Flight, surfel: &Surfel<'_>, lo
     let points = (0..lamps.points()).filter_map(|light| Some((lamps.point(surfel, light)?, *lobes)));
     for (arriving, lobes) in area.into_iter().chain(points) {
         let (value, _) = lobes.evaluate(surfel, arriving.towards);
-        let light = mul(flight.weight, mul(value, arriving.light));
-        if largest(light) > 0.0 {
+        let light = flight.weight * (value * arriving.light);
+        if light.max_element() > 0.0 {
             scatter.shadows.push((arriving.ray, light));
         }
     }
@@ -73,9 +74,9 @@ pub(super) fn direct(lamps: &Lamps<'_>, flight: &Flight, surfel: &Surfel<'_>, lo
 
 /// The glossy lobe, by one ray.
 pub(super) fn gloss(flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
-    let shiny = Lobes { albedo: [0.0; 3], ..lobes };
+    let shiny = Lobes { albedo: DVec3::ZERO, ..lobes };
     let Some(chosen) = shiny.choose(surfel, 0.0, flight.dice.pair(flight.depth, 4)) else { return };
-    let weight = mul(flight.weight, chosen.weight);
+    let weight = flight.weight * chosen.weight;
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, Kind::Reflection, weight)));
 }
 
@@ -84,8 +85,8 @@ pub(super) fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter)
     let chosen =
         if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };
     for way in chosen.into_iter().flatten() {
-        let weight = mul(flight.weight, way.weight);
-        if largest(weight) > 0.0 {
+        let weight = flight.weight * way.weight;
+        if weight.max_element() > 0.0 {
             let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
             // A gather ray stays one.
             scatter.next.extend(next.map(|next| Flight { density: flight.density, ..next }));

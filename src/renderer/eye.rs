@@ -3,9 +3,9 @@
 use super::film::{Picture, expose};
 use super::surfel::Surfel;
 use super::tracer::{Tracer, Watch};
-use super::vector::{add, dot, scale, wide};
 use super::wave::{Flight, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::vector::wide;
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene, Surface};
 
@@ -37,11 +37,11 @@ impl Shade for Eye<'_> {
         };
         let color = match surfel.material.surface {
             Surface::Diffuse { albedo } => wide(albedo),
-            Surface::Glossy { albedo, specular, .. } => add(wide(albedo), wide(specular)),
+            Surface::Glossy { albedo, specular, .. } => wide(albedo) + wide(specular),
             Surface::Mirror { reflectance } => wide(reflectance),
             Surface::Glass { transmittance, .. } => wide(transmittance),
         };
-        let facing = dot(surfel.shading, surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
-        Scatter::of(add(scale(color, facing), super::lamps::Lamps::seen(&surfel)))
+        let facing = surfel.shading.dot(surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
+        Scatter::of(facing * color + super::lamps::Lamps::seen(&surfel))
     }
 }

@@ -1,11 +1,12 @@
 //! From samples to a picture.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::settings::{Lens, RenderError, Settings};
 use super::tracer::{Kind, RayCounts, Tracer};
-use super::vector::{Vec3, add, along, mul, narrow, scale, sub, unit, wide};
 use super::wave::{Dice, Flight, Shade, follow};
+use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::scene::Camera;
 
@@ -17,9 +18,9 @@ pub struct Picture {
     /// Pixels down.
     pub height: u32,
     /// Mean of the samples.
-    pub color: Vec<Vec3>,
+    pub color: Vec<[f64; 3]>,
     /// Estimated variance of that mean: of the samples, over their number; 0 of one sample.
-    pub variance: Vec<Vec3>,
+    pub variance: Vec<[f64; 3]>,
     /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is the depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: none, unless a scene's figures are beyond reason.
@@ -47,19 +48,19 @@ impl Picture {
 
 /// Sums of samples.
 struct Film {
-    sum: Vec<Vec3>,
-    squares: Vec<Vec3>,
+    sum: Vec<DVec3>,
+    squares: Vec<DVec3>,
     not_finite: u64,
 }
 
 impl Film {
-    fn add(&mut self, pixel: usize, sample: Vec3) {
-        if !sample.iter().all(|channel| channel.is_finite()) {
+    fn add(&mut self, pixel: usize, sample: DVec3) {
+        if !sample.is_finite() {
             self.not_finite += 1;
             return;
         }
-        self.sum[pixel] = add(self.sum[pixel], sample);
-        self.squares[pixel] = add(self.squares[pixel], mul(sample, sample));
+        self.sum[pixel] += sample;
+        self.squares[pixel] += sample * sample;
     }
 }
 
@@ -74,7 +75,7 @@ pub(super) fn expose(
     settings.checked()?;
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
-    let mut film = Film { sum: vec![[0.0; 3]; pixels], squares: vec![[0.0; 3]; pixels], not_finite: 0 };
+    let mut film = Film { sum: vec![DVec3::ZERO; pixels], squares: vec![DVec3::ZERO; pixels], not_finite: 0 };
     // With one sample a pixel and no lens the rays of the picture are those through the middles.
     let middles = settings.samples == 1 && settings.lens.is_none();
     let mut first = if middles { Vec::with_capacity(pixels) } else { through_middles(tracer, camera, settings)? };
@@ -105,12 +106,13 @@ pub(super) fn expose(
 }
 
 /// Means, and the variances of the means.
-fn means(film: &Film, samples: u32) -> (Vec<Vec3>, Vec<Vec3>) {
+fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let n = f64::from(samples);
-    let of = |(sum, squares): (&Vec3, &Vec3)| {
-        let mean = scale(*sum, 1.0 / n);
-        let spread = sub(*squares, scale(mul(mean, mean), n)).map(|x| x.max(0.0));
-        (mean, if samples > 1 { scale(spread, 1.0 / (n * (n - 1.0))) } else { [0.0; 3] })
+    let of = |(sum, squares): (&DVec3, &DVec3)| {
+        let mean = 1.0 / n * *sum;
+        let spread = (*squares - n * (mean * mean)).map(|x| x.max(0.0));
+        let variance = if samples > 1 { 1.0 / (n * (n - 1.0)) * spread } else { DVec3::ZERO };
+        (mean.to_array(), variance.to_array())
     };
     film.sum.iter().zip(&film.squares).map(of).unzip()
 }
@@ -161,13 +163,13 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, dice: Dice) -> Ray 
 }
 
 /// From a point of the lens to where the pinhole's ray is at the distance of focus.
-fn through_lens(camera: &Camera, lens: Lens, direction: Vec3, u: [f64; 2]) -> Result<Ray, crate::geom::RayError> {
+fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> Result<Ray, crate::geom::RayError> {
     let [x, y] = super::sampling::disk(u);
     let [right, up] = [camera.right(), camera.up()].map(|axis| unit(axis).unwrap_or(axis));
     let eye = wide(camera.eye());
-    let start = along(along(eye, right, x * lens.radius), up, y * lens.radius);
+    let start = eye + x * lens.radius * right + y * lens.radius * up;
     let start = narrow(start);
-    let sharp = along(eye, direction, lens.focus);
+    let sharp = eye + lens.focus * direction;
     // As long as the pinhole's ray, so that t stays the depth along the view.
-    Ray::new(start, narrow(scale(sub(sharp, wide(start)), 1.0 / lens.focus)))
+    Ray::new(start, narrow(1.0 / lens.focus * (sharp - wide(start))))
 }

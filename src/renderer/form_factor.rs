@@ -8,11 +8,12 @@ use std::f64::consts::PI;
 use super::sampling::triangle;
 use super::surfel::{Place, between};
 use super::tracer::Tracer;
-use super::vector::{Vec3, cross, dot, length, sub, wide};
 use super::visibility::visible;
 use crate::geom::random::Keyed;
+use crate::geom::vector::wide;
 use crate::geom::{CastError, Caster, Ray};
 use crate::scene::Scene;
+use glam::DVec3;
 
 /// An estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,9 +61,9 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<
     let number = |dimension| random.unit(0, sample, dimension);
     let p = from.place(number(0), [number(1), number(2)])?;
     let q = to.place(number(3), [number(4), number(5)])?;
-    let way = sub(q.at, p.at);
-    let square = dot(way, way);
-    let cosines = [dot(way, p.normal), -dot(way, q.normal)];
+    let way = q.at - p.at;
+    let square = way.dot(way);
+    let cosines = [way.dot(p.normal), -way.dot(q.normal)];
     if !(square > 0.0 && cosines.iter().all(|&cosine| cosine > 0.0)) {
         return None;
     }
@@ -80,8 +81,8 @@ struct Patch<'a> {
 impl<'a> Patch<'a> {
     fn new(scene: &'a Scene, triangles: &'a [u32]) -> Self {
         let area = |id: &u32| {
-            let [a, b, c]: [Vec3; 3] = scene.mesh().corners(*id).unwrap_or([[0.0; 3]; 3]).map(wide);
-            length(cross(sub(b, a), sub(c, a))) / 2.0
+            let [a, b, c]: [DVec3; 3] = scene.mesh().corners(*id).unwrap_or([[0.0; 3]; 3]).map(wide);
+            (b - a).cross(c - a).length() / 2.0
         };
         let table = super::sampling::Table::new(triangles.iter().map(area));
         let area = table.total();

@@ -1,10 +1,11 @@
 //! Mirrors and glass: where light goes, and how much of it.
 
-use super::vector::{Vec3, along, dot, scale, sub, unit};
+use crate::geom::vector::unit;
+use glam::DVec3;
 
 /// The mirror image of a direction that points away from the surface.
-pub fn reflected(away: Vec3, normal: Vec3) -> Vec3 {
-    sub(scale(normal, 2.0 * dot(away, normal)), away)
+pub fn reflected(away: DVec3, normal: DVec3) -> DVec3 {
+    2.0 * away.dot(normal) * normal - away
 }
 
 /// How much unpolarised light a smooth boundary reflects (Fresnel's equations). `cosine` is that of the angle to the normal on the
@@ -23,19 +24,18 @@ pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
 
 /// Where a ray goes that crosses the boundary (Snell's law): `away` points from the surface back along the ray, `normal` to the same
 /// side. `None` under total internal reflection.
-pub fn refracted(away: Vec3, normal: Vec3, ratio: f64) -> Option<Vec3> {
-    let cosine = dot(away, normal);
+pub fn refracted(away: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let cosine = away.dot(normal);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
     if square <= 0.0 {
         return None;
     }
-    unit(along(scale(away, -ratio), normal, ratio * cosine - square.sqrt()))
+    unit(-ratio * away + (ratio * cosine - square.sqrt()) * normal)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::renderer::vector::length;
 
     #[test]
     fn fresnel_at_the_angles_that_have_a_name() {
@@ -54,13 +54,13 @@ mod tests {
 
     #[test]
     fn snell() {
-        let normal = [0.0, 0.0, 1.0];
-        let away = unit([0.6, 0.0, 0.8]).expect("a direction");
+        let normal = DVec3::Z;
+        let away = unit(DVec3::new(0.6, 0.0, 0.8)).expect("a direction");
         let inside = refracted(away, normal, 1.0 / 1.5).expect("it enters");
         assert!((inside[0] + 0.4).abs() < 1e-15 && inside[2] < 0.0, "{inside:?}");
-        let back = refracted(inside, [0.0, 0.0, -1.0], 1.5).expect("it leaves as it came");
-        assert!(length(sub(back, away)) < 1e-15);
-        assert_eq!(refracted([0.8, 0.0, 0.6], normal, 1.5), None);
-        assert_eq!(reflected([0.6, 0.0, 0.8], normal), [-0.6, 0.0, 0.8]);
+        let back = refracted(inside, DVec3::NEG_Z, 1.5).expect("it leaves as it came");
+        assert!((back - away).length() < 1e-15);
+        assert_eq!(refracted(DVec3::new(0.8, 0.0, 0.6), normal, 1.5), None);
+        assert_eq!(reflected(DVec3::new(0.6, 0.0, 0.8), normal), DVec3::new(-0.6, 0.0, 0.8));
     }
 }

@@ -4,19 +4,21 @@ use std::f64::consts::PI;
 
 use super::sampling::{Table, cosine, sphere, triangle};
 use super::surfel::{Place, Surfel};
-use super::vector::{Vec3, cross, dot, length, mean, narrow, scale, sub, wide};
+use super::vector::mean;
 use super::wave::Dice;
 use crate::geom::Ray;
+use crate::geom::vector::{narrow, wide};
 use crate::scene::Scene;
+use glam::DVec3;
 
 /// What may shine on a point, not knowing what is between.
 pub(super) struct Arriving {
     /// The ray to the light, reached at t = 1.
     pub(super) ray: Ray,
     /// Unit vector to the light.
-    pub(super) towards: Vec3,
+    pub(super) towards: DVec3,
     /// Radiance over the density of the choice (area lights), or irradiance across the direction (points).
-    pub(super) light: Vec3,
+    pub(super) light: DVec3,
     /// Density of the choice over solid angle; infinite for points, which no other way of choosing ever finds.
     pub(super) density: f64,
 }
@@ -26,7 +28,7 @@ pub(super) struct Leaving {
     /// Where it starts and where it goes.
     pub(super) ray: Ray,
     /// Flux over the density of the choice: the mean over all choices is the flux of all lamps.
-    pub(super) power: Vec3,
+    pub(super) power: DVec3,
 }
 
 /// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters that they stand for; a renderer that
@@ -39,7 +41,7 @@ pub(super) struct Lamps<'a> {
     table: Table,
     /// Density over area with which points of each emitter are chosen.
     densities: Vec<f64>,
-    points: Vec<(Vec3, Vec3)>,
+    points: Vec<(DVec3, DVec3)>,
 }
 
 impl<'a> Lamps<'a> {
@@ -58,7 +60,7 @@ impl<'a> Lamps<'a> {
     fn new(scene: &'a Scene, rounding: f64, emitters: Vec<u32>) -> Self {
         let area = |id: u32| {
             let [a, b, c] = scene.mesh().corners(id).unwrap_or([[0.0; 3]; 3]).map(wide);
-            length(cross(sub(b, a), sub(c, a))) / 2.0
+            (b - a).cross(c - a).length() / 2.0
         };
         let areas: Vec<f64> = emitters.iter().map(|&id| area(id)).collect();
         let power = |(&id, area): (&u32, &f64)| area * mean(wide(scene.material(id).emission));
@@ -79,22 +81,22 @@ impl<'a> Lamps<'a> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
             let ray = Ray::new(place.lifted(towards, 0.0), narrow(towards)).ok()?;
-            return Some(Leaving { ray, power: scale(radiance, PI / density) });
+            return Some(Leaving { ray, power: PI / density * radiance });
         }
         let table = Table::new(self.points.iter().map(|point| mean(point.1)));
         let (light, chance) = table.draw(number(0))?;
         let (position, intensity) = self.points[light];
         let ray = Ray::new(narrow(position), narrow(sphere([number(3), number(4)]))).ok()?;
-        Some(Leaving { ray, power: scale(intensity, 4.0 * PI / chance) })
+        Some(Leaving { ray, power: 4.0 * PI / chance * intensity })
     }
 
     /// Radiance that a surfel sends towards the viewer: its material's, from front faces alone.
-    pub(super) fn seen(surfel: &Surfel<'_>) -> Vec3 {
-        if surfel.front { wide(surfel.material.emission) } else { [0.0; 3] }
+    pub(super) fn seen(surfel: &Surfel<'_>) -> DVec3 {
+        if surfel.front { wide(surfel.material.emission) } else { DVec3::ZERO }
     }
 
     /// A place on an emitter, by three numbers in [0, 1): where, its radiance, and the density over area.
-    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(Place, Vec3, f64)> {
+    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(Place, DVec3, f64)> {
         let (entry, _) = self.table.draw(which)?;
         let id = self.emitters[entry];
         let place = Place::new(self.scene, id, triangle(u), self.rounding)?;
@@ -105,36 +107,36 @@ impl<'a> Lamps<'a> {
     /// A place of an emitter that may light a surfel. `None` where the place shows its back or cannot be reached.
     pub(super) fn area(&self, surfel: &Surfel<'_>, dice: Dice, depth: u32) -> Option<Arriving> {
         let (place, radiance, density) = self.place(dice.at(depth, 0), dice.pair(depth, 1))?;
-        let way = sub(place.at, surfel.place.at);
-        let square = dot(way, way);
-        let towards = scale(way, 1.0 / square.sqrt());
-        let cosine = -dot(towards, place.normal);
+        let way = place.at - surfel.place.at;
+        let square = way.dot(way);
+        let towards = 1.0 / square.sqrt() * way;
+        let cosine = -towards.dot(place.normal);
         if cosine <= 0.0 || !cosine.is_finite() {
             return None;
         }
         let density = density * square / cosine;
         let ray = surfel.ray_to(&place)?;
-        Some(Arriving { ray, towards, light: scale(radiance, 1.0 / density), density })
+        Some(Arriving { ray, towards, light: 1.0 / density * radiance, density })
     }
 
     /// The density over solid angle with which [`Lamps::area`] would have chosen the place of an emitter that a ray found.
-    pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: Vec3) -> f64 {
+    pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
-        let way = sub(found.place.at, from);
-        let cosine = dot(found.view, found.place.normal);
-        if cosine > 0.0 { self.densities[entry] * dot(way, way) / cosine } else { 0.0 }
+        let way = found.place.at - from;
+        let cosine = found.view.dot(found.place.normal);
+        if cosine > 0.0 { self.densities[entry] * way.dot(way) / cosine } else { 0.0 }
     }
 
     /// A point light as it shines on a surfel.
     pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<Arriving> {
         let (position, intensity) = self.points[light];
-        let way = sub(position, surfel.place.at);
-        let square = dot(way, way);
-        let towards = scale(way, 1.0 / square.sqrt());
-        if !towards[0].is_finite() || dot(towards, surfel.normal) <= 0.0 {
+        let way = position - surfel.place.at;
+        let square = way.dot(way);
+        let towards = 1.0 / square.sqrt() * way;
+        if !towards[0].is_finite() || towards.dot(surfel.normal) <= 0.0 {
             return None;
         }
         let ray = surfel.ray_to_point(position)?;
-        Some(Arriving { ray, towards, light: scale(intensity, 1.0 / square), density: f64::INFINITY })
+        Some(Arriving { ray, towards, light: 1.0 / square * intensity, density: f64::INFINITY })
     }
 }

@@ -6,24 +6,26 @@ use super::fresnel::{reflectance, reflected, refracted};
 use super::sampling::{cosine, lobe, power};
 use super::surfel::Surfel;
 use super::tracer::Kind;
-use super::vector::{Vec3, add, dot, mean, scale, splat, wide};
+use super::vector::mean;
+use crate::geom::vector::wide;
 use crate::scene::Surface;
+use glam::DVec3;
 
 /// A diffuse part and Phong's lobe about the mirror direction, normalised after Lafortune and Willems (1994):
 /// `f = albedo / pi + specular (n + 2) / (2 pi) cos^n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lobes {
-    pub(super) albedo: Vec3,
-    pub(super) specular: Vec3,
+    pub(super) albedo: DVec3,
+    pub(super) specular: DVec3,
     pub(super) exponent: f64,
 }
 
 /// A direction that a surface chose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chosen {
-    pub(super) towards: Vec3,
+    pub(super) towards: DVec3,
     /// `f cos / density`.
-    pub(super) weight: Vec3,
+    pub(super) weight: DVec3,
     /// Over solid angle, of both lobes together.
     pub(super) density: f64,
 }
@@ -32,7 +34,7 @@ impl Lobes {
     /// The lobes of a surface; `None` of mirrors and glass, which send light one way only.
     pub(super) fn of(surface: &Surface) -> Option<Self> {
         match *surface {
-            Surface::Diffuse { albedo } => Some(Self { albedo: wide(albedo), specular: [0.0; 3], exponent: 1.0 }),
+            Surface::Diffuse { albedo } => Some(Self { albedo: wide(albedo), specular: DVec3::ZERO, exponent: 1.0 }),
             Surface::Glossy { albedo, specular, exponent } => {
                 let exponent = f64::from(exponent).max(f64::MIN_POSITIVE);
                 Some(Self { albedo: wide(albedo), specular: wide(specular), exponent })
@@ -43,7 +45,7 @@ impl Lobes {
 
     /// The diffuse part alone.
     pub(super) fn diffuse(self) -> Self {
-        Self { specular: [0.0; 3], ..self }
+        Self { specular: DVec3::ZERO, ..self }
     }
 
     /// The chance of the glossy lobe when a direction is chosen.
@@ -54,19 +56,19 @@ impl Lobes {
 
     /// `f cos`, and the density with which [`Lobes::choose`] takes the direction. Both are zero where the direction leaves by the other side of
     /// the triangle, or is below the shading normal's horizon.
-    pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: Vec3) -> (Vec3, f64) {
-        let cos = dot(towards, surfel.shading);
-        if cos <= 0.0 || dot(towards, surfel.normal) <= 0.0 {
-            return ([0.0; 3], 0.0);
+    pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: DVec3) -> (DVec3, f64) {
+        let cos = towards.dot(surfel.shading);
+        if cos <= 0.0 || towards.dot(surfel.normal) <= 0.0 {
+            return (DVec3::ZERO, 0.0);
         }
-        let mut value = scale(self.albedo, cos / PI);
+        let mut value = cos / PI * self.albedo;
         let gloss = self.chance_of_gloss();
         let mut density = (1.0 - gloss) * cos / PI;
         if gloss > 0.0 {
-            let from_axis = dot(reflected(surfel.view, surfel.shading), towards);
+            let from_axis = reflected(surfel.view, surfel.shading).dot(towards);
             if from_axis > 0.0 {
                 let shape = power(from_axis, self.exponent) / (2.0 * PI);
-                value = add(value, scale(self.specular, (self.exponent + 2.0) * shape * cos));
+                value += (self.exponent + 2.0) * shape * cos * self.specular;
                 density += gloss * (self.exponent + 1.0) * shape;
             }
         }
@@ -81,15 +83,15 @@ impl Lobes {
             cosine(surfel.shading, u)
         };
         let (value, density) = self.evaluate(surfel, towards);
-        (density > 0.0).then(|| Chosen { towards, weight: scale(value, 1.0 / density), density })
+        (density > 0.0).then(|| Chosen { towards, weight: 1.0 / density * value, density })
     }
 }
 
 /// A way on from a mirror or glass, with the share of the light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
-    pub(super) towards: Vec3,
-    pub(super) weight: Vec3,
+    pub(super) towards: DVec3,
+    pub(super) weight: DVec3,
     pub(super) kind: Kind,
     /// The chance with which it is taken where one of several is.
     pub(super) chance: f64,
@@ -116,12 +118,12 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
         Surface::Glass { index, transmittance } => {
             let index = f64::from(index);
             let ratio = if surfel.front { 1.0 / index } else { index };
-            let share = reflectance(dot(surfel.view, surfel.shading), ratio);
-            let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(splat(1.0), 1.0)), None] };
-            let weight = scale(wide(transmittance), 1.0 - share);
+            let share = reflectance(surfel.view.dot(surfel.shading), ratio);
+            let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(DVec3::ONE, 1.0)), None] };
+            let weight = (1.0 - share) * wide(transmittance);
             let chance = 1.0 - share;
             let refracted = Way { towards, weight, kind: Kind::Refraction, chance, squeeze: ratio * ratio };
-            let reflected = (share > 0.0).then(|| mirrored(splat(share), share));
+            let reflected = (share > 0.0).then(|| mirrored(DVec3::splat(share), share));
             [Some(refracted), reflected]
         }
     }
@@ -135,16 +137,16 @@ pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<Way> {
         Some(second) if u >= first.chance => second,
         _ => first,
     };
-    Some(Way { weight: scale(way.weight, 1.0 / way.chance), ..way })
+    Some(Way { weight: 1.0 / way.chance * way.weight, ..way })
 }
 
 /// By the shading normal, unless that leads through the triangle.
-fn mirror_direction(surfel: &Surfel<'_>) -> Vec3 {
+fn mirror_direction(surfel: &Surfel<'_>) -> DVec3 {
     let smooth = reflected(surfel.view, surfel.shading);
-    if dot(smooth, surfel.normal) > 0.0 { smooth } else { reflected(surfel.view, surfel.normal) }
+    if smooth.dot(surfel.normal) > 0.0 { smooth } else { reflected(surfel.view, surfel.normal) }
 }
 
-fn through(surfel: &Surfel<'_>, ratio: f64) -> Option<Vec3> {
+fn through(surfel: &Surfel<'_>, ratio: f64) -> Option<DVec3> {
     let smooth = refracted(surfel.view, surfel.shading, ratio)?;
-    if dot(smooth, surfel.normal) < 0.0 { Some(smooth) } else { refracted(surfel.view, surfel.normal, ratio) }
+    if smooth.dot(surfel.normal) < 0.0 { Some(smooth) } else { refracted(surfel.view, surfel.normal, ratio) }
 }

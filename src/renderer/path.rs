@@ -5,11 +5,12 @@ use super::lamps::{Arriving, Lamps};
 use super::lobes::{Lobes, one_way};
 use super::surfel::Surfel;
 use super::tracer::{Kind, Tracer, Watch};
-use super::vector::{Vec3, largest, mul, scale, wide};
 use super::wave::{Flight, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::vector::wide;
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use glam::DVec3;
 
 /// Hits before Russian roulette begins.
 const SAFE: u32 = 3;
@@ -60,10 +61,10 @@ impl Shade for Paths<'_> {
             .and_then(|hit| Some((Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)?, hit.triangle)));
         let Some((surfel, triangle)) = found else {
             // Only rays find the background, so it needs no weighing.
-            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+            return Scatter::of(flight.weight * wide(self.settings.background));
         };
         let share = self.share_of_walk(flight, &surfel, triangle);
-        let mut scatter = Scatter::of(scale(mul(flight.weight, Lamps::seen(&surfel)), share));
+        let mut scatter = Scatter::of(share * (flight.weight * Lamps::seen(&surfel)));
         if flight.depth < self.settings.depth {
             match Lobes::of(&surfel.material.surface) {
                 Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),
@@ -105,7 +106,7 @@ impl Paths<'_> {
         if flight.depth + 1 == self.settings.depth && self.direct == Direct::Emitters && !self.sees_background() {
             return;
         }
-        let weight = mul(flight.weight, chosen.weight);
+        let weight = flight.weight * chosen.weight;
         if let Some(mut next) = self.go_on(flight, surfel, chosen.towards, Kind::Gather, weight) {
             next.density = Some(chosen.density);
             scatter.next.push(next);
@@ -123,24 +124,24 @@ impl Paths<'_> {
             Direct::Both if arriving.density.is_finite() => arriving.density / (arriving.density + walk),
             _ => 1.0,
         };
-        let light = scale(mul(flight.weight, mul(value, arriving.light)), share);
-        if largest(light) > 0.0 {
+        let light = share * (flight.weight * (value * arriving.light));
+        if light.max_element() > 0.0 {
             scatter.shadows.push((arriving.ray, light));
         }
     }
 
     fn pass(&self, flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
         let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
-        let weight = mul(flight.weight, way.weight);
+        let weight = flight.weight * way.weight;
         scatter.next.extend(self.go_on(flight, surfel, way.towards, way.kind, weight));
     }
 
     /// The ray on, if roulette lets it live.
-    fn go_on(&self, flight: &Flight, surfel: &Surfel<'_>, towards: Vec3, kind: Kind, weight: Vec3) -> Option<Flight> {
-        let chance = if flight.depth < SAFE { 1.0 } else { largest(weight).clamp(LEAST_CHANCE, 1.0) };
-        if largest(weight) <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
+    fn go_on(&self, flight: &Flight, surfel: &Surfel<'_>, towards: DVec3, kind: Kind, weight: DVec3) -> Option<Flight> {
+        let chance = if flight.depth < SAFE { 1.0 } else { weight.max_element().clamp(LEAST_CHANCE, 1.0) };
+        if weight.max_element() <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
             return None;
         }
-        Some(flight.on(surfel.ray(towards)?, kind, scale(weight, 1.0 / chance)))
+        Some(flight.on(surfel.ray(towards)?, kind, 1.0 / chance * weight))
     }
 }

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::PI;
 
-use super::vector::{Vec3, dot, sub};
+use glam::DVec3;
 
 /// Photons count for a surface only if they landed on one that looks about the same way: within 45 degrees.
 const SAME_WAY: f64 = 0.707;
@@ -13,13 +13,13 @@ const SAME_WAY: f64 = 0.707;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Photon {
     /// Where.
-    pub(super) at: Vec3,
+    pub(super) at: DVec3,
     /// The normal of the triangle there, on the side that was hit.
-    pub(super) normal: Vec3,
+    pub(super) normal: DVec3,
     /// Back to where it came from, length 1.
-    pub(super) from: Vec3,
+    pub(super) from: DVec3,
     /// Flux.
-    pub(super) power: Vec3,
+    pub(super) power: DVec3,
 }
 
 /// A photon and the square of its distance; ordered by distance, then by place in the map, so that sums have one order.
@@ -63,12 +63,12 @@ impl PhotonMap {
     /// the right mean. Where fewer than `nearest` lie within the radius, all of them count and its own area does.
     pub(super) fn density(
         &self,
-        at: Vec3,
-        normal: Vec3,
+        at: DVec3,
+        normal: DVec3,
         nearest: usize,
         radius: f64,
-        value: impl Fn(&Photon) -> Vec3,
-    ) -> Vec3 {
+        value: impl Fn(&Photon) -> DVec3,
+    ) -> DVec3 {
         let mut search = Search {
             map: self,
             at,
@@ -82,13 +82,10 @@ impl PhotonMap {
         let mut found = search.found.into_sorted_vec();
         let square = if full { found.pop().map_or(0.0, |last| last.square) } else { radius * radius };
         if square <= 0.0 {
-            return [0.0; 3];
+            return DVec3::ZERO;
         }
-        let mut sum = [0.0; 3];
-        for near in found {
-            sum = super::vector::add(sum, value(&self.photons[near.photon as usize]));
-        }
-        super::vector::scale(sum, 1.0 / (PI * square))
+        let sum: DVec3 = found.iter().map(|near| value(&self.photons[near.photon as usize])).sum();
+        1.0 / (PI * square) * sum
     }
 }
 
@@ -121,8 +118,8 @@ fn widest(photons: &[Photon]) -> usize {
 
 struct Search<'a> {
     map: &'a PhotonMap,
-    at: Vec3,
-    normal: Vec3,
+    at: DVec3,
+    normal: DVec3,
     nearest: usize,
     /// Square of the distance within which photons are looked for; shrinks once enough are found.
     square: f64,
@@ -149,9 +146,9 @@ impl Search<'_> {
 
     fn offer(&mut self, index: usize) {
         let photon = &self.map.photons[index];
-        let way = sub(photon.at, self.at);
-        let near = Near { square: dot(way, way), photon: index as u32 };
-        if near.square > self.square || dot(photon.normal, self.normal) < SAME_WAY {
+        let way = photon.at - self.at;
+        let near = Near { square: way.dot(way), photon: index as u32 };
+        if near.square > self.square || photon.normal.dot(self.normal) < SAME_WAY {
             return;
         }
         self.found.push(near);
@@ -174,18 +171,18 @@ mod tests {
     fn scattered(count: u64) -> Vec<Photon> {
         let random = Keyed::new(3);
         let photon = |i| Photon {
-            at: [random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }],
-            normal: [0.0, 0.0, if i % 7 == 0 { -1.0 } else { 1.0 }],
-            from: [0.0, 0.0, 1.0],
-            power: [1.0; 3],
+            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }),
+            normal: if i % 7 == 0 { DVec3::NEG_Z } else { DVec3::Z },
+            from: DVec3::Z,
+            power: DVec3::ONE,
         };
         (0..count).map(photon).collect()
     }
 
     /// The same by looking at all photons.
-    fn slowly(photons: &[Photon], at: Vec3, nearest: usize, radius: f64) -> f64 {
-        let up = photons.iter().filter(|photon| photon.normal[2] > 0.0);
-        let mut squares: Vec<f64> = up.map(|photon| dot(sub(photon.at, at), sub(photon.at, at))).collect();
+    fn slowly(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
+        let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
+        let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();
         squares.sort_by(f64::total_cmp);
         squares.retain(|&square| square <= radius * radius);
         squares.truncate(nearest);
@@ -201,9 +198,9 @@ mod tests {
         let map = PhotonMap::new(photons.clone());
         let random = Keyed::new(4);
         for i in 0..100 {
-            let at = [0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1);
+            let at = DVec3::from([0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1));
             for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
-                let found = map.density(at, [0.0, 0.0, 1.0], nearest, radius, |photon| photon.power)[0];
+                let found = map.density(at, DVec3::Z, nearest, radius, |photon| photon.power)[0];
                 let expected = slowly(&photons, at, nearest, radius);
                 assert!((found - expected).abs() <= 1e-9 * expected, "{found} {expected}");
             }
@@ -215,15 +212,15 @@ mod tests {
         // 4000 photons on a square of side 1, seen from its middle.
         let random = Keyed::new(9);
         let photon = |i| Photon {
-            at: [random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0],
-            normal: [0.0, 0.0, 1.0],
-            from: [0.0, 0.0, 1.0],
-            power: [1.0 / 4000.0; 3],
+            at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0),
+            normal: DVec3::Z,
+            from: DVec3::Z,
+            power: DVec3::splat(1.0 / 4000.0),
         };
         let map = PhotonMap::new((0..4000).map(photon).collect());
-        let mean = (0..25).map(|i| [0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0]);
-        let mean = mean.map(|at| map.density(at, [0.0, 0.0, 1.0], 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
+        let mean = (0..25).map(|i| DVec3::new(0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0));
+        let mean = mean.map(|at| map.density(at, DVec3::Z, 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
         assert!((mean - 1.0).abs() < 0.05, "{mean}");
-        assert_eq!(PhotonMap::default().density([0.0; 3], [0.0, 0.0, 1.0], 10, 1.0, |p| p.power), [0.0; 3]);
+        assert_eq!(PhotonMap::default().density(DVec3::ZERO, DVec3::Z, 10, 1.0, |p| p.power), DVec3::ZERO);
     }
 }

@@ -2,8 +2,9 @@
 //!
 //! Powers come from `libm`, which is the same everywhere; std's are the platform's.
 
-use super::vector::{Vec3, turned};
+use super::vector::turned;
 use crate::geom::angle::on_circle;
+use glam::DVec3;
 
 /// x to the power y, for x >= 0.
 pub(super) fn power(x: f64, y: f64) -> f64 {
@@ -17,32 +18,32 @@ pub fn disk(u: [f64; 2]) -> [f64; 2] {
 }
 
 /// A direction about a unit normal with density cos / pi (Malley's method).
-pub fn cosine(normal: Vec3, u: [f64; 2]) -> Vec3 {
+pub fn cosine(normal: DVec3, u: [f64; 2]) -> DVec3 {
     let [x, y] = disk(u);
-    turned([x, y, (1.0 - x * x - y * y).max(0.0).sqrt()], normal)
+    turned(DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt()), normal)
 }
 
 /// A direction, uniform over the sphere.
-pub fn sphere(u: [f64; 2]) -> Vec3 {
+pub fn sphere(u: [f64; 2]) -> DVec3 {
     let z = 1.0 - 2.0 * u[0];
     let across = (1.0 - z * z).max(0.0).sqrt();
     let [x, y] = on_circle(u[1]);
-    [across * x, across * y, z]
+    DVec3::new(across * x, across * y, z)
 }
 
 /// A direction about a unit axis with density `(n + 1) / (2 pi) * cos^n`, for Phong's lobe of exponent n.
-pub fn lobe(axis: Vec3, exponent: f64, u: [f64; 2]) -> Vec3 {
+pub fn lobe(axis: DVec3, exponent: f64, u: [f64; 2]) -> DVec3 {
     // 1 - u is never 0.
     let cosine = power(1.0 - u[0], 1.0 / (exponent + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     let [x, y] = on_circle(u[1]);
-    turned([sine * x, sine * y, cosine], axis)
+    turned(DVec3::new(sine * x, sine * y, cosine), axis)
 }
 
 /// Barycentric coordinates of a point of a triangle, uniform in area.
-pub fn triangle(u: [f64; 2]) -> Vec3 {
+pub fn triangle(u: [f64; 2]) -> DVec3 {
     let root = u[0].sqrt();
-    [1.0 - root, root * (1.0 - u[1]), root * u[1]]
+    DVec3::new(1.0 - root, root * (1.0 - u[1]), root * u[1])
 }
 
 /// A table from which entries are drawn with chances in proportion to weights.
@@ -89,7 +90,6 @@ impl Table {
 mod tests {
     use super::*;
     use crate::geom::random::Keyed;
-    use crate::renderer::vector::dot;
 
     const COUNT: u64 = 20_000;
 
@@ -100,10 +100,10 @@ mod tests {
 
     #[test]
     fn densities_are_those_stated() {
-        let normal = [0.0, 0.6, 0.8];
+        let normal = DVec3::new(0.0, 0.6, 0.8);
         // Under cos / pi the mean cosine is 2/3; under the lobe's density it is (n + 1) / (n + 2).
-        assert!((mean(|u| dot(cosine(normal, u), normal)) - 2.0 / 3.0).abs() < 0.01);
-        assert!((mean(|u| dot(lobe(normal, 8.0, u), normal)) - 0.9).abs() < 0.005);
+        assert!((mean(|u| cosine(normal, u).dot(normal)) - 2.0 / 3.0).abs() < 0.01);
+        assert!((mean(|u| lobe(normal, 8.0, u).dot(normal)) - 0.9).abs() < 0.005);
         // The centroid of a triangle is the mean of its corners; half of a disk's area lies within 1 / sqrt 2.
         assert!((mean(|u| triangle(u)[1]) - 1.0 / 3.0).abs() < 0.01);
         assert!((mean(|u| disk(u).map(|x| x * x).iter().sum::<f64>()) - 0.5).abs() < 0.01);

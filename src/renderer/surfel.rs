@@ -3,9 +3,10 @@
 //! The place is found anew in f64, on the triangle itself: t in f32 says only which triangle. So what a caster's arithmetic did to t is not
 //! seen in the picture, only what it did to the choice of triangle.
 
-use super::vector::{Vec3, add, along, cross, dot, length, narrow, neg, scale, sub, unit, wide};
+use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::scene::{Material, Scene};
+use glam::DVec3;
 
 /// A triangle thinner than this counts as so thin: then the bound on the plane test stops growing.
 const THINNEST: f64 = 1.0 / 256.0;
@@ -16,9 +17,9 @@ const LEAST_COSINE: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     /// The point.
-    pub(super) at: Vec3,
+    pub(super) at: DVec3,
     /// The triangle's unit normal, on the side from which the corners run counter-clockwise.
-    pub(super) normal: Vec3,
+    pub(super) normal: DVec3,
     /// Longest of the sides ab and ac.
     size: f64,
     /// `|ab| |ac| / |ab x ac|`: 1 over the sine of the angle at a.
@@ -30,18 +31,18 @@ pub(super) struct Place {
 impl Place {
     /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not exist.
     /// `rounding` is the unit roundoff of whoever tests rays.
-    pub(super) fn new(scene: &Scene, triangle: u32, weights: Vec3, rounding: f64) -> Option<Self> {
+    pub(super) fn new(scene: &Scene, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
         let corners = scene.mesh().corners(triangle)?.map(wide);
         Self::of(corners, weights, rounding)
     }
 
-    fn of([a, b, c]: [Vec3; 3], weights: Vec3, rounding: f64) -> Option<Self> {
-        let (ab, ac) = (sub(b, a), sub(c, a));
-        let across = cross(ab, ac);
+    fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
+        let (ab, ac) = (b - a, c - a);
+        let across = ab.cross(ac);
         let normal = unit(across)?;
-        let (ab, ac) = (length(ab), length(ac));
-        let at = add(add(scale(a, weights[0]), scale(b, weights[1])), scale(c, weights[2]));
-        let sine = (length(across) / (ab * ac)).max(THINNEST);
+        let (ab, ac) = (ab.length(), ac.length());
+        let at = weights[0] * a + weights[1] * b + weights[2] * c;
+        let sine = (across.length() / (ab * ac)).max(THINNEST);
         Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })
     }
 
@@ -52,15 +53,14 @@ impl Place {
     /// at most (1 + 2 + 2 + 4) u of the sum of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|.
     /// Here |ao| is at most the triangle's size plus `reach`.
     pub(super) fn clearance(&self, reach: f64) -> f64 {
-        let [x, y, z] = self.at.map(f64::abs);
-        self.rounding * (2.0 * (x + y + z) + 16.0 * self.thinness * (self.size + reach))
+        self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
     }
 
     /// The point lifted off the triangle, to the side of `towards`, clear of the test of rays that start there (or, with a
     /// `reach`, that end there).
-    pub(super) fn lifted(&self, towards: Vec3, reach: f64) -> [f32; 3] {
-        let side = if dot(self.normal, towards) < 0.0 { -1.0 } else { 1.0 };
-        narrow(along(self.at, self.normal, side * self.clearance(reach)))
+    pub(super) fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
+        let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };
+        narrow(self.at + side * self.clearance(reach) * self.normal)
     }
 }
 
@@ -70,11 +70,11 @@ pub(super) struct Surfel<'a> {
     /// The point, and its triangle's front.
     pub(super) place: Place,
     /// The triangle's normal on the side that was hit.
-    pub(super) normal: Vec3,
+    pub(super) normal: DVec3,
     /// The normal to shade with: interpolated, on the side that was hit, and turned no further from the viewer than that it is seen.
-    pub(super) shading: Vec3,
+    pub(super) shading: DVec3,
     /// Back along the ray, length 1.
-    pub(super) view: Vec3,
+    pub(super) view: DVec3,
     /// Whether the front face was hit.
     pub(super) front: bool,
     /// What the surface does with light.
@@ -86,26 +86,26 @@ impl<'a> Surfel<'a> {
     pub(super) fn new(scene: &'a Scene, rounding: f64, ray: &Ray, hit: Hit) -> Option<Self> {
         let corners = scene.mesh().corners(hit.triangle)?.map(wide);
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
-        let view = neg(unit(direction)?);
+        let view = -unit(direction)?;
         let weights = barycentric(corners, origin, direction, f64::from(hit.t));
         let place = Place::of(corners, weights, rounding)?;
-        let front = dot(place.normal, view) >= 0.0;
-        let normal = if front { place.normal } else { neg(place.normal) };
+        let front = place.normal.dot(view) >= 0.0;
+        let normal = if front { place.normal } else { -place.normal };
         let smooth = scene.corner_normals(hit.triangle).and_then(|corners| interpolated(corners, weights));
         let shading = smooth.map_or(normal, |smooth| {
-            let smooth = if front { smooth } else { neg(smooth) };
+            let smooth = if front { smooth } else { -smooth };
             seen(smooth, normal, view)
         });
         Some(Self { place, normal, shading, view, front, material: scene.material(hit.triangle) })
     }
 
     /// Where a ray into `towards` starts.
-    pub(super) fn start(&self, towards: Vec3) -> [f32; 3] {
+    pub(super) fn start(&self, towards: DVec3) -> [f32; 3] {
         self.place.lifted(towards, 0.0)
     }
 
     /// The ray on from here, if it has a direction.
-    pub(super) fn ray(&self, towards: Vec3) -> Option<Ray> {
+    pub(super) fn ray(&self, towards: DVec3) -> Option<Ray> {
         Ray::new(self.start(towards), narrow(towards)).ok()
     }
 
@@ -115,18 +115,18 @@ impl<'a> Surfel<'a> {
     }
 
     /// A ray to a point in space, that is reached at t = 1.
-    pub(super) fn ray_to_point(&self, point: Vec3) -> Option<Ray> {
-        let start = self.start(sub(point, self.place.at));
-        Ray::new(start, narrow(sub(point, wide(start)))).ok()
+    pub(super) fn ray_to_point(&self, point: DVec3) -> Option<Ray> {
+        let start = self.start(point - self.place.at);
+        Ray::new(start, narrow(point - wide(start))).ok()
     }
 }
 
 /// A ray from one triangle to another, clear of both.
 pub(super) fn between(from: &Place, to: &Place) -> Option<Ray> {
-    let way = sub(to.at, from.at);
+    let way = to.at - from.at;
     let start = from.lifted(way, 0.0);
-    let end = to.lifted(neg(way), length(way));
-    Ray::new(start, narrow(sub(wide(end), wide(start)))).ok()
+    let end = to.lifted(-way, way.length());
+    Ray::new(start, narrow(wide(end) - wide(start))).ok()
 }
 
 /// Whether such a ray is stopped before its end.
@@ -135,37 +135,37 @@ pub(super) fn blocked(hit: Option<Hit>) -> bool {
 }
 
 /// Where the ray passes the triangle's plane, pulled onto the triangle; at `t` where the plane is seen edge on.
-fn barycentric([a, b, c]: [Vec3; 3], origin: Vec3, direction: Vec3, t: f64) -> Vec3 {
-    let (ab, ac) = (sub(b, a), sub(c, a));
-    let normal = cross(ab, ac);
-    let (ao, n_dot_d) = (sub(origin, a), dot(normal, direction));
-    let crossing = -dot(normal, ao) / n_dot_d;
+fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3, t: f64) -> DVec3 {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac);
+    let (ao, n_dot_d) = (origin - a, normal.dot(direction));
+    let crossing = -normal.dot(ao) / n_dot_d;
     let t = if crossing.is_finite() { crossing } else { t };
-    let p = along(ao, direction, t);
-    let square = dot(normal, normal);
-    let v = dot(cross(p, ac), normal) / square;
-    let w = dot(cross(ab, p), normal) / square;
-    let weights = [1.0 - v - w, v, w].map(|x| if x > 0.0 { x } else { 0.0 });
-    let sum = weights[0] + weights[1] + weights[2];
-    if sum > 0.0 && sum.is_finite() { weights.map(|x| x / sum) } else { [1.0 / 3.0; 3] }
+    let p = ao + t * direction;
+    let square = normal.dot(normal);
+    let v = p.cross(ac).dot(normal) / square;
+    let w = ab.cross(p).dot(normal) / square;
+    let weights = DVec3::new(1.0 - v - w, v, w).map(|x| if x > 0.0 { x } else { 0.0 });
+    let sum = weights.element_sum();
+    if sum > 0.0 && sum.is_finite() { weights / sum } else { DVec3::splat(1.0 / 3.0) }
 }
 
-fn interpolated(corners: [[f32; 3]; 3], weights: Vec3) -> Option<Vec3> {
+fn interpolated(corners: [[f32; 3]; 3], weights: DVec3) -> Option<DVec3> {
     let [a, b, c] = corners.map(wide);
-    unit(add(add(scale(a, weights[0]), scale(b, weights[1])), scale(c, weights[2])))
+    unit(weights[0] * a + weights[1] * b + weights[2] * c)
 }
 
 /// A shading normal that faces the viewer: one that does not is bent towards him until it just does. One that faces away from
 /// the triangle's own altogether is not believed.
-fn seen(smooth: Vec3, normal: Vec3, view: Vec3) -> Vec3 {
-    if dot(smooth, normal) <= 0.0 {
+fn seen(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
+    if smooth.dot(normal) <= 0.0 {
         return normal;
     }
-    let cosine = dot(smooth, view);
+    let cosine = smooth.dot(view);
     if cosine >= LEAST_COSINE {
         return smooth;
     }
-    unit(along(smooth, view, LEAST_COSINE - cosine)).filter(|bent| dot(*bent, normal) > 0.0).unwrap_or(normal)
+    unit(smooth + (LEAST_COSINE - cosine) * view).filter(|bent| bent.dot(normal) > 0.0).unwrap_or(normal)
 }
 
 #[cfg(test)]
@@ -194,29 +194,29 @@ mod tests {
                 SINGLE,
             );
             let inside = inside.expect("a place");
-            let ray = Ray::new(eye, narrow(sub(inside.at, wide(eye)))).expect("a ray");
+            let ray = Ray::new(eye, narrow(inside.at - wide(eye))).expect("a ray");
             let surfel = Surfel::new(&scene, SINGLE, &ray, Hit { triangle: 0, t: 77.0 }).expect("a surfel");
-            let wrong = length(sub(surfel.place.at, inside.at));
+            let wrong = (surfel.place.at - inside.at).length();
             assert!(wrong < 1e-4, "{wrong}");
-            assert!(dot(surfel.normal, surfel.view) >= 0.0);
-            assert_eq!(surfel.front, dot(surfel.place.normal, surfel.view) >= 0.0);
+            assert!(surfel.normal.dot(surfel.view) >= 0.0);
+            assert_eq!(surfel.front, surfel.place.normal.dot(surfel.view) >= 0.0);
         }
     }
 
     #[test]
     fn the_clearance_is_a_few_units_in_the_last_place() {
-        let place = Place::new(&triangle(), 0, [1.0 / 3.0; 3], SINGLE).expect("a place");
+        let place = Place::new(&triangle(), 0, DVec3::splat(1.0 / 3.0), SINGLE).expect("a place");
         let clearance = place.clearance(0.0);
         assert!(clearance > 0.0 && clearance < 1e-5, "{clearance}");
         let lifted = wide(place.lifted(place.normal, 0.0));
-        assert!(dot(sub(lifted, place.at), place.normal) > clearance / 2.0, "rounding does not eat it up");
+        assert!((lifted - place.at).dot(place.normal) > clearance / 2.0, "rounding does not eat it up");
     }
 
     #[test]
     fn normals_that_look_away_are_bent() {
-        let (normal, view) = ([0.0, 0.0, 1.0], unit([1.0, 0.0, 0.1]).expect("a view"));
-        let bent = seen(unit([-0.9, 0.0, 0.2]).expect("a normal"), normal, view);
-        assert!(dot(bent, view) > 0.0 && dot(bent, normal) > 0.0, "{bent:?}");
-        assert_eq!(seen([0.0, 0.0, -1.0], normal, view), normal);
+        let (normal, view) = (DVec3::Z, unit(DVec3::new(1.0, 0.0, 0.1)).expect("a view"));
+        let bent = seen(unit(DVec3::new(-0.9, 0.0, 0.2)).expect("a normal"), normal, view);
+        assert!(bent.dot(view) > 0.0 && bent.dot(normal) > 0.0, "{bent:?}");
+        assert_eq!(seen(DVec3::NEG_Z, normal, view), normal);
     }
 }

@@ -1,7 +1,6 @@
 //! From linear light to the bytes of a display.
 
 use super::sampling::power;
-use super::vector::Vec3;
 
 /// The byte of a linear value: the sRGB curve (IEC 61966-2-1), clipped to [0, 1].
 pub fn srgb(value: f64) -> u8 {
@@ -12,7 +11,7 @@ pub fn srgb(value: f64) -> u8 {
 }
 
 /// Red, green, blue bytes of a picture: each radiance times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
-pub fn bytes(color: &[Vec3], exposure: f64) -> Vec<u8> {
+pub fn bytes(color: &[[f64; 3]], exposure: f64) -> Vec<u8> {
     color.iter().flat_map(|pixel| pixel.map(|channel| srgb(channel * exposure))).collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::surfel::blocked;
 use super::tracer::{Kind, RayCounts, Tracer};
-use super::vector::{sub, wide};
+use crate::geom::vector::{narrow, wide};
 use crate::geom::{CastError, Caster, Ray};
 
 /// For each pair of points: whether the open segment between them meets no triangle. Points on surfaces must be lifted off them by the
@@ -26,6 +26,5 @@ pub(super) fn visible(rays: &[Option<Ray>], tracer: &mut Tracer<'_>) -> Result<(
 }
 
 fn segment(from: [f32; 3], to: [f32; 3]) -> Option<Ray> {
-    let way = sub(wide(to), wide(from)).map(|value| value as f32);
-    Ray::new(from, way).ok()
+    Ray::new(from, narrow(wide(to) - wide(from))).ok()
 }

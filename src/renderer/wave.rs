@@ -1,11 +1,11 @@
 //! Breadth first: all rays of a bundle, then all that they give rise to, until none is left.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::RenderError;
 use super::surfel::blocked;
 use super::tracer::{Kind, Tracer};
-use super::vector::{Vec3, add, splat};
 use crate::geom::random::Keyed;
 use crate::geom::{CastError, Hit, Ray};
 
@@ -58,7 +58,7 @@ pub(super) struct Flight {
     /// Whose radiance it adds to: the place in the chunk.
     pub(super) slot: u32,
     /// What light along it counts.
-    pub(super) weight: Vec3,
+    pub(super) weight: DVec3,
     /// Hits before this one.
     pub(super) depth: u32,
     /// Density of the choice of its direction over solid angle, if there was a choice.
@@ -70,11 +70,11 @@ pub(super) struct Flight {
 impl Flight {
     /// The ray of a sample from the eye.
     pub(super) fn eye(ray: Ray, slot: u32, dice: Dice) -> Self {
-        Self { ray, kind: Kind::Eye, slot, weight: splat(1.0), depth: 0, density: None, dice }
+        Self { ray, kind: Kind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, dice }
     }
 
     /// The ray that goes on from its hit; without choice of direction unless the caller says otherwise.
-    pub(super) fn on(&self, ray: Ray, kind: Kind, weight: Vec3) -> Self {
+    pub(super) fn on(&self, ray: Ray, kind: Kind, weight: DVec3) -> Self {
         Self { ray, kind, weight, depth: self.depth + 1, density: None, ..*self }
     }
 }
@@ -83,15 +83,15 @@ impl Flight {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scatter {
     /// Light that goes to the eye at once, weighted.
-    pub(super) light: Vec3,
+    pub(super) light: DVec3,
     /// Rays to lights, with what arrives if nothing is before t = 1.
-    pub(super) shadows: Vec<(Ray, Vec3)>,
+    pub(super) shadows: Vec<(Ray, DVec3)>,
     /// Rays that go on.
     pub(super) next: Vec<Flight>,
 }
 
 impl Scatter {
-    pub(super) fn of(light: Vec3) -> Self {
+    pub(super) fn of(light: DVec3) -> Self {
         Self { light, ..Self::default() }
     }
 }
@@ -103,7 +103,7 @@ pub(super) trait Shade: Sync {
 
 /// A chunk's light, by slot, and the hits of its first rays.
 pub(super) struct Wave {
-    pub(super) light: Vec<Vec3>,
+    pub(super) light: Vec<DVec3>,
     pub(super) first: Vec<Option<Hit>>,
 }
 
@@ -113,8 +113,8 @@ pub(super) fn follow(
     mut flights: Vec<Flight>,
     shader: &impl Shade,
 ) -> Result<Wave, RenderError> {
-    let mut wave = Wave { light: vec![[0.0; 3]; flights.len()], first: Vec::new() };
-    let mut shadows: Vec<(u32, Ray, Vec3)> = Vec::new();
+    let mut wave = Wave { light: vec![DVec3::ZERO; flights.len()], first: Vec::new() };
+    let mut shadows: Vec<(u32, Ray, DVec3)> = Vec::new();
     let mut first = true;
     while !(flights.is_empty() && shadows.is_empty()) {
         let hits = cast(tracer, &flights, &shadows)?;
@@ -141,16 +141,16 @@ pub(super) fn follow(
 }
 
 impl Wave {
-    fn add(&mut self, slot: u32, light: Vec3) {
+    fn add(&mut self, slot: u32, light: DVec3) {
         let sum = &mut self.light[slot as usize];
-        *sum = add(*sum, light);
+        *sum = *sum + light;
     }
 }
 
 fn cast(
     tracer: &mut Tracer<'_>,
     flights: &[Flight],
-    shadows: &[(u32, Ray, Vec3)],
+    shadows: &[(u32, Ray, DVec3)],
 ) -> Result<Vec<Option<Hit>>, CastError> {
     let rays: Vec<Ray> = flights.iter().map(|f| f.ray).chain(shadows.iter().map(|s| s.1)).collect();
     tracer.cast(&rays, |index| flights.get(index).map_or(Kind::Shadow, |flight| flight.kind))

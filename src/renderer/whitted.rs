@@ -5,11 +5,12 @@ use super::lamps::Lamps;
 use super::lobes::{Lobes, ways};
 use super::surfel::Surfel;
 use super::tracer::{Tracer, Watch};
-use super::vector::{Vec3, add, largest, mul, wide};
 use super::wave::{Flight, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::vector::wide;
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use glam::DVec3;
 
 /// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
@@ -42,9 +43,9 @@ struct Whitted<'a> {
 impl Shade for Whitted<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+            return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(mul(flight.weight, Lamps::seen(&surfel)));
+        let mut scatter = Scatter::of(flight.weight * Lamps::seen(&surfel));
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
             None if flight.depth < self.settings.depth => go_on(flight, &surfel, &mut scatter),
@@ -55,14 +56,14 @@ impl Shade for Whitted<'_> {
 }
 
 impl Whitted<'_> {
-    fn light(&self, weight: Vec3, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-        let ambient = mul(lobes.albedo, wide(self.settings.ambient));
-        scatter.light = add(scatter.light, mul(weight, ambient));
+    fn light(&self, weight: DVec3, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+        let ambient = lobes.albedo * wide(self.settings.ambient);
+        scatter.light += weight * ambient;
         for light in 0..self.lamps.points() {
             let Some(arriving) = self.lamps.point(surfel, light) else { continue };
             let (value, _) = lobes.evaluate(surfel, arriving.towards);
-            let light = mul(weight, mul(value, arriving.light));
-            if largest(light) > 0.0 {
+            let light = weight * (value * arriving.light);
+            if light.max_element() > 0.0 {
                 scatter.shadows.push((arriving.ray, light));
             }
         }
@@ -71,8 +72,8 @@ impl Whitted<'_> {
 
 fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     for way in ways(surfel).into_iter().flatten() {
-        let weight = mul(flight.weight, way.weight);
-        if largest(weight) < LEAST_WEIGHT {
+        let weight = flight.weight * way.weight;
+        if weight.max_element() < LEAST_WEIGHT {
             continue;
         }
         scatter.next.extend(surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight)));

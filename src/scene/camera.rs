@@ -1,14 +1,16 @@
 //! A pinhole camera.
 
+use glam::DVec3;
 use thiserror::Error;
 
 use crate::geom::Ray;
+use crate::geom::vector::{narrow, unit, wide};
 
 /// Widest field of view, as the tangent of its half.
 const MAX_TANGENT: f32 = 1e6;
 
 /// Sine of the least angle between `up` and the view.
-const LEAST_SINE: f64 = 1e-6;
+const MIN_SINE: f64 = 1e-6;
 
 /// A pinhole camera: one ray through the centre of each pixel, pixel (0, 0) at the upper left.
 ///
@@ -20,11 +22,11 @@ pub struct Camera {
     width: u32,
     height: u32,
     /// To the target, length 1.
-    forward: [f64; 3],
+    forward: DVec3,
     /// To the right edge of the picture from its centre, at distance 1.
-    right: [f64; 3],
+    right: DVec3,
     /// To the upper edge of the picture from its centre, at distance 1.
-    up: [f64; 3],
+    up: DVec3,
 }
 
 /// Why there is no such camera.
@@ -83,19 +85,17 @@ impl Camera {
         if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 30 {
             return Err(CameraError::Size { width, height });
         }
-        let [from, to, up] = [eye, target, up].map(|vector| vector.map(f64::from));
-        let forward = unit([to[0] - from[0], to[1] - from[1], to[2] - from[2]]).ok_or(CameraError::Flat)?;
-        let sideways = cross(forward, unit(up).ok_or(CameraError::Flat)?);
-        if length(sideways) < LEAST_SINE {
+        let [from, to, up] = [eye, target, up].map(wide);
+        let forward = unit(to - from).ok_or(CameraError::Flat)?;
+        let sideways = forward.cross(unit(up).ok_or(CameraError::Flat)?);
+        if sideways.length() < MIN_SINE {
             return Err(CameraError::Flat);
         }
         let right = unit(sideways).ok_or(CameraError::Flat)?;
-        let up = cross(right, forward);
+        let up = right.cross(forward);
         let half_height = f64::from(tan_half_height);
         let half_width = half_height * f64::from(width) / f64::from(height);
-        let right = right.map(|value| value * half_width);
-        let up = up.map(|value| value * half_height);
-        Ok(Self { eye, width, height, forward, right, up })
+        Ok(Self { eye, width, height, forward, right: right * half_width, up: up * half_height })
     }
 
     /// The camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout to the
@@ -127,7 +127,7 @@ impl Camera {
 
     /// The unit vector along the middle of the view, which also is the direction's component all pixels share.
     #[must_use]
-    pub fn forward(&self) -> [f64; 3] {
+    pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
@@ -135,14 +135,14 @@ impl Camera {
     /// picture continue its plane.
     #[must_use]
     pub fn direction(&self, x: u32, y: u32) -> [f32; 3] {
-        self.exact_direction(x, y).map(|value| value as f32)
+        narrow(self.exact_direction(x, y))
     }
 
     /// The same direction at length 1, within one rounding of f32 a component.
     #[must_use]
     pub fn unit_direction(&self, x: u32, y: u32) -> [f32; 3] {
         let direction = self.exact_direction(x, y);
-        unit(direction).unwrap_or(direction).map(|value| value as f32)
+        narrow(unit(direction).unwrap_or(direction))
     }
 
     /// The ray through the centre of a pixel, unnormalised.
@@ -162,43 +162,28 @@ impl Camera {
 
     /// To the right edge of the picture from its centre, at distance 1.
     #[must_use]
-    pub fn right(&self) -> [f64; 3] {
+    pub fn right(&self) -> DVec3 {
         self.right
     }
 
     /// To the upper edge of the picture from its centre, at distance 1.
     #[must_use]
-    pub fn up(&self) -> [f64; 3] {
+    pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    fn exact_direction(&self, x: u32, y: u32) -> [f64; 3] {
+    fn exact_direction(&self, x: u32, y: u32) -> DVec3 {
         self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
 
     /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32; the middle of
     /// pixel (0, 0) is at (0.5, 0.5).
     #[must_use]
-    pub fn direction_at(&self, x: f64, y: f64) -> [f64; 3] {
+    pub fn direction_at(&self, x: f64, y: f64) -> DVec3 {
         let across = 2.0 * x / f64::from(self.width) - 1.0;
         let upwards = 1.0 - 2.0 * y / f64::from(self.height);
-        [0, 1, 2].map(|axis| self.forward[axis] + across * self.right[axis] + upwards * self.up[axis])
+        self.forward + across * self.right + upwards * self.up
     }
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// IEEE square root is correctly rounded, hence the same everywhere; f32 figures squared neither overflow nor vanish in f64.
-fn length(vector: [f64; 3]) -> f64 {
-    (vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]).sqrt()
-}
-
-/// The vector at length 1, if it has one.
-fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
-    let length = length(vector);
-    (length > 0.0).then(|| vector.map(|value| value / length))
 }
 
 #[cfg(test)]
@@ -212,8 +197,7 @@ mod tests {
         assert_eq!(camera.direction(3, 1), [0.75, 1.0, -0.25]);
         assert_eq!(camera.rays().len(), 8);
         assert_eq!(camera.rays()[5], camera.ray(1, 1));
-        let [x, y, z] = camera.unit_direction(2, 0).map(f64::from);
-        assert!((x * x + y * y + z * z - 1.0).abs() < 1e-6);
+        assert!((wide(camera.unit_direction(2, 0)).length() - 1.0).abs() < 1e-6);
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Matrix radiosity: every pass on every executor against the loops of the host, bit for bit.
 
+use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{self, CardSolver, Fit, Storage};
-use crossbar::radiosity::packing::{self, Packing, Texels};
+use crossbar::radiosity::packing::{self, Packing};
 use crossbar::radiosity::{FormFactors, System};
 use refsim::device::Profile;
 #[cfg(feature = "wgpu")]
@@ -37,7 +38,7 @@ fn on_gpu() -> Option<(&'static str, Executor)> {
 fn room(size: usize, seed: u64) -> System {
     let mut random = Random::named("radiosity", seed);
     let mut number = || f64::from(random.below(1 << 20) as u32 + 1) / f64::from(1 << 20);
-    let mut factors = Matrix::zero(size).expect("small");
+    let mut factors = Matrix::zeros([size; 2]).expect("small");
     for i in 0..size {
         let row = factors.row_mut(i);
         row.iter_mut().for_each(|f| *f = number());
@@ -76,7 +77,8 @@ fn passes_agree(name: &str, executor: &Executor, systems: &[CardSystem]) {
 }
 
 fn luminance(system: &System, block: usize) -> Vec<CardSystem> {
-    let channel = |c| CardSystem::luminance(system.matrix(c), &system.right(c), block, LIMIT).expect("it fits");
+    let channel =
+        |c| CardSystem::luminance(system.matrix(c), &system.right_hand_side(c), block, LIMIT).expect("it fits");
     (0..3).map(channel).collect()
 }
 

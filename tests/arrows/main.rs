@@ -189,17 +189,19 @@ fn the_emulator_depends_on_nothing_heavy() {
     assert!(!dependencies.contains("default = ["), "refsim has default features");
 }
 
-/// nalgebra's default features choose its product's kernels at run time, which makes bits depend on the processor. The
-/// benches compare with a crate that turns them on; that is harmless as long as no code of ours uses nalgebra, since
-/// features of bench dependencies reach the library in test builds.
+/// nalgebra's product chooses its kernel by the processor if other crates turn its `std` on: docs/decisions/0016.
 #[test]
-fn no_result_depends_on_dispatched_products() {
+fn only_linalg_names_nalgebra() {
+    let source = root().join("src");
+    let mut files = Vec::new();
+    rust_files(&source, &mut files);
+    for file in files.iter().filter(|file| room_of(file, &source) != "linalg") {
+        let text = fs::read_to_string(file).expect("a source file");
+        assert!(named_after(&text, "nalgebra::").is_empty(), "{}: take it from `linalg`", file.display());
+    }
     let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
-    let (_, package) = manifest.split_once("\n[dependencies]").expect("the table");
-    let (dependencies, _) = package.split_once("[dev-dependencies]").expect("both tables");
-    let lock = fs::read_to_string(root().join("Cargo.lock")).expect("the lock file");
-    if lock.contains("name = \"matrixmultiply\"") {
-        assert!(!dependencies.contains("nalgebra"), "drop the bench's `bvh`, or nalgebra: together they change bits");
+    for comparison in ["bvh", "parry3d", "obvhs"] {
+        assert!(!manifest.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");
     }
 }
 

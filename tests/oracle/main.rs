@@ -1,6 +1,6 @@
 //! Stored bits: they fail when they change.
 
-mod foreign;
 mod leaky_teapot;
+mod linalg;
 mod probes;
 mod timing;

@@ -21,7 +21,7 @@ fn closed_box(n: u32) -> System {
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     factors.enforce_closure().expect("closed");
     let lit = patches.list().iter().map(|patch| {
-        let [x, y, z] = patch.centre();
+        let [x, y, z] = patch.center().into();
         let middle = z == 1.0 && (x - 0.5).abs() < 0.125 && (y - 0.5).abs() < 0.125;
         if middle { [17.0, 12.0, 4.0] } else { [0.0; 3] }
     });

@@ -2,22 +2,23 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::vector::{Vec3, dot};
+use crate::geom::vector::narrow;
 use crate::radiosity::Patches;
+use glam::DVec3;
 
 /// Patches whose normals are farther apart than this (a cosine) do not share their corners: about 26 degrees.
 const CREASE: f64 = 0.9;
 
 /// Which patches a corner's radiosity is the mean of.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Meetings {
+pub(super) struct CornerSets {
     /// Each different set of patches, in rising order, never empty.
     pub(super) sets: Vec<Vec<u32>>,
     /// Of each corner of each patch the place of its set; a triangle's fourth is 0.
     pub(super) of: Vec<[u32; 4]>,
 }
 
-impl Meetings {
+impl CornerSets {
     /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not
     /// covered.
     pub(super) fn new(patches: &Patches) -> Self {
@@ -34,7 +35,7 @@ impl Meetings {
         for (patch, of) in list.iter().zip(&mut of) {
             let smooth = |&j: &u32| {
                 let other = &list[j as usize];
-                other.material == patch.material && dot(other.normal(), patch.normal()) >= CREASE
+                other.material == patch.material && other.normal().dot(patch.normal()) >= CREASE
             };
             for (&corner, of) in patch.corners().iter().zip(of) {
                 let mut set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
@@ -61,7 +62,7 @@ impl Meetings {
 #[must_use]
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
-    let Meetings { sets, of } = Meetings::new(patches);
+    let CornerSets { sets, of } = CornerSets::new(patches);
     let mean = |set: &Vec<u32>| {
         let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
         set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
@@ -72,6 +73,6 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
 }
 
 /// Corners of neighbours agree in f32; both zeros are one place.
-pub(super) fn place(corner: Vec3) -> [u32; 3] {
-    corner.map(|x| (x as f32 + 0.0).to_bits())
+pub(super) fn place(corner: DVec3) -> [u32; 3] {
+    narrow(corner).map(|x| (x + 0.0).to_bits())
 }

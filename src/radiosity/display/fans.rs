@@ -9,20 +9,21 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::corners::place;
 use super::in_patch;
-use crate::geom::vector::{Vec3, add, dot, length, scale, sub};
+use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
+use glam::DVec3;
 
 /// Corners this near to a side lie on it, in shares of the scene's diagonal: what f32 corners need.
 const ON_SIDE: f64 = 1e-6;
 
 /// A point of a patch with its coordinates in it.
-pub(super) type Point = (Vec3, [f64; 2]);
+pub(super) type FanVertex = (DVec3, [f64; 2]);
 
-type Place = [u32; 3];
+type SnappedCorner = [u32; 3];
 
 /// Sides that no other patch shares from end to end.
-fn loose_sides(patches: &Patches) -> BTreeSet<[Place; 2]> {
-    let mut count: BTreeMap<[Place; 2], u32> = BTreeMap::new();
+fn loose_sides(patches: &Patches) -> BTreeSet<[SnappedCorner; 2]> {
+    let mut count: BTreeMap<[SnappedCorner; 2], u32> = BTreeMap::new();
     for patch in patches.list() {
         for side in sides(patch) {
             *count.entry(key(side)).or_default() += 1;
@@ -31,23 +32,23 @@ fn loose_sides(patches: &Patches) -> BTreeSet<[Place; 2]> {
     count.into_iter().filter(|&(_, count)| count == 1).map(|(side, _)| side).collect()
 }
 
-fn sides(patch: &Patch) -> impl Iterator<Item = [Vec3; 2]> + '_ {
+fn sides(patch: &Patch) -> impl Iterator<Item = [DVec3; 2]> + '_ {
     let corners = patch.corners();
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
 /// A side without its direction.
-fn key(side: [Vec3; 2]) -> [Place; 2] {
+fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     let mut ends = side.map(place);
     ends.sort_unstable();
     ends
 }
 
 /// The triangles of each patch on whose sides others have corners; `None` for a patch that is drawn as it is.
-pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[Point; 3]>>> {
+pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     let loose = loose_sides(patches);
-    let ends: BTreeSet<Place> = loose.iter().flatten().copied().collect();
-    let ends: Vec<Vec3> = ends.into_iter().map(|end| end.map(|bits| f64::from(f32::from_bits(bits)))).collect();
+    let ends: BTreeSet<SnappedCorner> = loose.iter().flatten().copied().collect();
+    let ends: Vec<DVec3> = ends.into_iter().map(|end| wide(end.map(f32::from_bits))).collect();
     let near = ON_SIDE * patches.extent();
     let outline = |patch: &Patch| {
         let count = patch.corners().len();
@@ -56,7 +57,7 @@ pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[Point; 3]>>> {
             let (from, to) = (inside[k], inside[(k + 1) % count]);
             outline.push((a, from));
             if loose.contains(&key([a, b])) {
-                let mut on_side: Vec<(f64, Vec3)> =
+                let mut on_side: Vec<(f64, DVec3)> =
                     ends.iter().filter_map(|&end| Some((share(end, [a, b], near)?, end))).collect();
                 on_side.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
                 let mixed = |t: f64| [0, 1].map(|axis| (1.0 - t) * from[axis] + t * to[axis]);
@@ -69,18 +70,18 @@ pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[Point; 3]>>> {
 }
 
 /// Which share of a side a point between its ends lies at; `None` if it is not on it.
-fn share(point: Vec3, [a, b]: [Vec3; 2], near: f64) -> Option<f64> {
-    let (along, to) = (sub(b, a), sub(point, a));
-    let t = dot(to, along) / dot(along, along);
-    let off = length(sub(to, scale(t, along)));
-    let margin = near / length(along);
+fn share(point: DVec3, [a, b]: [DVec3; 2], near: f64) -> Option<f64> {
+    let (along, to) = (b - a, point - a);
+    let t = to.dot(along) / along.dot(along);
+    let off = (to - t * along).length();
+    let margin = near / along.length();
     (off <= near && t > margin && t < 1.0 - margin).then_some(t)
 }
 
-fn fan(patch: &Patch, outline: &[Point]) -> Vec<[Point; 3]> {
+fn fan(patch: &Patch, outline: &[FanVertex]) -> Vec<[FanVertex; 3]> {
     let corners = patch.corners();
     let shares = 1.0 / corners.len() as f64;
-    let middle = scale(shares, corners.iter().fold([0.0; 3], |sum, &corner| add(sum, corner)));
+    let middle = shares * corners.iter().sum::<DVec3>();
     let inside = if corners.len() == 3 { [shares; 2] } else { [0.5; 2] };
     let next = |i: usize| outline[(i + 1) % outline.len()];
     (0..outline.len()).map(|i| [(middle, inside), outline[i], next(i)]).collect()

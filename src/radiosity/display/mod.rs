@@ -5,25 +5,21 @@
 
 mod corners;
 mod fans;
-pub(super) mod programs;
 mod resample;
 
+use glam::DVec3;
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DepthId, DrawCall, Machine, MachineError, TextureId, VertexSource};
-use refsim::num::Format;
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, SignedTexelMinimum, TexelFormat};
+use refsim::machine::{DrawCall, Machine, TextureId, VertexSource};
+use refsim::output::DepthFormat;
+use refsim::raster::{Primitive, Vertex};
+use refsim::texture::{SamplerState, TexelFormat};
 
 use super::draw::{DrawError, Projection, bits, patch_of};
-use super::{Patch, Patches};
-use crate::card;
+use super::{Patch, Patches, kernels};
+use crate::card::{NearestTarget, Texels};
 use crate::scene::Camera;
-use corners::Meetings;
+use corners::CornerSets;
 pub use corners::at_corners;
-use programs::checked;
-
-use super::kernels::{self, KernelText};
 use resample::Resampler;
 
 /// Which way a vector of radiosities lies in its texture, a rectangle of `rgba32f`: texel i is red, green and blue of patch i.
@@ -66,7 +62,7 @@ impl Default for DisplayOptions {
 
 /// A picture as the card left it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct CardPicture {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -77,7 +73,7 @@ pub struct Picture {
 
 /// Patches of three corners or of four, whole or as fans: their vertices, and how they are drawn smoothly.
 #[derive(Debug)]
-struct Shape {
+struct PatchShape {
     primitive: Primitive,
     vertices: Vec<Vertex>,
     smooth: CheckedProgram,
@@ -88,13 +84,13 @@ struct Shape {
 pub struct Display {
     patches: usize,
     options: DisplayOptions,
-    shapes: [Shape; 3],
+    shapes: [PatchShape; 3],
     flat: CheckedProgram,
     id: CheckedProgram,
     resampler: Resampler,
-    target: TextureId,
-    ids: TextureId,
-    depth: DepthId,
+    target: NearestTarget,
+    /// With the same depth buffer.
+    ids: NearestTarget,
 }
 
 impl Display {
@@ -108,23 +104,23 @@ impl Display {
         camera: &Camera,
         options: DisplayOptions,
     ) -> Result<Self, DrawError> {
-        let program = |kernel: KernelText| checked(machine.profile(), kernel);
-        let (flat, id) = (program(kernels::FLAT)?, program(kernels::ID)?);
-        let (quad, triangle) = (program(kernels::SMOOTH_QUAD)?, program(kernels::SMOOTH_TRIANGLE)?);
-        let meetings = Meetings::new(patches);
-        let resampler = Resampler::new(machine, &meetings, options.vector)?;
-        let view = View { patches, camera, meetings: &meetings, resampler: &resampler, vector: options.vector };
-        let [quads, quad_fans, triangles] = view.vertices();
+        let profile = machine.profile();
+        let (flat, id) = (kernels::FLAT.checked(profile)?, kernels::ID.checked(profile)?);
+        let (quad, triangle) = (kernels::SMOOTH_QUAD.checked(profile)?, kernels::SMOOTH_TRIANGLE.checked(profile)?);
+        let corner_sets = CornerSets::new(patches);
+        let resampler = Resampler::new(machine, &corner_sets, options.vector)?;
+        let builder =
+            VertexBuilder { patches, camera, corner_sets: &corner_sets, resampler: &resampler, vector: options.vector };
+        let [quads, quad_fans, triangles] = builder.vertices();
         let shapes = [
-            Shape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
-            Shape { primitive: Primitive::TriangleList, vertices: quad_fans, smooth: quad },
-            Shape { primitive: Primitive::TriangleList, vertices: triangles, smooth: triangle },
+            PatchShape { primitive: Primitive::QuadList, vertices: quads, smooth: quad.clone() },
+            PatchShape { primitive: Primitive::TriangleList, vertices: quad_fans, smooth: quad },
+            PatchShape { primitive: Primitive::TriangleList, vertices: triangles, smooth: triangle },
         ];
-        let [width, height] = [camera.width(), camera.height()];
-        let target = machine.create_target(options.target, width, height)?;
-        let ids = machine.create_target(TexelFormat::R32f, width, height)?;
-        let depth = machine.create_depth(DepthFormat::Unorm24, width, height)?;
-        Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids, depth })
+        let size = [camera.width(), camera.height()];
+        let target = NearestTarget::new(machine, (options.target, DepthFormat::Unorm24), size)?;
+        let ids = NearestTarget { color: machine.create_target(TexelFormat::R32f, size[0], size[1])?, ..target };
+        Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids })
     }
 
     /// Radiosities of the host as a texture to draw from, one a patch.
@@ -135,18 +131,20 @@ impl Display {
         if radiosity.len() != self.patches {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
         }
-        let texels: Vec<[f32; 4]> = radiosity.iter().map(|b| [b[0] as f32, b[1] as f32, b[2] as f32, 0.0]).collect();
-        let long = texels.len();
-        let size = if self.options.vector == VectorTexture::Row { [long, 1] } else { [1, long] };
-        let image = card::float_image(TexelFormat::Rgba32f, size, &texels).map_err(MachineError::from)?;
-        Ok(machine.create_texture(image)?)
+        let texel = |b: &[f64; 3]| [b[0] as f32, b[1] as f32, b[2] as f32, 0.0];
+        let row = Texels::vector(radiosity.iter().map(texel).collect());
+        let vector = match self.options.vector {
+            VectorTexture::Row => row,
+            VectorTexture::Column => Texels { width: row.height, height: row.width, ..row },
+        };
+        Ok(vector.upload(machine, TexelFormat::Rgba32f)?)
     }
 
     /// Each patch in its radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
-    pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
+    pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<CardPicture, DrawError> {
         self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
         self.picture(machine)
     }
@@ -155,7 +153,7 @@ impl Display {
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
-    pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
+    pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<CardPicture, DrawError> {
         let corners = self.resampler.run(machine, radiosity)?;
         self.draw(machine, self.target, Some(corners), exposure, |shape| &shape.smooth)?;
         self.picture(machine)
@@ -167,64 +165,56 @@ impl Display {
     /// [`DrawError`] if the card refuses.
     pub fn ids(&self, machine: &mut Machine) -> Result<Vec<Option<u32>>, DrawError> {
         self.draw(machine, self.ids, None, 1.0, |_| &self.id)?;
-        let codes = machine.read_back(self.ids)?.bytes().chunks_exact(4);
-        Ok(codes.map(|code| patch_of(f32::from_le_bytes([code[0], code[1], code[2], code[3]]))).collect())
+        let codes = Texels::read_back(machine, self.ids.color)?;
+        Ok(codes.texels.into_iter().map(|[code, ..]| patch_of(code)).collect())
     }
 
     /// Clears, and draws all shapes with a program each.
     fn draw<'a>(
         &'a self,
         machine: &mut Machine,
-        target: TextureId,
+        target: NearestTarget,
         texture: Option<TextureId>,
         exposure: f64,
-        program: impl Fn(&'a Shape) -> &'a CheckedProgram,
+        program: impl Fn(&'a PatchShape) -> &'a CheckedProgram,
     ) -> Result<(), DrawError> {
-        machine.clear_target(target, [0; 4])?;
-        machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
+        target.clear(machine)?;
         let factor = bits([exposure / std::f64::consts::PI; 4]);
         let constants = Constants { float: vec![factor], ..Constants::default() };
         for shape in self.shapes.iter().filter(|shape| !shape.vertices.is_empty()) {
             let source = VertexSource::Transformed(&shape.vertices);
-            let mut call = DrawCall::new(source, shape.primitive, program(shape), &constants, target);
+            let mut call = DrawCall::new(source, shape.primitive, program(shape), &constants, target.color);
             if let Some(texture) = texture {
                 call = call.with_texture(0, texture, SamplerState::NEAREST_CLAMP);
             }
-            call.center = PixelCenter::OpenGl;
-            call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-            call.depth_buffer = Some(self.depth);
+            target.keep_nearest(&mut call);
             machine.draw(&call)?;
         }
         Ok(())
     }
 
-    fn picture(&self, machine: &Machine) -> Result<Picture, DrawError> {
-        let image = machine.read_back(self.target)?;
-        let pixels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| pixel(image, x, y)));
-        Ok(Picture { width: image.width(), height: image.height(), pixels: pixels.collect() })
+    fn picture(&self, machine: &Machine) -> Result<CardPicture, DrawError> {
+        let Texels { width, height, texels } = Texels::read_back(machine, self.target.color)?;
+        let pixels = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
+        Ok(CardPicture { width: width as u32, height: height as u32, pixels })
     }
 }
 
-fn pixel(image: &Image, x: u32, y: u32) -> [f64; 3] {
-    let texel = image.texel(0, 0, y, x, SignedTexelMinimum::Clamp);
-    [0, 1, 2].map(|c| f64::from(f32::from_bits(texel.to_format(Format::FP32)[c])))
-}
-
 /// What vertices are made of.
-struct View<'a> {
+struct VertexBuilder<'a> {
     patches: &'a Patches,
     camera: &'a Camera,
-    meetings: &'a Meetings,
+    corner_sets: &'a CornerSets,
     resampler: &'a Resampler,
     vector: VectorTexture,
 }
 
-impl View<'_> {
+impl VertexBuilder<'_> {
     /// The vertices of all patches that are in the picture: of quadrilaterals, of their fans, of triangles and their
     /// fans.
     fn vertices(&self) -> [Vec<Vertex>; 3] {
         let list = self.patches.list();
-        let within = list.first().map_or([0.0; 3], |patch| patch.corners()[0]);
+        let within = list.first().map_or(DVec3::ZERO, |patch| patch.corners()[0]);
         let projection = Projection::of(self.camera, within, self.patches.extent());
         let mut vertices = [const { Vec::new() }; 3];
         for (i, (patch, fan)) in list.iter().zip(fans::fans(self.patches)).enumerate() {
@@ -243,7 +233,7 @@ impl View<'_> {
 
     /// A vertex with the texels of its patch and of the patch's corners.
     fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
-        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.meetings.of[patch].map(|set| self.resampler.texel(set));
+        let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.corner_sets.of[patch].map(|set| self.resampler.texel(set));
         let [x, y] = self.vector.texel(patch);
         vertex.texcoords[1] = bits([ax, ay, bx, by]);
         vertex.texcoords[2] = bits([cx, cy, dx, dy]);

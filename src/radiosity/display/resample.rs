@@ -1,14 +1,13 @@
 //! From radiosities of patches to radiosities at corners, by fragment passes: the paper's resampling before it can interpolate.
 
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DrawCall, Machine, MachineError, TextureId, VertexSource};
-use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::{SamplerState, TexelFormat};
+use refsim::machine::{Machine, TextureId};
+use refsim::output::WriteMask;
+use refsim::texture::TexelFormat;
 
 use super::VectorTexture;
-use super::corners::Meetings;
-use super::programs::checked;
-use crate::card;
+use super::corners::CornerSets;
+use crate::card::{FullScreenPass, PingPong, Texels};
 use crate::radiosity::draw::DrawError;
 use crate::radiosity::kernels;
 
@@ -25,45 +24,43 @@ pub(super) struct Resampler {
     size: [u32; 2],
     /// Numbers and weights of each pass.
     passes: Vec<[TextureId; 2]>,
-    targets: [TextureId; 2],
+    means: PingPong,
 }
 
 impl Resampler {
     /// Uploads which patches meet where.
-    pub(super) fn new(machine: &mut Machine, meetings: &Meetings, vector: VectorTexture) -> Result<Self, DrawError> {
-        let program = checked(machine.profile(), kernels::RESAMPLE)?;
-        let sets = &meetings.sets;
+    pub(super) fn new(
+        machine: &mut Machine,
+        corner_sets: &CornerSets,
+        vector: VectorTexture,
+    ) -> Result<Self, DrawError> {
+        let program = kernels::RESAMPLE.checked(machine.profile())?;
+        let sets = &corner_sets.sets;
         let width = sets.len().clamp(1, WIDTH);
         let size = [width, sets.len().div_ceil(width).max(1)];
         let most = sets.iter().map(Vec::len).max().unwrap_or(1);
         let passes =
             (0..most.div_ceil(PER_PASS)).map(|pass| upload(machine, sets, size, pass)).collect::<Result<_, _>>()?;
-        let mut target = || -> Result<TextureId, DrawError> {
-            let image = card::empty_image(TexelFormat::Rgba32f, size).map_err(MachineError::from)?;
-            Ok(machine.create_target_from(image)?)
-        };
-        let targets = [target()?, target()?];
+        let means = PingPong::new(machine, TexelFormat::Rgba32f, size)?;
         let constants = Constants { float: vector.constants().to_vec(), ..Constants::default() };
-        Ok(Self { program, constants, size: size.map(|side| side as u32), passes, targets })
+        Ok(Self { program, constants, size: size.map(|side| side as u32), passes, means })
     }
 
     /// Fills the texture of corners from one of patches.
     pub(super) fn run(&self, machine: &mut Machine, radiosity: TextureId) -> Result<TextureId, DrawError> {
-        let [mut next, mut last] = self.targets;
-        machine.clear_target(last, [0; 4])?;
+        machine.clear_target(self.means.read_by(0), [0; 4])?;
         let [width, height] = self.size.map(|side| side as f32);
-        let quad = card::quad(|u, v| [[u * width, v * height, 0.0, 1.0]]);
-        for [numbers, weights] in &self.passes {
-            let source = VertexSource::Transformed(&quad);
-            let mut call = DrawCall::new(source, Primitive::QuadList, &self.program, &self.constants, next);
-            call.center = PixelCenter::OpenGl;
-            for (sampler, texture) in [*numbers, *weights, last, radiosity].into_iter().enumerate() {
-                call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
+        for (pass, &[numbers, weights]) in self.passes.iter().enumerate() {
+            FullScreenPass {
+                program: &self.program,
+                constants: &self.constants,
+                textures: &[numbers, weights, self.means.read_by(pass), radiosity],
+                target: self.means.written_by(pass),
+                mask: WriteMask::ALL,
             }
-            machine.draw(&call)?;
-            (next, last) = (last, next);
+            .draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])?;
         }
-        Ok(last)
+        Ok(self.means.read_by(self.passes.len()))
     }
 
     /// Where a set of patches has its mean.
@@ -80,18 +77,15 @@ fn upload(
     size: [usize; 2],
     pass: usize,
 ) -> Result<[TextureId; 2], DrawError> {
-    let mut values = [vec![[0.0; 4]; size[0] * size[1]], vec![[0.0; 4]; size[0] * size[1]]];
+    let mut values = [(); 2].map(|()| Texels::from_fn(size, |_, _| [0.0; 4]));
     for (texel, set) in sets.iter().enumerate() {
         let from = pass * PER_PASS;
         // A number that counts for nothing is still read: one of the set's own, so that nothing foreign gets in.
         let number = |k: usize| (f64::from(set[(from + k).min(set.len() - 1)]) + 0.5) as f32;
         let weight = |k: usize| if from + k < set.len() { (1.0 / (from + k + 1) as f64) as f32 } else { 0.0 };
-        values[0][texel] = [0, 1, 2, 3].map(number);
-        values[1][texel] = [0, 1, 2, 3].map(weight);
+        values[0].texels[texel] = [0, 1, 2, 3].map(number);
+        values[1].texels[texel] = [0, 1, 2, 3].map(weight);
     }
-    let [numbers, weights] = values.map(|values| -> Result<TextureId, DrawError> {
-        let image = card::float_image(TexelFormat::Rgba32f, size, &values).map_err(MachineError::from)?;
-        Ok(machine.create_texture(image)?)
-    });
+    let [numbers, weights] = values.map(|values| values.upload(machine, TexelFormat::Rgba32f));
     Ok([numbers?, weights?])
 }

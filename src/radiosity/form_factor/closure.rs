@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{FormFactorError, FormFactors, mirror};
 
 /// Rounds of scaling before giving up; each halves the logarithm of what is left, or better.
-const MOST_ROUNDS: u32 = 500;
+const MAX_ROUNDS: u32 = 500;
 /// Rows within this of 1 count as scaled.
 const SCALED: f64 = 1e-13;
 
@@ -108,7 +108,7 @@ impl FormFactors {
         self.enforce_reciprocity();
         let mut scale = vec![1.0; self.len()];
         let mut sums = Vec::new();
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             sums = self.matrix.times(&scale);
             sums.iter_mut().zip(&scale).for_each(|(sum, d)| *sum = if *sum > 0.0 { *sum * d } else { 1.0 });
             if sums.iter().all(|sum| (sum - 1.0).abs() <= SCALED) {
@@ -118,7 +118,7 @@ impl FormFactors {
             scale.iter_mut().zip(&sums).for_each(|(d, sum)| *d /= sum.sqrt());
         }
         let (patch, sum) = farthest(&sums);
-        Err(FormFactorError::NoScaling { rounds: MOST_ROUNDS, patch, sum })
+        Err(FormFactorError::NoScaling { rounds: MAX_ROUNDS, patch, sum })
     }
 
     /// F_ij becomes d_i F_ij d_j; reciprocal to the last bit but one.

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 
 use super::gauss::EIGHT;
 use crate::geom::elementary::{atan2, ln};
-use crate::geom::vector::{Vec3, add, dot, length, scale, sub, unit};
+use crate::geom::vector::unit;
+use glam::DVec3;
 
 /// Directions nearer to a right angle than this add nothing.
 const ACROSS: f64 = 1e-14;
@@ -18,20 +19,20 @@ const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
 #[derive(Clone, Copy, Debug)]
-struct Side {
-    start: Vec3,
-    direction: Vec3,
+struct Edge {
+    start: DVec3,
+    direction: DVec3,
     length: f64,
 }
 
 /// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from its front, and
 /// lies wholly in front of the other's plane.
-pub(super) fn exchange(one: &[Vec3], other: &[Vec3]) -> f64 {
-    let others: Vec<Side> = sides(other).collect();
+pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
+    let others: Vec<Edge> = sides(other).collect();
     let mut sum = 0.0;
     for a in sides(one) {
         for b in &others {
-            let along = dot(a.direction, b.direction);
+            let along = a.direction.dot(b.direction);
             if along.abs() > ACROSS {
                 sum += along * logarithm_between(&a, b);
             }
@@ -40,16 +41,16 @@ pub(super) fn exchange(one: &[Vec3], other: &[Vec3]) -> f64 {
     sum / (2.0 * PI)
 }
 
-fn sides(polygon: &[Vec3]) -> impl Iterator<Item = Side> + '_ {
+fn sides(polygon: &[DVec3]) -> impl Iterator<Item = Edge> + '_ {
     (0..polygon.len()).filter_map(|i| {
         let (start, end) = (polygon[i], polygon[(i + 1) % polygon.len()]);
-        let vector = sub(end, start);
-        Some(Side { start, direction: unit(vector)?, length: length(vector) })
+        let vector = end - start;
+        Some(Edge { start, direction: unit(vector)?, length: vector.length() })
     })
 }
 
 /// The integral of ln r over both sides.
-fn logarithm_between(a: &Side, b: &Side) -> f64 {
+fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
     let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
     let off = ON_LINE * a.length.max(b.length);
     if near[1] <= off && far[1] <= off {
@@ -70,20 +71,20 @@ fn logarithm_between(a: &Side, b: &Side) -> f64 {
         }
 }
 
-impl Side {
-    fn at(&self, t: f64) -> Vec3 {
-        add(self.start, scale(t * self.length, self.direction))
+impl Edge {
+    fn at(&self, t: f64) -> DVec3 {
+        self.start + t * self.length * self.direction
     }
 
-    fn end(&self) -> Vec3 {
+    fn end(&self) -> DVec3 {
         self.at(1.0)
     }
 
     /// Where a point is as this side sees it: along its line from the start, and away from the line.
-    fn seen_from(&self, point: Vec3) -> [f64; 2] {
-        let to = sub(point, self.start);
-        let along = dot(to, self.direction);
-        [along, length(sub(to, scale(along, self.direction)))]
+    fn seen_from(&self, point: DVec3) -> [f64; 2] {
+        let to = point - self.start;
+        let along = to.dot(self.direction);
+        [along, (to - along * self.direction).length()]
     }
 }
 

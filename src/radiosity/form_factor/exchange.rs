@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::gauss::{FIVE, Node, THREE};
+use super::gauss::{FIVE, GaussPoint, THREE};
 use super::{contour, polygon};
-use crate::geom::vector::{Vec3, dot, sub};
 use crate::radiosity::Patch;
+use glam::DVec3;
 
 /// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points a direction.
 const FAR: f64 = 8.0;
@@ -16,22 +16,22 @@ const ON_PLANE: f64 = 1e-9;
 
 /// A patch with the points at which its far field is integrated.
 #[derive(Clone, Debug)]
-pub(super) struct Prepared<'a> {
+pub(super) struct QuadraturePatch<'a> {
     pub(super) patch: &'a Patch,
-    three: Vec<Weighted>,
-    five: Vec<Weighted>,
+    three: Vec<WeightedPoint>,
+    five: Vec<WeightedPoint>,
 }
 
 /// A point and the area for which it stands.
-type Weighted = (Vec3, f64);
+type WeightedPoint = (DVec3, f64);
 
-impl<'a> Prepared<'a> {
+impl<'a> QuadraturePatch<'a> {
     pub(super) fn new(patch: &'a Patch) -> Self {
         Self { patch, three: points(patch, &THREE), five: points(patch, &FIVE) }
     }
 }
 
-fn points(patch: &Patch, rule: &[Node]) -> Vec<Weighted> {
+fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
     let mut points = Vec::with_capacity(rule.len() * rule.len());
     for &(v, across) in rule {
         for &(u, along) in rule {
@@ -73,7 +73,7 @@ fn facing(one: &Patch, other: &Patch) -> Facing {
 }
 
 /// Area of one patch times its form factor to the other, with nothing between them.
-pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
+pub(super) fn unoccluded(one: &QuadraturePatch<'_>, other: &QuadraturePatch<'_>) -> f64 {
     let (p, q) = (one.patch, other.patch);
     let facing = facing(p, q);
     if facing == Facing::Not {
@@ -83,8 +83,8 @@ pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
         let (p_part, q_part) = (polygon::in_front_of(p.corners(), q), polygon::in_front_of(q.corners(), p));
         return if p_part.len() < 3 || q_part.len() < 3 { 0.0 } else { contour::exchange(&p_part, &q_part).max(0.0) };
     }
-    let apart = sub(q.centre(), p.centre());
-    let (square, radii) = (dot(apart, apart), p.radius() + q.radius());
+    let apart = q.center() - p.center();
+    let (square, radii) = (apart.dot(apart), p.radius() + q.radius());
     if square >= FAR * FAR * radii * radii {
         kernel_sum([p, q], &one.three, &other.three)
     } else if square >= NEAR * NEAR * radii * radii {
@@ -94,7 +94,7 @@ pub(super) fn unoccluded(one: &Prepared<'_>, other: &Prepared<'_>) -> f64 {
     }
 }
 
-fn kernel_sum([p, q]: [&Patch; 2], from: &[Weighted], to: &[Weighted]) -> f64 {
+fn kernel_sum([p, q]: [&Patch; 2], from: &[WeightedPoint], to: &[WeightedPoint]) -> f64 {
     let mut sum = 0.0;
     for &(x, weight) in from {
         sum += weight * to.iter().map(|&(y, area)| area * kernel([p, q], x, y)).sum::<f64>();
@@ -104,8 +104,8 @@ fn kernel_sum([p, q]: [&Patch; 2], from: &[Weighted], to: &[Weighted]) -> f64 {
 
 /// What a point of one patch and a point of the other exchange an area squared: the cosines at both over pi times the distance squared;
 /// 0 behind either.
-pub(super) fn kernel([p, q]: [&Patch; 2], x: Vec3, y: Vec3) -> f64 {
-    let to = sub(y, x);
-    let (cosines, square) = (dot(p.normal(), to).max(0.0) * (-dot(q.normal(), to)).max(0.0), dot(to, to));
+pub(super) fn kernel([p, q]: [&Patch; 2], x: DVec3, y: DVec3) -> f64 {
+    let to = y - x;
+    let (cosines, square) = (p.normal().dot(to).max(0.0) * (-q.normal().dot(to)).max(0.0), to.dot(to));
     if square > 0.0 { cosines / (PI * square * square) } else { 0.0 }
 }

@@ -22,7 +22,7 @@ use thiserror::Error;
 use super::{DrawError, Patches};
 use crate::geom::{CastError, Caster};
 use crate::linalg::{Matrix, MatrixError};
-use exchange::Prepared;
+use exchange::QuadraturePatch;
 
 pub use closure::RowSums;
 pub use hemicube::Hemicube;
@@ -123,10 +123,14 @@ impl FormFactors {
     /// Form factors from elsewhere: row i, column j is F_ij.
     ///
     /// # Errors
-    /// [`FormFactorError`] if there is not one positive area a row, or a form factor is negative or no number.
+    /// [`FormFactorError`] if the matrix is not square, there is not one positive area per row, or a form factor is negative or no number.
     pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, FormFactorError> {
-        if areas.len() != matrix.size() {
-            return Err(FormFactorError::Areas { rows: matrix.size(), areas: areas.len() });
+        let [rows, columns] = [matrix.row_count(), matrix.column_count()];
+        if !matrix.is_square() {
+            return Err(MatrixError::Count { rows, columns: rows, values: rows * columns }.into());
+        }
+        if areas.len() != rows {
+            return Err(FormFactorError::Areas { rows, areas: areas.len() });
         }
         for (patch, (&area, row)) in areas.iter().zip(matrix.rows()).enumerate() {
             if !(area > 0.0 && area.is_finite()) {
@@ -198,9 +202,9 @@ impl FormFactors {
 
 /// Area times form factor of the open parts of every two patches, above the diagonal, with nothing between them.
 fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
-    let parts = |i| patches.open_parts(i).iter().map(Prepared::new).collect();
-    let list: Vec<Vec<Prepared<'_>>> = (0..patches.list().len()).map(parts).collect();
-    let mut matrix = Matrix::zero(list.len())?;
+    let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
+    let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
+    let mut matrix = Matrix::zeros([list.len(); 2])?;
     matrix.par_rows_mut().enumerate().for_each(|(i, row)| {
         for (into, others) in row.iter_mut().zip(&list).skip(i + 1) {
             for one in &list[i] {
@@ -213,7 +217,7 @@ fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
 
 /// Copies what is above the diagonal to below it.
 fn mirror(matrix: &mut Matrix) {
-    for i in 1..matrix.size() {
+    for i in 1..matrix.row_count() {
         for j in 0..i {
             let value = matrix.row(j)[i];
             matrix.row_mut(i)[j] = value;

@@ -3,12 +3,13 @@
 //! The weights make the share the right one for large samples, and exactly 1 where every ray gets through: a room without anything
 //! in it keeps its closed-form factors to the bit.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::exchange::kernel;
 use super::{FormFactorError, Patches};
 use crate::geom::random::Keyed;
-use crate::geom::vector::{Vec3, add, dot, length, scale, sub};
+use crate::geom::vector::narrow;
 use crate::geom::{Caster, Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::open::lift;
@@ -32,7 +33,7 @@ impl Default for VisibilityParameters {
 
 /// A ray between two patches, and what it counts for.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct VisibilitySample {
     weight: f64,
     ray: Option<Ray>,
     /// Hits from here on are at the far end.
@@ -58,7 +59,7 @@ pub(super) fn hide(
     let rays_a_pair = (parameters.side as usize).saturating_mul(parameters.side as usize);
     let at_a_time = (parameters.bundle / rays_a_pair).max(1);
     for (round, bundle) in pairs.chunks(at_a_time).enumerate() {
-        let samples: Vec<Sample> =
+        let samples: Vec<VisibilitySample> =
             bundle.par_iter().flat_map_iter(|&pair| samples(patches, pair, parameters)).collect();
         let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
         let mut hits = caster.cast(&rays)?.into_iter();
@@ -73,7 +74,7 @@ pub(super) fn hide(
 
 /// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
 /// other, dealt out at random.
-fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<Sample> {
+fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
     let (side, lift) = (parameters.side as usize, lift(patches.extent()));
@@ -89,21 +90,26 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
         let left = (far.len() - sample) as u64;
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
         let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
-        let (ray, arrives) = ray_between(add(x, scale(lift, pair[0].normal())), y, lift);
-        dealt.push(Sample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
+        let (ray, arrives) = ray_between(x + lift * pair[0].normal(), y, lift);
+        dealt.push(VisibilitySample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
     }
     dealt
 }
 
 /// The ray from a point to another, and the share of the way after which a hit is at its end.
-fn ray_between(start: Vec3, end: Vec3, lift: f64) -> (Option<Ray>, f32) {
-    let to = sub(end, start);
-    let ray = Ray::new(start.map(|x| x as f32), to.map(|x| x as f32)).ok();
-    (ray, (1.0 - 2.0 * lift / length(to)) as f32)
+fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
+    let to = end - start;
+    let ray = Ray::new(narrow(start), narrow(to)).ok();
+    (ray, (1.0 - 2.0 * lift / to.length()) as f32)
 }
 
 /// The share of the samples' weight that gets through; takes a hit for each ray.
-fn share(patches: &Patches, faces: [u32; 2], samples: &[Sample], hits: &mut impl Iterator<Item = Option<Hit>>) -> f64 {
+fn share(
+    patches: &Patches,
+    faces: [u32; 2],
+    samples: &[VisibilitySample],
+    hits: &mut impl Iterator<Item = Option<Hit>>,
+) -> f64 {
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
@@ -120,7 +126,7 @@ fn share(patches: &Patches, faces: [u32; 2], samples: &[Sample], hits: &mut impl
 /// The share of each of some patches that a point with a normal sees, of what it would see with nothing in the way.
 pub(in crate::radiosity) fn point_share(
     patches: &Patches,
-    [point, normal]: [Vec3; 2],
+    [point, normal]: [DVec3; 2],
     targets: &[usize],
     caster: &mut dyn Caster,
     parameters: VisibilityParameters,
@@ -129,19 +135,19 @@ pub(in crate::radiosity) fn point_share(
         return Err(FormFactorError::NoSamples);
     }
     let (side, lift) = (u64::from(parameters.side), lift(patches.extent()));
-    let (random, start) = (Keyed::new(parameters.seed), add(point, scale(lift, normal)));
+    let (random, start) = (Keyed::new(parameters.seed), point + lift * normal);
     let count = side.saturating_mul(side);
     let sample = |target: usize, k: u64| {
         let patch = &patches.list()[target];
         let along = |stratum: u64, d| ((stratum as f64) + random.unit(target as u64, k, d)) / side as f64;
         let there = patches.open_point(target, [along(k % side, 0), along(k / side, 1)]);
-        let to = sub(there.at, point);
-        let (cosines, square) = (dot(normal, to).max(0.0) * (-dot(patch.normal(), to)).max(0.0), dot(to, to));
+        let to = there.at - point;
+        let (cosines, square) = (normal.dot(to).max(0.0) * (-patch.normal().dot(to)).max(0.0), to.dot(to));
         let (ray, arrives) = ray_between(start, there.at, lift);
         let weight = if square > 0.0 { there.density * cosines / (square * square) } else { 0.0 };
-        Sample { weight, ray, arrives }
+        VisibilitySample { weight, ray, arrives }
     };
-    let samples: Vec<Sample> =
+    let samples: Vec<VisibilitySample> =
         targets.iter().flat_map(|&target| (0..count).map(move |k| (target, k))).map(|(t, k)| sample(t, k)).collect();
     let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
     let mut hits = caster.cast(&rays)?.into_iter();

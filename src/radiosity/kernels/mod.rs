@@ -1,32 +1,8 @@
 //! The fragment programs of matrix radiosity as text. Those that solve are programs for a block of one texel, whose middle is written out
 //! as often as a block has texels: there are no loops in these programs. Those that draw are used as they stand.
 
-use std::fmt::Write as _;
-
 use super::packing::Packing;
-
-/// What stands before and after the part that is repeated.
-const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
-
-/// A program text with the name under which messages speak of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct KernelText {
-    /// The file's name.
-    pub name: &'static str,
-    /// Its contents; of a program that solves, for one texel.
-    pub text: &'static str,
-}
-
-macro_rules! kernels {
-    ($(#[$doc:meta])* $list:ident: $($constant:ident $file:literal)*) => {
-        $(
-            #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
-            pub const $constant: KernelText = KernelText { name: $file, text: include_str!($file) };
-        )*
-        $(#[$doc])*
-        pub const $list: &[KernelText] = &[$($constant),*];
-    };
-}
+use crate::card::{KernelText, kernels};
 
 kernels! {
     /// The programs that are written out for a block.
@@ -53,52 +29,6 @@ kernels! {
     SMOOTH_TRIANGLE "smooth_triangle.fp"
 }
 
-impl KernelText {
-    /// What comes once before the texels, what comes for each, what comes after them.
-    fn parts(&self) -> [&'static str; 3] {
-        let [begin, end] = MARKS;
-        let (head, rest) = self.text.split_once(begin).unwrap_or((self.text, ""));
-        let (body, tail) = rest.split_once(end).unwrap_or((rest, ""));
-        [head, body, tail]
-    }
-
-    /// The program for a block of so many texels.
-    #[must_use]
-    pub fn unrolled(&self, texels: usize) -> String {
-        let [head, body, tail] = self.parts();
-        let mut text = String::with_capacity(head.len() + texels * body.len() + tail.len() + 40);
-        // Notes in front of a program are `//` lines; those of the language come after its first word.
-        text.push_str(head);
-        let _ = writeln!(text, "# {texels} texels");
-        text.extend(std::iter::repeat_n(body, texels));
-        text.push_str(tail);
-        text
-    }
-
-    /// Instructions of a program for no texels.
-    #[must_use]
-    pub fn overhead(&self) -> usize {
-        let [head, _, tail] = self.parts();
-        instructions(head) + instructions(tail)
-    }
-
-    /// Instructions a texel.
-    #[must_use]
-    pub fn per_texel(&self) -> usize {
-        instructions(self.parts()[1])
-    }
-
-    /// The most texels that a program of so many instructions can take.
-    #[must_use]
-    pub fn block(&self, most_instructions: usize) -> usize {
-        most_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
-    }
-}
-
-fn instructions(text: &str) -> usize {
-    text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
-}
-
 /// The programs of an iteration's first pass and of its later ones.
 #[must_use]
 pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
@@ -113,11 +43,11 @@ pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::radiosity::model::{BLOCK, MOST_INSTRUCTIONS};
+    use crate::radiosity::model::{BLOCK, MAX_INSTRUCTIONS};
 
     #[test]
     fn a_block_of_the_paper_is_the_longest_that_fits() {
-        let most = MOST_INSTRUCTIONS as usize;
+        let most = MAX_INSTRUCTIONS as usize;
         for kernel in BLOCKS {
             let [rest, each] = [kernel.overhead(), kernel.per_texel()];
             let block = kernel.block(most);

@@ -1,22 +1,21 @@
-//! Cycles: an iteration in finitely many bits either reaches its tolerance or comes back to a state that it was in
-//! before.
+//! Cycle detection: an iteration in finite precision either reaches its tolerance or returns to an earlier state.
 //!
-//! Every state that is looked at is remembered by a digest. Where a digest comes back, the iteration goes once around,
-//! and the states themselves are compared: no cycle is reported on the word of a digest.
+//! The digest of every state that is read back is kept. Where a digest repeats, the iteration runs until the state itself
+//! repeats, and states are compared bit for bit: a collision of digests is no cycle.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};
 
 use super::{CardError, CardSolver};
 
-/// Radiosities as the card has them: red, green, blue of each patch.
-type State = [[f32; 3]];
+/// The state of an iteration: red, green and blue of each patch.
+type Radiosities = [[f32; 3]];
 
-/// States that come back for ever, bit for bit: the end of what the card's numbers can do.
+/// States that repeat for ever, bit for bit: as far as the card's number format converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Iterations after which the first state of the cycle was reached. With [`super::CardOptions::check_every`] above
-    /// 1, the first that was looked at.
+    /// Iterations after which the first state of the cycle was reached; with [`super::CardOptions::check_every`] above 1,
+    /// the first that was read back.
     pub entered: u32,
     /// The fewest iterations after which every bit is as it was; 1 is a fixed point.
     pub period: u32,
@@ -34,19 +33,19 @@ impl Cycle {
     }
 }
 
-/// The digests of the states looked at, and after which iteration each came first.
+/// The digests of the states read back, and after which iteration each came first.
 #[derive(Debug, Default)]
-pub(super) struct Seen(BTreeMap<u64, u32>);
+pub(super) struct SeenStates(BTreeMap<u64, u32>);
 
-impl Seen {
-    /// Notes a state; the iteration after which one of the same digest was seen before, if one was.
-    pub(super) fn note(&mut self, state: &State, number: u32) -> Option<u32> {
+impl SeenStates {
+    /// Adds a state. Returns the iteration after which one of the same digest was added, if one was.
+    pub(super) fn note(&mut self, state: &Radiosities, number: u32) -> Option<u32> {
         let first = *self.0.entry(digest(state)).or_insert(number);
         (first < number).then_some(first)
     }
 }
 
-fn digest(state: &State) -> u64 {
+fn digest(state: &Radiosities) -> u64 {
     // Its keys are fixed, so that the same states have the same digest in every run.
     let mut hasher = DefaultHasher::new();
     state.iter().flatten().for_each(|value| hasher.write_u32(value.to_bits()));
@@ -54,9 +53,13 @@ fn digest(state: &State) -> u64 {
 }
 
 impl CardSolver {
-    /// Goes around from `start`, which is on the card, at most `most` iterations; `None` if `start` does not come back,
-    /// and the card has it again then.
-    pub(super) fn around(&mut self, start: &State, [entered, most]: [u32; 2]) -> Result<Option<Cycle>, CardError> {
+    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not: the card
+    /// then holds `start` again.
+    pub(super) fn around(
+        &mut self,
+        start: &Radiosities,
+        [entered, most]: [u32; 2],
+    ) -> Result<Option<Cycle>, CardError> {
         let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
         let mut last = start.to_vec();
         while cycle.period < most {
@@ -82,6 +85,6 @@ impl CardSolver {
     }
 }
 
-fn same_bits(a: &State, b: &State) -> bool {
+fn same_bits(a: &Radiosities, b: &Radiosities) -> bool {
     a.iter().zip(b).all(|(a, b)| a.map(f32::to_bits) == b.map(f32::to_bits))
 }

@@ -1,11 +1,11 @@
-//! Why a card does not solve a system.
+//! Errors of solving on a card.
 
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::MachineError;
-use refsim::texture::TextureError;
 use thiserror::Error;
 
+use crate::card::KernelError;
 use crate::radiosity::packing::TooLarge;
 
 /// Why a card does not solve a system.
@@ -32,19 +32,10 @@ pub enum CardError {
         /// What is too large for which limit.
         problem: TooLarge,
     },
-    /// The card's rules refuse a program.
-    #[error("device `{device}` refuses `{program}`, written out for {texels} texels: {problem}")]
-    Refused {
-        /// The program's file.
-        program: &'static str,
-        /// The texels of its block.
-        texels: usize,
-        /// The device.
-        device: String,
-        /// What is wrong.
-        problem: String,
-    },
-    /// Something of another size than the system on the card.
+    /// The device refuses a program.
+    #[error(transparent)]
+    Kernel(#[from] KernelError),
+    /// A size that differs from that of the system on the card.
     #[error("expected {expected} {what}, found {found}")]
     Size {
         /// Of what, and why so many.
@@ -54,18 +45,15 @@ pub enum CardError {
         /// How many there are.
         found: usize,
     },
-    /// The iteration runs away.
+    /// The iteration diverges.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
     Diverged {
         /// Iterations done.
         iterations: u32,
     },
-    /// The card refuses a resource or a draw, or there is none.
+    /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// An image is impossible.
-    #[error(transparent)]
-    Texture(#[from] TextureError),
 }
 
 impl CardError {

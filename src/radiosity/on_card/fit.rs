@@ -1,4 +1,4 @@
-//! What a card makes of a system's textures and programs: texels of a block, texels of a side.
+//! Limits of a device on a system's programs and textures: texels of a block, texels of a side.
 
 use refsim::device::Profile;
 use refsim::isa::Version;
@@ -10,10 +10,10 @@ use crate::radiosity::kernels;
 use crate::radiosity::packing::{Packing, TooLarge};
 use crate::radiosity::{System, model};
 
-/// Texels a side where a device states no limit: the largest image there is.
-const MOST_TEXELS: usize = 16384;
+/// Texels per side where a device states no limit: the largest image there is.
+const MAX_TEXELS: usize = 16384;
 
-/// How numbers lie in textures and registers.
+/// The number format of textures and registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Storage {
     /// Single floats throughout.
@@ -34,7 +34,7 @@ impl Storage {
     }
 }
 
-/// What a device allows.
+/// The limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
     /// Texels of a block: the most that a program of the device's length takes.
@@ -54,7 +54,7 @@ impl Fit {
         Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
     }
 
-    /// Whether a system of so many patches is not too large: to be asked before form factors are worked out, which take long.
+    /// Checks the size of a system before its form factors are computed, which takes long.
     ///
     /// # Errors
     /// [`CardError::TooLarge`].
@@ -66,7 +66,7 @@ impl Fit {
         Err(too_large(profile, TooLarge { what: "a matrix", limit: self.limit, width, height }))
     }
 
-    /// All that a system is on the device: one system of three channels, or three of one.
+    /// A system in the layout of the device: one system of three channels, or three of one.
     ///
     /// # Errors
     /// [`CardError::TooLarge`].
@@ -74,7 +74,8 @@ impl Fit {
         let made = match packing {
             Packing::Rgb => CardSystem::rgb(system, self.block, self.limit).map(|one| vec![one]),
             Packing::Luminance => {
-                let channel = |c| CardSystem::luminance(system.matrix(c), &system.right(c), self.block, self.limit);
+                let channel =
+                    |c| CardSystem::luminance(system.matrix(c), &system.right_hand_side(c), self.block, self.limit);
                 (0..3).map(channel).collect()
             }
         };
@@ -82,16 +83,16 @@ impl Fit {
     }
 }
 
-/// Instructions of a program, and texels a side.
+/// The most instructions of a program, and texels per side.
 pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
     let limits = &profile.limits;
     if !limits.versions.contains(&Version::Fp1_0) {
         return Err(CardError::no_programs(profile));
     }
-    let instructions = limits.fragment_instructions.unwrap_or(model::MOST_INSTRUCTIONS) as usize;
+    let instructions = limits.fragment_instructions.unwrap_or(model::MAX_INSTRUCTIONS) as usize;
     // A vector is a target and a texture; a matrix is as wide as a vector is long.
     let sides = [limits.max_texture_size, limits.max_target_size].into_iter().flatten();
-    Ok((instructions, sides.min().map_or(MOST_TEXELS, |side| side as usize)))
+    Ok((instructions, sides.min().map_or(MAX_TEXELS, |side| side as usize)))
 }
 
 pub(super) fn too_large(profile: &Profile, problem: TooLarge) -> CardError {

@@ -1,20 +1,18 @@
-//! One system on the card: its matrix and emittance, and three vectors that take turns.
+//! The textures of one system: its matrix, its emittance, and three vectors of which one holds the radiosities.
 
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, Machine, TextureId, VertexSource};
+use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
-use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::SamplerState;
 
-use super::programs::{Pass, Programs};
+use super::programs::{BlockPass, Programs};
 use super::{CardError, Storage};
-use crate::card;
+use crate::card::{FullScreenPass, PingPong, Texels, new_target};
 use crate::radiosity::card_order::CardSystem;
-use crate::radiosity::packing::{Packing, Texels};
+use crate::radiosity::packing::Packing;
 
-/// Sizes of a system's textures.
+/// Packing and sizes of a system's textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shape {
+pub(super) struct SystemLayout {
     pub(super) packing: Packing,
     pub(super) size: usize,
     pub(super) block: usize,
@@ -24,7 +22,7 @@ pub(super) struct Shape {
     pub(super) rows: usize,
 }
 
-impl Shape {
+impl SystemLayout {
     pub(super) fn of(system: &CardSystem) -> Self {
         let matrix = system.matrix();
         let (packing, size, block) = (system.packing(), system.len(), system.block());
@@ -41,70 +39,59 @@ pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<
     if expected == found { Ok(()) } else { Err(CardError::Size { what, expected, found }) }
 }
 
-/// A system's textures. Its radiosities are one of three vectors: a pass reads it and what the pass before wrote, and writes the third.
+/// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next partial
+/// sums; the last ones are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
-    shape: Shape,
+    layout: SystemLayout,
     storage: Storage,
     matrix: TextureId,
     emittance: TextureId,
     pub(super) radiosity: TextureId,
-    partial: [TextureId; 2],
+    partial: PingPong,
 }
 
 impl Layer {
     /// Uploads a system; radiosities are 0.
     pub(super) fn new(machine: &mut Machine, system: &CardSystem, storage: Storage) -> Result<Self, CardError> {
-        let shape = Shape::of(system);
+        let layout = SystemLayout::of(system);
         let format = storage.format();
-        let upload = |machine: &mut Machine, texels: &Texels| -> Result<TextureId, CardError> {
-            let image = card::float_image(format, [texels.width, texels.height], &texels.texels)?;
-            Ok(machine.create_texture(image)?)
-        };
-        let matrix = upload(machine, system.matrix())?;
-        let emittance = upload(machine, system.emittance())?;
-        let mut vector = || -> Result<TextureId, CardError> {
-            Ok(machine.create_target_from(card::empty_image(format, [shape.width, 1])?)?)
-        };
-        let (radiosity, partial) = (vector()?, [vector()?, vector()?]);
-        Ok(Self { shape, storage, matrix, emittance, radiosity, partial })
+        let matrix = system.matrix().upload(machine, format)?;
+        let emittance = system.emittance().upload(machine, format)?;
+        let size = [layout.width, 1];
+        let radiosity = new_target(machine, format, size)?;
+        let partial = PingPong::new(machine, format, size)?;
+        Ok(Self { layout, storage, matrix, emittance, radiosity, partial })
     }
 
     pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        same("texels, as the card has", self.shape.width * self.shape.rows, texels.texels.len())?;
+        same("texels, as the card has", self.layout.width * self.layout.rows, texels.texels.len())?;
         self.update(machine, self.matrix, texels)
     }
 
     pub(super) fn set_emittance(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.shape.check_vector(texels)?;
+        self.layout.check_vector(texels)?;
         self.update(machine, self.emittance, texels)
     }
 
     pub(super) fn load(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.shape.check_vector(texels)?;
+        self.layout.check_vector(texels)?;
         self.update(machine, self.radiosity, texels)
     }
 
     fn update(&self, machine: &mut Machine, texture: TextureId, texels: &Texels) -> Result<(), CardError> {
-        let image = card::float_image(self.storage.format(), [texels.width, texels.height], &texels.texels)?;
-        Ok(machine.update_texture(texture, &image)?)
-    }
-
-    /// What a texture of vectors holds.
-    pub(super) fn read(&self, machine: &Machine, texture: TextureId) -> Result<Texels, CardError> {
-        let texels = card::floats(machine.read_back(texture)?);
-        Ok(Texels { width: self.shape.width, height: 1, texels })
+        Ok(texels.update(machine, texture, self.storage.format())?)
     }
 
     /// The texture into which a pass draws.
     pub(super) fn target(&self, pass: usize) -> TextureId {
-        self.partial[pass % 2]
+        self.partial.written_by(pass)
     }
 
     /// One pass of equation 4.
     pub(super) fn pass(&self, machine: &mut Machine, programs: &Programs, number: usize) -> Result<(), CardError> {
         let Some(&pass) = programs.passes.get(number) else { return Ok(()) };
-        match self.shape.packing {
+        match self.layout.packing {
             Packing::Rgb => self.draw(machine, programs, (number, pass), 0.0, WriteMask::ALL),
             // Channel c of texel x is row 4x + c; at the middle of the texel the row is 4 (x + 0.5) + c - 1.5.
             Packing::Luminance => (0..4_u8)
@@ -112,36 +99,34 @@ impl Layer {
         }
     }
 
-    /// A quad over the target, `row` added to the matrix's row that its place stands for.
+    /// A quad over the target, whose fragments read the matrix `row` rows below their own.
     fn draw(
         &self,
         machine: &mut Machine,
         programs: &Programs,
-        (number, pass): (usize, Pass),
+        (number, pass): (usize, BlockPass),
         row: f32,
         mask: WriteMask,
     ) -> Result<(), CardError> {
         let Some(program) = programs.list.get(pass.program) else { return Ok(()) };
-        let (width, rows) = (self.shape.width as f32, self.shape.rows as f32);
+        let (width, rows) = (self.layout.width as f32, self.layout.rows as f32);
         let column = pass.from as f32 + 0.5;
-        let corners = card::quad(|u, _| [[column, u * rows + row, 0.5, 1.0], [u * width, 0.5, 0.0, 1.0]]);
-        let before = if number == 0 { self.emittance } else { self.target(number - 1) };
-        let constants = Constants::default();
-        let source = VertexSource::Transformed(&corners);
-        let mut call = DrawCall::new(source, Primitive::QuadList, &program.checked, &constants, self.target(number));
-        for (sampler, texture) in [self.matrix, self.radiosity, before].into_iter().enumerate() {
-            call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
+        let before = if number == 0 { self.emittance } else { self.partial.read_by(number) };
+        FullScreenPass {
+            program: &program.checked,
+            constants: &Constants::default(),
+            textures: &[self.matrix, self.radiosity, before],
+            target: self.target(number),
+            mask,
         }
-        call.center = PixelCenter::OpenGl;
-        call.masks[0] = mask;
-        machine.draw(&call)?;
+        .draw(machine, |u, _| [[column, u * rows + row, 0.5, 1.0], [u * width, 0.5, 0.0, 1.0]])?;
         Ok(())
     }
 
-    /// The last pass's target holds the radiosities from now on.
+    /// Makes the last pass's target the radiosities.
     pub(super) fn turn(&mut self, passes: usize) {
         if let Some(last) = passes.checked_sub(1) {
-            std::mem::swap(&mut self.radiosity, &mut self.partial[last % 2]);
+            self.partial.exchange(last, &mut self.radiosity);
         }
     }
 }

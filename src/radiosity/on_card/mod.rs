@@ -1,7 +1,9 @@
-//! Equation 4 on an emulated card: matrix and emittance uploaded once, a quad a pass, radiosities in a 1-D texture.
+//! Jacobi iteration (equation 4) on an emulated card: matrix and emittance are uploaded once, a pass is a full-screen quad,
+//! radiosities are a 1-D texture.
 //!
-//! A target is one row of texels, a patch each (RGB) or four (luminance), so that a texture coordinate along it is a patch's number, as
-//! the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that row and is lost.
+//! A target is one row of texels, with one patch (RGB) or four (luminance) per texel, so that a texture coordinate along it
+//! is a patch's number, as the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that
+//! row and is lost.
 
 mod cycle;
 mod error;
@@ -22,27 +24,28 @@ pub use error::CardError;
 pub use fit::{Fit, Storage};
 pub use product::{product, product_block};
 pub use programs::PassProgram;
-pub use solve::{CardOptions, CardSolution, Iteration};
+pub use solve::{CardOptions, CardSolution, Iteration, to_f64};
 
 use super::System;
 use super::card_order::{CardSystem, emittances};
 use super::kernels;
-use super::packing::{Packing, Texels};
-use layer::{Layer, Shape, same};
+use super::packing::Packing;
+use crate::card::Texels;
+use layer::{Layer, SystemLayout, same};
 use programs::Programs;
 
-/// What sizes are about, in messages.
+/// What the sizes in messages count.
 const PATCHES: &str = "patches, as the card has";
 const SYSTEMS: &str = "systems (RGB: one; luminance: one, or three for the channels)";
 
-/// A system on a card. Radiosities are 0 at first, and stay where they are when light or reflectances change.
+/// A system on a card. Radiosities are 0 at first, and are kept when emittances or reflectances change.
 #[derive(Debug)]
 pub struct CardSolver {
     machine: Machine,
     fit: Fit,
-    shape: Shape,
+    layout: SystemLayout,
     programs: Programs,
-    /// One system of three channels, or one a channel.
+    /// One system of three channels, or one per channel.
     layers: Vec<Layer>,
 }
 
@@ -67,7 +70,7 @@ impl CardSolver {
     /// Uploads systems that are already in the card's layout: one, or three luminance systems of one size for the three channels.
     ///
     /// # Errors
-    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes, [`CardError::Refused`] for
+    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes, [`CardError::Kernel`] for
     /// blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
@@ -76,38 +79,38 @@ impl CardSolver {
         storage: Storage,
     ) -> Result<Self, CardError> {
         let profile = profile.into();
-        let Some(shape) = systems.first().map(Shape::of) else {
+        let Some(layout) = systems.first().map(SystemLayout::of) else {
             return Err(CardError::Size { what: SYSTEMS, expected: 1, found: 0 });
         };
-        let expected = if shape.packing == Packing::Luminance && systems.len() > 1 { 3 } else { 1 };
+        let expected = if layout.packing == Packing::Luminance && systems.len() > 1 { 3 } else { 1 };
         same(SYSTEMS, expected, systems.len())?;
-        let alike = systems.iter().filter(|system| Shape::of(system) == shape).count();
+        let alike = systems.iter().filter(|system| SystemLayout::of(system) == layout).count();
         same("systems of one layout, size and block", systems.len(), alike)?;
-        let fit = Fit::of(&profile, shape.packing)?;
-        let kernels = kernels::of(shape.packing, storage == Storage::Fp16);
-        let programs = Programs::new(&profile, kernels, shape.width, shape.block)?;
+        let fit = Fit::of(&profile, layout.packing)?;
+        let kernels = kernels::of(layout.packing, storage == Storage::Fp16);
+        let programs = Programs::new(&profile, kernels, layout.width, layout.block)?;
         let mut machine = executor.into().machine(profile)?;
         let layers =
             systems.iter().map(|system| Layer::new(&mut machine, system, storage)).collect::<Result<_, _>>()?;
-        Ok(Self { machine, fit, shape, programs, layers })
+        Ok(Self { machine, fit, layout, programs, layers })
     }
 
     /// How elements lie in texels.
     #[must_use]
     pub fn packing(&self) -> Packing {
-        self.shape.packing
+        self.layout.packing
     }
 
     /// How many patches.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.shape.size
+        self.layout.size
     }
 
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.shape.size == 0
+        self.layout.size == 0
     }
 
     /// Passes an iteration, of each system.
@@ -130,18 +133,18 @@ impl CardSolver {
         self.iterate_watched(&mut |_, _, _| Ok(()))
     }
 
-    /// One iteration; `each` is told what each pass leaves, by system and pass. That reads every pass back.
+    /// One iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
     ///
     /// # Errors
     /// [`CardError::Machine`].
     pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
         self.iterate_watched(&mut |machine, (place, layer), pass| {
-            each(place, pass, layer.read(machine, layer.target(pass))?);
+            each(place, pass, Texels::read_back(machine, layer.target(pass))?);
             Ok(())
         })
     }
 
-    fn iterate_watched(&mut self, after: &mut Watch<'_>) -> Result<(), CardError> {
+    fn iterate_watched(&mut self, after: &mut PassObserver<'_>) -> Result<(), CardError> {
         let passes = self.passes();
         for (place, layer) in self.layers.iter_mut().enumerate() {
             for pass in 0..passes {
@@ -153,6 +156,17 @@ impl CardSolver {
         Ok(())
     }
 
+    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: what is bound,
+    /// not what is computed.
+    pub(in crate::radiosity) fn bind_as_after_iteration(&mut self) -> Result<(), CardError> {
+        let passes = self.passes();
+        if let (Some(layer), Some(last)) = (self.layers.last(), passes.checked_sub(1)) {
+            layer.pass(&mut self.machine, &self.programs, last)?;
+        }
+        self.layers.iter_mut().for_each(|layer| layer.turn(passes));
+        Ok(())
+    }
+
     /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
     ///
     /// # Errors
@@ -161,38 +175,38 @@ impl CardSolver {
         let all = self.read_texels()?;
         let last = all.len().saturating_sub(1);
         let luminance = |i: usize, c: usize| all[c.min(last)].texels[i / 4][i % 4];
-        Ok(match self.shape.packing {
+        Ok(match self.layout.packing {
             Packing::Rgb => super::packing::from_rgb_vector(&all[0]),
             Packing::Luminance => (0..self.len()).map(|i| [0, 1, 2].map(|c| luminance(i, c))).collect(),
         })
     }
 
-    /// The same as it lies in the textures, one a system.
+    /// The radiosities as the textures hold them, one per system.
     ///
     /// # Errors
     /// [`CardError::Machine`].
     pub fn read_texels(&self) -> Result<Vec<Texels>, CardError> {
-        self.layers.iter().map(|layer| layer.read(&self.machine, layer.radiosity)).collect()
+        let layers = self.layers.iter();
+        Ok(layers.map(|layer| Texels::read_back(&self.machine, layer.radiosity)).collect::<Result<_, _>>()?)
     }
 
-    /// Continues from these radiosities.
+    /// Replaces the radiosities.
     ///
     /// # Errors
-    /// [`CardError::Size`] if there is not one a patch.
+    /// [`CardError::Size`] if there is not one per patch.
     pub fn load(&mut self, radiosity: &[[f32; 3]]) -> Result<(), CardError> {
         same(PATCHES, self.len(), radiosity.len())?;
         let texel = |c: usize, x: usize| [0, 1, 2, 3].map(|k| radiosity.get(4 * x + k).map_or(0.0, |b| b[c]));
-        let texels = |texels: Vec<[f32; 4]>| Texels { width: texels.len(), height: 1, texels };
-        let layouts: Vec<Texels> = match self.shape.packing {
-            Packing::Rgb => vec![texels(radiosity.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect())],
-            Packing::Luminance => {
-                (0..self.layers.len()).map(|c| texels((0..self.shape.width).map(|x| texel(c, x)).collect())).collect()
-            }
+        let layouts: Vec<Texels> = match self.layout.packing {
+            Packing::Rgb => vec![Texels::vector(radiosity.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect())],
+            Packing::Luminance => (0..self.layers.len())
+                .map(|c| Texels::vector((0..self.layout.width).map(|x| texel(c, x)).collect()))
+                .collect(),
         };
         self.load_texels(&layouts)
     }
 
-    /// The same as it lies in the textures, one a system.
+    /// Replaces the radiosities, in the layout of the textures, one per system.
     ///
     /// # Errors
     /// [`CardError::Size`].
@@ -202,26 +216,26 @@ impl CardSolver {
         self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
 
-    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card; radiosities stay.
+    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
     pub fn set_emittance(&mut self, system: &System) -> Result<(), CardError> {
         same(PATCHES, self.len(), system.factors().len())?;
-        let texels = emittances(system, self.shape.packing, self.fit.limit)
+        let texels = emittances(system, self.layout.packing, self.fit.limit)
             .map_err(|problem| fit::too_large(self.machine.profile(), problem))?;
         let machine = &mut self.machine;
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// New reflectances: uploads matrix and emittances of a system of as many patches; radiosities stay.
+    /// New reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
     pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
         same(PATCHES, self.len(), system.factors().len())?;
-        let fit = Fit { block: self.shape.block, ..self.fit };
-        let systems = fit.systems(self.machine.profile(), self.shape.packing, system)?;
+        let fit = Fit { block: self.layout.block, ..self.fit };
+        let systems = fit.systems(self.machine.profile(), self.layout.packing, system)?;
         for (layer, system) in self.layers.iter().zip(&systems) {
             layer.set_matrix(&mut self.machine, system.matrix())?;
             layer.set_emittance(&mut self.machine, system.emittance())?;
@@ -229,28 +243,28 @@ impl CardSolver {
         Ok(())
     }
 
-    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one a channel with four patches a
-    /// texel. Each iteration leaves them in others.
+    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with four
+    /// patches per texel. An iteration changes which textures these are.
     #[must_use]
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()
     }
 
-    /// The card: to draw from the radiosities where they are.
+    /// The emulated card, for drawing from the radiosities without reading them back.
     pub fn machine_mut(&mut self) -> &mut Machine {
         &mut self.machine
     }
 
-    /// Starts or stops writing down what is asked of the card.
+    /// Starts or stops recording the log.
     pub fn record(&mut self, on: bool) {
         self.machine.record(on);
     }
 
-    /// What was asked of it since the last time.
+    /// The log recorded since the last call.
     pub fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 }
 
-/// Hears of a pass: the card, which system, which pass.
-type Watch<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;
+/// Called after a pass: the card, which system, which pass.
+type PassObserver<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;

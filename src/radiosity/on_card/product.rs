@@ -4,17 +4,17 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, Executor, Machine, TextureId, VertexSource};
-use refsim::raster::{PixelCenter, Primitive};
-use refsim::texture::{SamplerState, TexelFormat};
+use refsim::machine::Executor;
+use refsim::output::WriteMask;
+use refsim::texture::TexelFormat;
 
 use super::fit::{limits, too_large};
 use super::layer::same;
 use super::programs::Programs;
 use super::{CardError, PassProgram};
-use crate::card;
+use crate::card::{FullScreenPass, PingPong, Texels};
 use crate::radiosity::kernels;
-use crate::radiosity::packing::{Texels, TooLarge};
+use crate::radiosity::packing::TooLarge;
 
 /// The most texels of a block on a device, and so the steps of a pass.
 ///
@@ -48,43 +48,23 @@ pub fn product(
     }
     let programs = Programs::new(&profile, [kernels::PRODUCT_FIRST, kernels::PRODUCT_NEXT], size, block)?;
     let mut machine = executor.into().machine(profile)?;
-    let upload = |machine: &mut Machine, texels: &Texels| -> Result<TextureId, CardError> {
-        Ok(machine.create_texture(card::float_image(TexelFormat::Rgba32f, [size; 2], &texels.texels)?)?)
-    };
-    let factors = [upload(&mut machine, left)?, upload(&mut machine, right)?];
-    let mut target = || -> Result<TextureId, CardError> {
-        Ok(machine.create_target_from(card::empty_image(TexelFormat::Rgba32f, [size; 2])?)?)
-    };
-    let targets = [target()?, target()?];
-    for number in 0..programs.passes.len() {
-        pass(&mut machine, &programs, number, (factors, targets, size))?;
+    let format = TexelFormat::Rgba32f;
+    let [left, right] = [left.upload(&mut machine, format)?, right.upload(&mut machine, format)?];
+    let sums = PingPong::new(&mut machine, format, [size; 2])?;
+    let side = size as f32;
+    for (number, pass) in programs.passes.iter().enumerate() {
+        let textures = [left, right, sums.read_by(number)];
+        let step = pass.from as f32 + 0.5;
+        FullScreenPass {
+            program: &programs.list[pass.program].checked,
+            constants: &Constants::default(),
+            // The first pass starts from 0.
+            textures: if number == 0 { &textures[..2] } else { &textures },
+            target: sums.written_by(number),
+            mask: WriteMask::ALL,
+        }
+        .draw(&mut machine, |u, v| [[step, v * side, u * side, 1.0], [u * side, v * side, 0.0, 1.0]])?;
     }
-    let last = targets[(programs.passes.len().max(1) - 1) % 2];
-    let texels = card::floats(machine.read_back(last)?);
-    Ok((Texels { width: size, height: size, texels }, programs.list))
-}
-
-/// One quad over the product.
-fn pass(
-    machine: &mut Machine,
-    programs: &Programs,
-    number: usize,
-    (factors, targets, size): ([TextureId; 2], [TextureId; 2], usize),
-) -> Result<(), CardError> {
-    let pass = programs.passes[number];
-    let (step, side) = (pass.from as f32 + 0.5, size as f32);
-    let corners = card::quad(|u, v| [[step, v * side, u * side, 1.0], [u * side, v * side, 0.0, 1.0]]);
-    let constants = Constants::default();
-    let program = &programs.list[pass.program].checked;
-    let source = VertexSource::Transformed(&corners);
-    let mut call = DrawCall::new(source, Primitive::QuadList, program, &constants, targets[number % 2]);
-    for (sampler, texture) in factors.into_iter().enumerate() {
-        call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
-    }
-    if number > 0 {
-        call = call.with_texture(2, targets[(number + 1) % 2], SamplerState::NEAREST_CLAMP);
-    }
-    call.center = PixelCenter::OpenGl;
-    machine.draw(&call)?;
-    Ok(())
+    let last = sums.written_by(programs.passes.len().max(1) - 1);
+    Ok((Texels::read_back(&machine, last)?, programs.list))
 }

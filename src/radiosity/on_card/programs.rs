@@ -1,12 +1,9 @@
 //! The programs of an iteration: one for the first pass, one for those in the middle, one for the last block, which may be shorter.
 
-use refsim::asm::assemble;
-use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 
-use super::CardError;
-use crate::radiosity::kernels::KernelText;
+use crate::card::{KernelError, KernelText};
 
 /// A program for a block, as the device has taken it.
 #[derive(Clone, Debug)]
@@ -22,18 +19,8 @@ pub struct PassProgram {
 
 impl PassProgram {
     /// Writes a kernel out for a block and has the device's rules judge it.
-    pub(super) fn new(profile: &Profile, kernel: KernelText, texels: usize) -> Result<Self, CardError> {
-        let text = kernel.unrolled(texels);
-        let refused = |problem: String| CardError::Refused {
-            program: kernel.name,
-            texels,
-            device: profile.name.clone(),
-            problem,
-        };
-        let program = assemble(&text).map_err(|e| refused(e.to_string()))?;
-        let checked = check(program, profile).map_err(|report| {
-            refused(report.violations.first().map_or_else(|| report.to_string(), |first| first.message.clone()))
-        })?;
+    pub(super) fn new(profile: &Profile, kernel: KernelText, texels: usize) -> Result<Self, KernelError> {
+        let (text, checked) = kernel.unrolled_and_checked(profile, texels)?;
         Ok(Self { kernel, texels, text, checked })
     }
 
@@ -44,9 +31,9 @@ impl PassProgram {
     }
 }
 
-/// A pass: where its block begins, and its program.
+/// A pass over one block: where the block begins, and which program runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Pass {
+pub(super) struct BlockPass {
     pub(super) from: usize,
     pub(super) program: usize,
 }
@@ -55,7 +42,7 @@ pub(super) struct Pass {
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
     pub(super) list: Vec<PassProgram>,
-    pub(super) passes: Vec<Pass>,
+    pub(super) passes: Vec<BlockPass>,
 }
 
 impl Programs {
@@ -65,7 +52,7 @@ impl Programs {
         [first, next]: [KernelText; 2],
         width: usize,
         block: usize,
-    ) -> Result<Self, CardError> {
+    ) -> Result<Self, KernelError> {
         let (mut list, mut passes) = (Vec::<PassProgram>::new(), Vec::new());
         for from in (0..width).step_by(block.max(1)) {
             let kernel = if from == 0 { first } else { next };
@@ -78,7 +65,7 @@ impl Programs {
                     list.len() - 1
                 }
             };
-            passes.push(Pass { from, program });
+            passes.push(BlockPass { from, program });
         }
         Ok(Self { list, passes })
     }

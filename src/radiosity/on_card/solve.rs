@@ -1,6 +1,6 @@
-//! Iterations until the residual is small enough; the residual is the host's, in f64, from what it reads back.
+//! Iterations until the residual is small enough. The host computes the residual in f64 from the radiosities read back.
 
-use super::cycle::Seen;
+use super::cycle::SeenStates;
 use super::{CardError, CardSolver, Cycle};
 use crate::radiosity::System;
 use crate::radiosity::solve::mean_square;
@@ -8,11 +8,11 @@ use crate::radiosity::solve::mean_square;
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardOptions {
-    /// The residual's length as a share of the right side's, in each channel.
+    /// The norm of the residual, relative to that of the right-hand side, in each channel.
     pub tolerance: f64,
     /// The most iterations.
     pub most_iterations: u32,
-    /// Iterations from one look at the residual to the next, which costs a read-back; at least 1.
+    /// The residual is computed, which costs a read-back, after every so many iterations; at least 1.
     pub check_every: u32,
 }
 
@@ -22,10 +22,10 @@ impl Default for CardOptions {
     }
 }
 
-/// Where a solution stands.
+/// The state of an iteration.
 #[derive(Clone, Copy, Debug)]
 pub struct Iteration<'a> {
-    /// Iterations done; 0 is the start.
+    /// Iterations done; 0 is the initial state.
     pub number: u32,
     /// The mean square of the residual in each channel: Figure 3's error.
     pub residual: [f64; 3],
@@ -33,17 +33,17 @@ pub struct Iteration<'a> {
     pub radiosity: &'a [[f32; 3]],
 }
 
-/// A solution, and how it was reached.
+/// A solution with its convergence history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSolution {
     /// Red, green and blue of each patch.
     pub radiosity: Vec<[f32; 3]>,
-    /// The iterations after which the residual was looked at, the start among them, and its mean square in each channel.
+    /// Iterations after which the residual was computed (0 is the initial one), with its mean square in each channel.
     pub history: Vec<(u32, [f64; 3])>,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// The cycle that the radiosities go round in for ever, or the fixed point at which they stay: why it ended without
-    /// the tolerance. `None` if it ended before one was found.
+    /// The cycle or fixed point in which the radiosities ended without meeting the tolerance. `None` if the iteration ended
+    /// before one was found.
     pub cycle: Option<Cycle>,
 }
 
@@ -56,13 +56,12 @@ impl CardSolution {
 }
 
 impl CardSolver {
-    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state that was
-    /// looked at comes back to the bit. `system` is what is on the card before it was rounded; `each` is told whenever
-    /// the residual is looked at.
+    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state repeats bit for
+    /// bit. `system` is the system on the card before rounding; `each` is called whenever the residual is computed.
     ///
     /// # Errors
     /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`], [`CardError::Machine`]. Reaching the
-    /// most iterations is none: [`CardSolution::converged`] tells.
+    /// maximum of iterations is no error: see [`CardSolution::converged`].
     pub fn solve(
         &mut self,
         system: &System,
@@ -71,12 +70,12 @@ impl CardSolver {
     ) -> Result<CardSolution, CardError> {
         super::same(super::PATCHES, self.len(), system.factors().len())?;
         let channels = [0, 1, 2];
-        let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right(c)));
+        let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right_hand_side(c)));
         let (mut history, mut number) = (Vec::new(), 0);
         let mut radiosity = self.read()?;
-        let mut seen = Seen::default();
+        let mut seen = SeenStates::default();
         loop {
-            let residual = system.residual(&widened(&radiosity));
+            let residual = system.residual(&to_f64(&radiosity));
             if residual.iter().any(|r| !r.is_finite()) {
                 return Err(CardError::Diverged { iterations: number });
             }
@@ -100,6 +99,8 @@ impl CardSolver {
     }
 }
 
-fn widened(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
+/// Radiosities read back from a card, as the host's solvers have them.
+#[must_use]
+pub fn to_f64(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
 }

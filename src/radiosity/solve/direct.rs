@@ -1,15 +1,15 @@
-//! The truth that iterations are held against.
+//! Reference solution by LU.
 
-use super::{Options, Problem, Progress, Solution, SolveError, residual, start};
+use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 use crate::linalg::Lu;
 
-/// One "iteration". The tolerance decides only whether it is called converged.
+/// Counts as one iteration. The tolerance only decides whether the solution counts as converged.
 pub(super) fn solve(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
-    let radiosity = Lu::new(problem.matrix)?.solve(problem.right);
-    let mut progress = Progress::new(problem, options);
-    progress.note(&residual(problem.matrix, problem.right, &start(problem)))?;
-    let left = residual(problem.matrix, problem.right, &radiosity);
-    progress.note(&left)?;
-    let converged = progress.history.last().is_some_and(|&error| error <= progress.target);
-    Ok(progress.into_solution(radiosity, converged))
+    let radiosity = Lu::new(problem.matrix)?.solve(problem.right_hand_side);
+    let mut history = IterationHistory::new(problem, options);
+    history.note(&residual(problem.matrix, problem.right_hand_side, &start(problem)))?;
+    let left = residual(problem.matrix, problem.right_hand_side, &radiosity);
+    history.note(&left)?;
+    let converged = history.errors.last().is_some_and(|&error| error <= history.target);
+    Ok(history.into_solution(radiosity, converged))
 }

@@ -1,4 +1,4 @@
-//! Solvers of equation 2 on the host, in f64, each with the history that Figure 3 plots.
+//! Solvers of equation 2 on the host, in f64, with the convergence history that Figure 3 plots.
 
 mod direct;
 mod relax;
@@ -14,23 +14,23 @@ use crate::linalg::{Matrix, Singular};
 /// How a system is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
-    /// Equations 3 and 4: all elements from the last round's.
+    /// Jacobi (equations 3 and 4): every element from those of the last iteration.
     Jacobi,
-    /// Each element from the newest of the others.
+    /// Gauss-Seidel: every element from the newest values of the others.
     GaussSeidel,
-    /// Gauss-Seidel, each step so many times as long: above 0 and below 2.
+    /// SOR with this relaxation factor, in (0, 2).
     OverRelaxation(f64),
-    /// Progressive refinement (Cohen and others, 1988): always the patch with the most light not yet sent on. An iteration is as many
-    /// patches as there are.
+    /// Progressive refinement (Cohen and others, 1988): shoots from the patch with the most unshot power. An iteration is as
+    /// many shots as there are patches.
     Shooting,
-    /// Elimination: no iterations.
+    /// LU factorisation: no iterations.
     Direct,
 }
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The residual's length as a share of the right side's at which an iteration stops.
+    /// The norm of the residual, relative to that of the right-hand side, at which an iteration stops.
     pub tolerance: f64,
     /// The most iterations.
     pub most_iterations: u32,
@@ -42,25 +42,25 @@ impl Default for Options {
     }
 }
 
-/// What is to be solved.
+/// A linear system with what solvers need beside it.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// M of equation 2. Its diagonal has no zero.
     pub matrix: &'a Matrix,
-    /// E.
-    pub right: &'a [f64],
-    /// The areas of the patches: shooting picks by power.
+    /// The right-hand side, E.
+    pub right_hand_side: &'a [f64],
+    /// The areas of the patches: shooting goes by power.
     pub areas: &'a [f64],
-    /// Where to begin; nothing means 0.
+    /// The initial guess; `None` means 0.
     pub start: Option<&'a [f64]>,
 }
 
-/// A solution, and how it was reached.
+/// A solution with its convergence history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// B.
     pub radiosity: Vec<f64>,
-    /// The mean square of the residual E - M B at the start and after each iteration: Figure 3's error.
+    /// The mean square of the residual E - M B, initially and after each iteration: Figure 3's error.
     pub history: Vec<f64>,
     /// Whether the tolerance was reached.
     pub converged: bool,
@@ -77,8 +77,8 @@ impl Solution {
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SolveError {
-    /// Not one element a row.
-    #[error("expected {rows} {what}, one a row of the matrix, found {found}")]
+    /// Not one element per row.
+    #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
     Count {
         /// What there is too much or too little of.
         what: &'static str,
@@ -87,8 +87,8 @@ pub enum SolveError {
         /// Elements found.
         found: usize,
     },
-    /// A step length for which over-relaxation cannot converge.
-    #[error("expected an over-relaxation above 0 and below 2, found {0}")]
+    /// A relaxation factor for which SOR cannot converge.
+    #[error("expected a relaxation factor above 0 and below 2, found {0}")]
     Relaxation(f64),
     /// A zero on the diagonal.
     #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
@@ -96,7 +96,7 @@ pub enum SolveError {
         /// The row.
         row: usize,
     },
-    /// The iteration runs away, or the input holds what is no number.
+    /// The iteration diverges, or the input holds NaN or infinity.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
     Diverged {
         /// Iterations done.
@@ -117,17 +117,22 @@ pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result
         Solver::Direct => direct::solve(problem, options),
         Solver::Jacobi => relax::jacobi(problem, options),
         Solver::GaussSeidel => relax::gauss_seidel(problem, 1.0, options),
-        Solver::OverRelaxation(step) if step > 0.0 && step < 2.0 => relax::gauss_seidel(problem, step, options),
-        Solver::OverRelaxation(step) => Err(SolveError::Relaxation(step)),
+        Solver::OverRelaxation(factor) if factor > 0.0 && factor < 2.0 => relax::gauss_seidel(problem, factor, options),
+        Solver::OverRelaxation(factor) => Err(SolveError::Relaxation(factor)),
         Solver::Shooting => shoot::shoot(problem, options),
     }
 }
 
 fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
-    let rows = problem.matrix.size();
-    let lists = [("emittances", Some(problem.right)), ("areas", Some(problem.areas)), ("radiosities", problem.start)];
-    for (what, list) in lists {
-        if let Some(found) = list.map(<[f64]>::len).filter(|&found| found != rows) {
+    let rows = problem.matrix.row_count();
+    let counts = [
+        ("columns", Some(problem.matrix.column_count())),
+        ("emittances", Some(problem.right_hand_side.len())),
+        ("areas", Some(problem.areas.len())),
+        ("radiosities", problem.start.map(<[f64]>::len)),
+    ];
+    for (what, count) in counts {
+        if let Some(found) = count.filter(|&found| found != rows) {
             return Err(SolveError::Count { what, rows, found });
         }
     }
@@ -137,49 +142,49 @@ fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
     }
 }
 
-/// An iteration under way: its history, and whether it may stop.
-struct Progress {
-    history: Vec<f64>,
+/// The mean squares of the residuals so far, and the stopping criterion.
+struct IterationHistory {
+    errors: Vec<f64>,
     target: f64,
-    most: u32,
+    max_iterations: u32,
 }
 
-impl Progress {
+impl IterationHistory {
     fn new(problem: &Problem<'_>, options: &Options) -> Self {
-        let target = options.tolerance * options.tolerance * mean_square(problem.right);
-        Self { history: Vec::new(), target, most: options.most_iterations }
+        let target = options.tolerance * options.tolerance * mean_square(problem.right_hand_side);
+        Self { errors: Vec::new(), target, max_iterations: options.most_iterations }
     }
 
-    /// Notes a residual; `Some` if that was the last: whether the tolerance is reached.
+    /// Records a residual. `Some` if the iteration ends here: whether the tolerance is reached.
     fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, SolveError> {
         let error = mean_square(residual);
         if !error.is_finite() {
-            return Err(SolveError::Diverged { iterations: self.history.len() });
+            return Err(SolveError::Diverged { iterations: self.errors.len() });
         }
-        self.history.push(error);
+        self.errors.push(error);
         let converged = error <= self.target;
-        Ok((converged || self.history.len() > self.most as usize).then_some(converged))
+        Ok((converged || self.errors.len() > self.max_iterations as usize).then_some(converged))
     }
 
     fn into_solution(self, radiosity: Vec<f64>, converged: bool) -> Solution {
-        Solution { radiosity, history: self.history, converged }
+        Solution { radiosity, history: self.errors, converged }
     }
 }
 
-/// The mean of the squares; 0 of nothing.
+/// The mean square; 0 for no values.
 #[must_use]
 pub fn mean_square(values: &[f64]) -> f64 {
     crate::linalg::dot(values, values) / values.len().max(1) as f64
 }
 
-/// E - M B.
+/// The residual, E - M B.
 #[must_use]
-pub fn residual(matrix: &Matrix, right: &[f64], radiosity: &[f64]) -> Vec<f64> {
-    matrix.times(radiosity).iter().zip(right).map(|(mb, e)| e - mb).collect()
+pub fn residual(matrix: &Matrix, right_hand_side: &[f64], radiosity: &[f64]) -> Vec<f64> {
+    matrix.times(radiosity).iter().zip(right_hand_side).map(|(mb, e)| e - mb).collect()
 }
 
 fn start(problem: &Problem<'_>) -> Vec<f64> {
-    problem.start.map_or_else(|| vec![0.0; problem.matrix.size()], <[f64]>::to_vec)
+    problem.start.map_or_else(|| vec![0.0; problem.matrix.row_count()], <[f64]>::to_vec)
 }
 
 impl fmt::Display for Solver {
@@ -187,16 +192,16 @@ impl fmt::Display for Solver {
         match self {
             Self::Jacobi => f.write_str("jacobi"),
             Self::GaussSeidel => f.write_str("gauss-seidel"),
-            Self::OverRelaxation(step) => write!(f, "sor:{step}"),
+            Self::OverRelaxation(factor) => write!(f, "sor:{factor}"),
             Self::Shooting => f.write_str("shooting"),
             Self::Direct => f.write_str("direct"),
         }
     }
 }
 
-/// Why a name is no solver's.
+/// No solver has this name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("expected `jacobi`, `gauss-seidel`, `sor:STEP` (0 < STEP < 2), `shooting` or `direct`, found `{0}`")]
+#[error("expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, found `{0}`")]
 pub struct UnknownSolver(pub String);
 
 impl FromStr for Solver {
@@ -210,8 +215,11 @@ impl FromStr for Solver {
             "shooting" => Ok(Self::Shooting),
             "direct" => Ok(Self::Direct),
             _ => {
-                let step = name.strip_prefix("sor:").and_then(|step| step.parse().ok());
-                step.filter(|&step: &f64| step > 0.0 && step < 2.0).map(Self::OverRelaxation).ok_or_else(unknown)
+                let factor = name.strip_prefix("sor:").and_then(|factor| factor.parse().ok());
+                factor
+                    .filter(|&factor: &f64| factor > 0.0 && factor < 2.0)
+                    .map(Self::OverRelaxation)
+                    .ok_or_else(unknown)
             }
         }
     }

@@ -1,16 +1,16 @@
-//! Iterations that go through the rows: Jacobi, Gauss-Seidel, over-relaxation.
+//! Relaxation methods: Jacobi, Gauss-Seidel, successive over-relaxation.
 
-use super::{Options, Problem, Progress, Solution, SolveError, residual, start};
+use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 use crate::linalg::dot;
 
-/// Equation 4; its residual is what the next step divides by the diagonal, so the history costs nothing.
+/// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no further product.
 pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
-    let mut progress = Progress::new(problem, options);
+    let mut history = IterationHistory::new(problem, options);
     loop {
-        let left = residual(problem.matrix, problem.right, &b);
-        if let Some(converged) = progress.note(&left)? {
-            return Ok(progress.into_solution(b, converged));
+        let left = residual(problem.matrix, problem.right_hand_side, &b);
+        if let Some(converged) = history.note(&left)? {
+            return Ok(history.into_solution(b, converged));
         }
         for ((b, r), d) in b.iter_mut().zip(&left).zip(&diagonal) {
             *b += r / d;
@@ -18,16 +18,16 @@ pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solutio
     }
 }
 
-/// Row by row, each from the newest values, each step `step` times as long. The history costs a product a sweep.
-pub(super) fn gauss_seidel(problem: &Problem<'_>, step: f64, options: &Options) -> Result<Solution, SolveError> {
+/// Gauss-Seidel with relaxation factor `factor`. The history costs one product per sweep.
+pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options) -> Result<Solution, SolveError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
-    let mut progress = Progress::new(problem, options);
+    let mut history = IterationHistory::new(problem, options);
     loop {
-        if let Some(converged) = progress.note(&residual(problem.matrix, problem.right, &b))? {
-            return Ok(progress.into_solution(b, converged));
+        if let Some(converged) = history.note(&residual(problem.matrix, problem.right_hand_side, &b))? {
+            return Ok(history.into_solution(b, converged));
         }
         for (i, row) in problem.matrix.rows().enumerate() {
-            b[i] += step * (problem.right[i] - dot(row, &b)) / diagonal[i];
+            b[i] += factor * (problem.right_hand_side[i] - dot(row, &b)) / diagonal[i];
         }
     }
 }

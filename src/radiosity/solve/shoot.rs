@@ -1,18 +1,18 @@
-//! Progressive refinement (Cohen, Chen, Wallace and Greenberg, 1988): Southwell's relaxation, picked by power.
+//! Progressive refinement (Cohen, Chen, Wallace and Greenberg, 1988): Southwell's relaxation, largest power first.
 
-use super::{Options, Problem, Progress, Solution, SolveError, residual, start};
+use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 
-/// The residual is the light not yet sent on. As many shots as patches make an iteration; then the residual is computed afresh, so that
-/// rounding does not gather in it.
+/// The residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is computed
+/// anew, so that rounding errors do not accumulate in it.
 pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
-    // A shot needs a column.
+    // A shot reads a column of the matrix.
     let columns = problem.matrix.transposed();
-    let mut progress = Progress::new(problem, options);
+    let mut history = IterationHistory::new(problem, options);
     loop {
-        let mut unshot = residual(problem.matrix, problem.right, &b);
-        if let Some(converged) = progress.note(&unshot)? {
-            return Ok(progress.into_solution(b, converged));
+        let mut unshot = residual(problem.matrix, problem.right_hand_side, &b);
+        if let Some(converged) = history.note(&unshot)? {
+            return Ok(history.into_solution(b, converged));
         }
         for _ in 0..b.len() {
             let i = brightest(&unshot, problem.areas);
@@ -26,7 +26,7 @@ pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution
     }
 }
 
-/// The patch with the most power to send on, the first of equals.
+/// The patch with the most unshot power, the first of equals.
 fn brightest(unshot: &[f64], areas: &[f64]) -> usize {
     let (mut best, mut at) = (-1.0, 0);
     for (i, (left, area)) in unshot.iter().zip(areas).enumerate() {

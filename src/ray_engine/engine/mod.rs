@@ -28,7 +28,7 @@ use refsim::timing::host::Operation;
 use super::barycentrics::plane_point;
 use super::host_tracer::HostTracer;
 use super::octree::{CellId, GpuCells};
-use super::pass::PassWish;
+use super::pass::PassRequirements;
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError, Hit};
 use crate::geom::{CastError, Caster, Mesh, Ray};
@@ -87,7 +87,7 @@ impl<'a> RayEngine<'a> {
         let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
         let EngineParameters { outputs, small_ids, cull, .. } = parameters;
-        let wish = PassWish { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
+        let wish = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
         let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, wish)?;
         let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {

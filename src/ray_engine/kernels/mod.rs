@@ -1,26 +1,10 @@
 //! The intersection programs as period assembly, embedded.
 
-/// A program text with the name under which messages speak of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct KernelText {
-    /// The file's name.
-    pub name: &'static str,
-    /// Its contents.
-    pub text: &'static str,
-}
-
-macro_rules! kernels {
-    ($($constant:ident $file:literal)*) => {
-        $(
-            #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
-            pub const $constant: KernelText = KernelText { name: $file, text: include_str!($file) };
-        )*
-        /// Every program of this folder.
-        pub const ALL: &[KernelText] = &[$($constant),*];
-    };
-}
+use crate::card::kernels;
 
 kernels! {
+    /// Every program of this folder.
+    ALL:
     ONE_ORIGIN_SETUP "one_origin.vsa"
     ONE_ORIGIN_BOTH_SETUP "one_origin_both.vsa"
     ANY_ORIGIN_SETUP "any_origin.vsa"

@@ -1,5 +1,6 @@
 //! Photons from the lamps to where they land.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::Hit;
@@ -8,7 +9,6 @@ use crate::renderer::lobes::{Lobes, one_way};
 use crate::renderer::photon_map::Photon;
 use crate::renderer::surfel::Surfel;
 use crate::renderer::tracer::{Kind, Tracer};
-use crate::renderer::vector::{Vec3, dot, largest, mul, scale};
 use crate::renderer::wave::{Dice, Flight};
 use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
@@ -60,7 +60,7 @@ impl Shot<'_> {
         let first = FIRST + if self.caustic { CAUSTIC } else { 0 };
         let dice = Dice::new(self.settings.seed, first + u64::from(photon), 0);
         let leaving = self.lamps.leaving(|n| dice.before(n))?;
-        let weight = scale(leaving.power, 1.0 / f64::from(self.count));
+        let weight = 1.0 / f64::from(self.count) * leaving.power;
         Some(Flight { kind: Kind::Photon, weight, ..Flight::eye(leaving.ray, photon - start, dice) })
     }
 
@@ -89,7 +89,7 @@ impl Shot<'_> {
             let next = way.and_then(|way| {
                 let next = go_on(flight, &surfel, way.towards, way.weight)?;
                 // Apart from the weight, so that roulette takes no heed of what comes back at the way out.
-                Some(Flight { weight: scale(next.weight, way.squeeze), ..next })
+                Some(Flight { weight: way.squeeze * next.weight, ..next })
             });
             return Landing { stored: None, next };
         };
@@ -105,25 +105,25 @@ impl Shot<'_> {
         let chosen = lobes.choose(&surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4));
         let next = chosen.and_then(|chosen| {
             let turned = adjoint(&surfel, chosen.towards);
-            go_on(flight, &surfel, chosen.towards, scale(chosen.weight, turned))
+            go_on(flight, &surfel, chosen.towards, turned * chosen.weight)
         });
         Landing { stored, next }
     }
 }
 
 /// What light weighs more than importance at a shading normal (Veach 1997, equation 5.19).
-fn adjoint(surfel: &Surfel<'_>, towards: Vec3) -> f64 {
-    let smooth = dot(surfel.view, surfel.shading) * dot(towards, surfel.normal);
-    let flat = dot(surfel.view, surfel.normal) * dot(towards, surfel.shading);
+fn adjoint(surfel: &Surfel<'_>, towards: DVec3) -> f64 {
+    let smooth = surfel.view.dot(surfel.shading) * towards.dot(surfel.normal);
+    let flat = surfel.view.dot(surfel.normal) * towards.dot(surfel.shading);
     if flat > 0.0 { smooth / flat } else { 0.0 }
 }
 
 /// Goes on with a chance of the weight, so that power stays about what it was.
-fn go_on(flight: &Flight, surfel: &Surfel<'_>, towards: Vec3, weight: Vec3) -> Option<Flight> {
-    let chance = largest(weight).min(1.0);
+fn go_on(flight: &Flight, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<Flight> {
+    let chance = weight.max_element().min(1.0);
     if chance <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
         return None;
     }
-    let power = mul(flight.weight, scale(weight, 1.0 / chance));
+    let power = flight.weight * (1.0 / chance * weight);
     Some(flight.on(surfel.ray(towards)?, Kind::Photon, power))
 }

@@ -18,11 +18,12 @@ use super::photon_map::{Photon, PhotonMap};
 use super::sampling::cosine;
 use super::surfel::Surfel;
 use super::tracer::{Kind, Tracer, Watch};
-use super::vector::{add, dot, largest, mul, scale, wide};
 use super::wave::{Flight, Scatter, Shade};
-use super::{RenderError, Settings, Vec3, distributed};
+use super::{RenderError, Settings, distributed};
+use crate::geom::vector::wide;
 use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use glam::DVec3;
 
 /// The least cosine by which a photon's flux is turned back into what a shading normal makes of it.
 const LEAST_COSINE: f64 = 0.01;
@@ -45,10 +46,7 @@ pub struct Photons {
 impl Photons {
     /// 100,000 photons for each map, 60 nearest within 1/20 of the scene's diagonal, 16 gather rays.
     pub fn for_scene(scene: &Scene) -> Self {
-        let diagonal = scene.mesh().bounds().map_or(1.0, |[low, high]| {
-            let way = super::vector::sub(wide(high), wide(low));
-            dot(way, way).sqrt()
-        });
+        let diagonal = scene.mesh().bounds().map_or(1.0, |[low, high]| (wide(high) - wide(low)).length());
         Self { global: 100_000, caustic: 100_000, nearest: 60, radius: diagonal / 20.0, gather: 16 }
     }
 
@@ -97,17 +95,17 @@ struct Gathering<'a> {
 impl Shade for Gathering<'_> {
     fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Scatter::of(mul(flight.weight, wide(self.settings.background)));
+            return Scatter::of(flight.weight * wide(self.settings.background));
         };
         // Gather rays carry a density. They see no lamps: shadow rays and the caustic map have counted those.
         let gathers = flight.density.is_some();
-        let seen = if gathers { [0.0; 3] } else { Lamps::seen(&surfel) };
-        let mut scatter = Scatter::of(mul(flight.weight, seen));
+        let seen = if gathers { DVec3::ZERO } else { Lamps::seen(&surfel) };
+        let mut scatter = Scatter::of(flight.weight * seen);
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) if gathers => {
                 let light = self.estimate(self.global, &surfel, &lobes);
-                scatter.light = add(scatter.light, mul(flight.weight, light));
+                scatter.light += flight.weight * light;
             }
             Some(lobes) => self.scatter(flight, &surfel, lobes, more, &mut scatter),
             None if more => distributed::go_on(flight, &surfel, &mut scatter),
@@ -120,7 +118,7 @@ impl Shade for Gathering<'_> {
 impl Gathering<'_> {
     fn scatter(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
         let diffuse = lobes.diffuse();
-        if largest(lobes.albedo) > 0.0 {
+        if lobes.albedo.max_element() > 0.0 {
             let landed = if self.photons.gather == 0 {
                 self.estimate(self.global, surfel, &diffuse)
             } else {
@@ -128,9 +126,9 @@ impl Gathering<'_> {
                 self.gather(flight, surfel, &lobes, scatter);
                 self.estimate(self.caustic, surfel, &diffuse)
             };
-            scatter.light = add(scatter.light, mul(flight.weight, landed));
+            scatter.light += flight.weight * landed;
         }
-        if more && largest(lobes.specular) > 0.0 {
+        if more && lobes.specular.max_element() > 0.0 {
             distributed::gloss(flight, surfel, lobes, scatter);
         }
     }
@@ -138,26 +136,26 @@ impl Gathering<'_> {
     /// Rays by the cosine, so that each weighs the albedo over their number.
     fn gather(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let rays = self.photons.gather;
-        let weight = scale(mul(flight.weight, lobes.albedo), 1.0 / f64::from(rays));
+        let weight = 1.0 / f64::from(rays) * (flight.weight * lobes.albedo);
         for ray in 0..u64::from(rays) {
             let dice = flight.dice.branch(1 + ray);
             let towards = cosine(surfel.shading, dice.pair(flight.depth, 4));
-            if dot(towards, surfel.normal) <= 0.0 {
+            if towards.dot(surfel.normal) <= 0.0 {
                 continue;
             }
-            let density = Some(dot(towards, surfel.shading).max(0.0));
+            let density = Some(towards.dot(surfel.shading).max(0.0));
             let next = surfel.ray(towards).map(|ray| flight.on(ray, Kind::Gather, weight));
             scatter.next.extend(next.map(|next| Flight { density, dice, ..next }));
         }
     }
 
     /// Radiance by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading normal.
-    fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> Vec3 {
+    fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> DVec3 {
         let Photons { nearest, radius, .. } = *self.photons;
         map.density(surfel.place.at, surfel.normal, nearest as usize, radius, |photon: &Photon| {
             let (value, _) = lobes.evaluate(surfel, photon.from);
-            let cosine = dot(photon.from, surfel.normal).max(LEAST_COSINE);
-            mul(photon.power, scale(value, 1.0 / cosine))
+            let cosine = photon.from.dot(surfel.normal).max(LEAST_COSINE);
+            photon.power * (1.0 / cosine * value)
         })
     }
 }

@@ -127,14 +127,12 @@ fn block(room: &mut Builder, floor: [[f32; 2]; 4], height: f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::vector::wide;
 
     #[test]
     fn closed_rooms_are_watertight_and_face_inwards() {
         let volume = |scene: &Scene| {
-            let six = |[a, b, c]: [[f32; 3]; 3]| {
-                let [a, b, c] = [a, b, c].map(|corner| corner.map(f64::from));
-                crate::geom::vector::dot(a, crate::geom::vector::cross(b, c))
-            };
+            let six = |[a, b, c]: [[f32; 3]; 3]| wide(a).dot(wide(b).cross(wide(c)));
             scene.mesh().iter_corners().map(six).sum::<f64>() / 6.0
         };
         assert!((volume(&furnace(0.5)) + 1.0).abs() < 1e-12);

@@ -81,7 +81,7 @@ pub struct Row {
     /// Why it stopped.
     pub stopped: Stopped,
     /// Light that it leaves unaccounted for, of what is emitted; the largest of the channels.
-    pub imbalance: f64,
+    pub energy_balance_error: f64,
     /// How far it is from the direct solution, if that was asked for.
     pub off: Option<Difference>,
     /// On a card.
@@ -175,7 +175,7 @@ fn row(
     Ok(Row {
         label: one.way.label(&parameters.profile),
         residual: (last / one.emitted).sqrt(),
-        imbalance: imbalance(system, &one.radiosity),
+        energy_balance_error: energy_balance_error(system, &one.radiosity),
         off: truth.map(|truth| Difference::between(&one.radiosity, truth, system.emittance())),
         pictures,
         card,
@@ -188,8 +188,8 @@ fn row(
 }
 
 /// Light unaccounted for, of what is emitted; the largest of the channels that emit.
-fn imbalance(system: &System, radiosity: &[[f64; 3]]) -> f64 {
-    let left = system.imbalance(radiosity);
+fn energy_balance_error(system: &System, radiosity: &[[f64; 3]]) -> f64 {
+    let left = system.energy_balance_error(radiosity);
     let emitted = |c: usize| -> f64 {
         system.factors().areas().iter().zip(system.emittance()).map(|(area, e)| area * e[c]).sum()
     };

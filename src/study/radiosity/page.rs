@@ -65,7 +65,7 @@ fn patches(outcome: &Outcome) -> Table {
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("Patches", &headings);
     for (i, patch) in outcome.patches.list().iter().enumerate() {
-        let [x, y, z] = patch.centre();
+        let [x, y, z] = patch.center().into();
         let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
         let areas: [Cell; 2] = [patch.area().into(), outcome.patches.open_area(i).into()];
         let parts: [Cell; 2] = [patch.face.into(), patch.material.into()];

@@ -5,14 +5,14 @@ use refsim::texture::TexelFormat;
 
 use super::way::{CardFacts, Solved};
 use super::{Parameters, StudyError, Way, time};
-use crate::radiosity::display::{Display, DisplayOptions, Picture};
+use crate::radiosity::display::{CardPicture, Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
 use crate::renderer::tone;
 
 /// Linear light that is seen as the middle between black and white.
 const MIDDLE_GREY: f64 = 0.18;
 /// Rec. 709's weights of red, green and blue.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
 /// The card keeps all digits; the curve of a display comes after it.
 const OPTIONS: DisplayOptions =
     DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
@@ -42,7 +42,7 @@ pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
         if e.iter().all(|&e| e == 0.0) {
-            light += patches.open_area(i) * crate::geom::vector::dot(LUMINANCE, *b) / std::f64::consts::PI;
+            light += patches.open_area(i) * LUMINANCE.dot((*b).into()) / std::f64::consts::PI;
             area += patches.open_area(i);
         }
     }
@@ -116,6 +116,6 @@ impl<'a> Studio<'a> {
 }
 
 /// Through the curve of a display; the program has multiplied by the exposure already.
-fn bytes(picture: &Picture) -> Vec<u8> {
+fn bytes(picture: &CardPicture) -> Vec<u8> {
     tone::bytes(&picture.pixels, 1.0)
 }

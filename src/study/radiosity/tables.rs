@@ -117,7 +117,7 @@ fn ways(outcome: &Outcome) -> Table {
             if row.way == Way::DIRECT { Cell::Empty } else { row.iterations().into() },
             row.stopped.to_string().into(),
             digits(row.residual, 3),
-            digits(row.imbalance, 3),
+            digits(row.energy_balance_error, 3),
             off(|off| off.largest),
             off(|off| off.relative),
             off(|off| off.bias),

@@ -9,7 +9,7 @@ use super::change::Relit;
 use super::time::IterationTime;
 use super::{Parameters, StudyError};
 use crate::radiosity::System;
-use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage};
+use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage, to_f64};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Options, Solver, mean_square};
 
@@ -117,7 +117,7 @@ impl fmt::Display for Stopped {
 
 /// The mean square of what is emitted, over all channels.
 fn emitted(system: &System) -> f64 {
-    mean([0, 1, 2].map(|c| mean_square(&system.right(c))))
+    mean([0, 1, 2].map(|c| mean_square(&system.right_hand_side(c))))
 }
 
 fn mean([r, g, b]: [f64; 3]) -> f64 {
@@ -182,10 +182,10 @@ fn on_card(
     let mut kept = Vec::new();
     let found = card.solve(system, &options, &mut |at| {
         if parameters.frames.contains(&at.number) {
-            kept.push((at.number, widened(at.radiosity)));
+            kept.push((at.number, to_f64(at.radiosity)));
         }
     })?;
-    let radiosity = widened(&found.radiosity);
+    let radiosity = to_f64(&found.radiosity);
     let relit = changed.map(|changed| -> Result<Relit, StudyError> {
         let mut run = |start: &[[f32; 3]]| {
             card.load(start)?;
@@ -198,7 +198,7 @@ fn on_card(
         card.load(&found.radiosity)?;
         card.set_system(system)?;
         let count = |s: &CardSolution| s.converged.then(|| s.iterations() as usize);
-        Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: widened(&again.radiosity) })
+        Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: to_f64(&again.radiosity) })
     });
     let relit = relit.transpose()?;
     Ok(Solved {
@@ -211,8 +211,4 @@ fn on_card(
         card: Some(card),
         kept,
     })
-}
-
-fn widened(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
-    radiosity.iter().map(|b| b.map(f64::from)).collect()
 }

@@ -2,33 +2,20 @@
 
 use std::f64::consts::PI;
 
+use crossbar::geom::vector::wide;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::{Picture, Settings, distributed, path};
 use crossbar::scene::Scene;
+use glam::DVec3;
 
 use super::{Builder, host, lamp, needle, settings, white, within_chance};
 
-type Vec3 = [f64; 3];
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: Vec3) -> Vec3 {
-    let length = dot(a, a).sqrt();
-    a.map(|x| x / length)
-}
-
 /// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle at which it is
 /// seen times the cosine between z and the normal of the plane through it and the origin.
-fn lambert(corners: &[Vec3]) -> f64 {
+fn lambert(corners: &[DVec3]) -> f64 {
     let side = |i: usize| {
-        let (a, b) = (unit(corners[i]), unit(corners[(i + 1) % corners.len()]));
-        libm::acos(dot(a, b)) * unit(cross(a, b))[2]
+        let (a, b) = (corners[i].normalize(), corners[(i + 1) % corners.len()].normalize());
+        libm::acos(a.dot(b)) * a.cross(b).normalize().z
     };
     ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
 }
@@ -44,7 +31,8 @@ fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
     let mut builder = Builder::default();
     builder.quad([-3.0, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], white(0.75));
     builder.quad(corner, u, v, lamp([2.0, 1.0, 0.5]));
-    let at = |a: f32, b: f32| [0, 1, 2].map(|k| f64::from(corner[k] + a * u[k] + b * v[k]));
+    let [corner, u, v] = [corner, u, v].map(wide);
+    let at = |a: f64, b: f64| corner + a * u + b * v;
     let factor = lambert(&[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)]);
     (builder.scene(), factor)
 }

@@ -12,7 +12,7 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::HostTracer;
 use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::renderer::{Picture, Settings, Vec3};
+use crossbar::renderer::{Picture, Settings};
 use crossbar::scene::{Camera, Color, Material, Scene, Surface};
 
 /// Squares and triangles with a material each, put together.
@@ -85,7 +85,7 @@ fn needle(eye: [f32; 3], target: [f32; 3]) -> Camera {
     Camera::new(eye, target, up, 1e-6, 1, 1).expect("a camera")
 }
 
-fn near(found: Vec3, expected: Vec3, within: f64) {
+fn near(found: [f64; 3], expected: [f64; 3], within: f64) {
     for channel in 0..3 {
         let wrong = (found[channel] - expected[channel]).abs();
         assert!(wrong <= within, "found {found:?}, expected {expected:?} within {within}");
@@ -116,7 +116,7 @@ fn room_camera(width: u32, height: u32) -> Camera {
 const FAR: f64 = 4.5;
 
 /// Holds one pixel against what is expected of it.
-fn within_chance(picture: &Picture, pixel: usize, expected: Vec3) {
+fn within_chance(picture: &Picture, pixel: usize, expected: [f64; 3]) {
     let variances = picture.variance[pixel];
     for ((found, variance), expected) in picture.color[pixel].into_iter().zip(variances).zip(expected) {
         let spread = variance.sqrt();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crossbar::renderer::{Settings, Vec3, whitted};
+use crossbar::renderer::{Settings, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
 
 use super::{Builder, host, lamp, near, needle, of, settings, white};
@@ -17,7 +17,7 @@ fn render(scene: &Scene, camera: &Camera, settings: &Settings) -> crossbar::rend
     picture
 }
 
-fn one(scene: &Scene, eye: [f32; 3], target: [f32; 3]) -> Vec3 {
+fn one(scene: &Scene, eye: [f32; 3], target: [f32; 3]) -> [f64; 3] {
     render(scene, &needle(eye, target), &settings()).color[0]
 }
 

@@ -8,13 +8,13 @@ use crossbar::radiosity::solve::{Options, Problem, Solver, solve};
 use super::{cornell, random_system};
 
 fn truth(matrix: &Matrix, right: &[f64]) -> Vec<f64> {
-    let problem = Problem { matrix, right, areas: &vec![1.0; right.len()], start: None };
+    let problem = Problem { matrix, right_hand_side: right, areas: &vec![1.0; right.len()], start: None };
     solve(Solver::Direct, &problem, &Options::default()).expect("a solution").radiosity
 }
 
 /// Error, running bound, bound before any step; the second no less than the first and no more than the third.
 fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u32) {
-    let value = |b: &crossbar::radiosity::packing::Texels, i: usize, c: usize| {
+    let value = |b: &crossbar::card::Texels, i: usize, c: usize| {
         f64::from(if systems.len() == 3 { b.texels[i][c] } else { b.texels[i / 4][i % 4] })
     };
     let truths: Vec<Vec<f64>> = systems.iter().map(|(m, e)| truth(m, e)).collect();
@@ -48,7 +48,7 @@ fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u
 #[test]
 fn the_cornell_box_stays_within_its_bound() {
     let system = cornell(300);
-    let systems = [0, 1, 2].map(|c| (system.matrix(c), system.right(c)));
+    let systems = [0, 1, 2].map(|c| (system.matrix(c), system.right_hand_side(c)));
     check("RGB", &CardSystem::rgb(&system, 254, 2048).expect("it fits"), &systems, 110);
     for (matrix, right) in systems {
         let card = CardSystem::luminance(matrix.clone(), &right, 254, 2048).expect("it fits");

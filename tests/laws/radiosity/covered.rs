@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crossbar::geom::random::Keyed;
-use crossbar::geom::vector::Vec3;
+use crossbar::geom::vector::narrow;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
@@ -11,6 +11,7 @@ use crossbar::radiosity::{FormFactors, Patch, Patches, Subdivision, System};
 use crossbar::renderer::Settings;
 use crossbar::renderer::path::{self, Direct};
 use crossbar::scene::{Camera, Scene};
+use glam::DVec3;
 
 use super::tracer;
 
@@ -35,7 +36,7 @@ fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
 }
 
 /// Whether a point of the floor is under a block: on the same side of all sides of its foot.
-fn under_a_block([x, y, _]: Vec3) -> bool {
+fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
     FEET.iter().any(|foot| {
         (0..4).all(|i| {
             let ([ax, ay], [bx, by]) = (foot[i], foot[(i + 1) % 4]);
@@ -45,7 +46,7 @@ fn under_a_block([x, y, _]: Vec3) -> bool {
 }
 
 /// Points of a patch that no block stands on, and the share of all that they are.
-fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<Vec3>, f64) {
+fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
     let random = Keyed::new(seed);
     let (mut points, mut tried) = (Vec::new(), 0);
     while (points.len() as u64) < count && tried < 1000 * count {
@@ -60,11 +61,16 @@ fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<Vec3>, f64) {
 }
 
 /// The radiosity around a point by paths: one pixel, looked at from just above.
-fn radiosity_by_paths(scene: &Scene, caster: &mut dyn crossbar::geom::Caster, at: [Vec3; 2], samples: u32) -> [f64; 3] {
+fn radiosity_by_paths(
+    scene: &Scene,
+    caster: &mut dyn crossbar::geom::Caster,
+    at: [DVec3; 2],
+    samples: u32,
+) -> [f64; 3] {
     let [point, normal] = at;
-    let eye = [0, 1, 2].map(|k| (point[k] + 0.02 * normal[k]) as f32);
+    let eye = narrow(point + 0.02 * normal);
     let up = if normal[2].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let camera = Camera::new(eye, point.map(|x| x as f32), up, 1e-3, 1, 1).expect("a camera");
+    let camera = Camera::new(eye, narrow(point), up, 1e-3, 1, 1).expect("a camera");
     let settings = Settings { samples, depth: 40, seed: (point[0] * 1e6) as u64, ..Settings::default() };
     let picture = path::render(scene, &camera, &settings, Direct::Both, caster, &mut |_| ()).expect("a pixel");
     picture.color[0].map(|l| PI * l)
@@ -88,7 +94,7 @@ fn open_areas_are_what_the_feet_leave() {
     let finest = 4.0 * (3.0_f64 * 5.5 * 5.5).sqrt() / 65_536.0;
     for count in [20, 150, 700, 2000] {
         let patches = Patches::new(&scene, Subdivision::AtMost(count)).expect("patches");
-        let floor = |i: &usize| patches.list()[*i].normal()[2] > 0.5 && patches.list()[*i].centre()[2] == 0.0;
+        let floor = |i: &usize| patches.list()[*i].normal()[2] > 0.5 && patches.list()[*i].center()[2] == 0.0;
         let open: f64 = (0..patches.list().len()).filter(floor).map(|i| patches.open_area(i)).sum();
         let left = 5.5 * 5.5 - feet;
         assert!((open - left).abs() <= finest * perimeter, "{count} patches: {open}, expected {left}");
@@ -139,7 +145,7 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
     let closed = solved(&patches, &factors);
     let mut caster = tracer(&scene);
     let (mut compared, mut bias) = (0, [const { Vec::new() }; 3]);
-    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.centre()[2] == 0.0) {
+    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.center()[2] == 0.0) {
         let (points, share) = open_points(patch, 24, 5);
         if !(0.01..0.35).contains(&share) {
             continue;

@@ -20,7 +20,7 @@ fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
 /// A random room of a few patches.
 fn small(size: usize, seed: u64) -> System {
     let (matrix, right) = random_system(size, 0.9, seed);
-    let mut factors = crossbar::linalg::Matrix::zero(size).expect("small");
+    let mut factors = crossbar::linalg::Matrix::zeros([size; 2]).expect("small");
     for i in 0..size {
         let diagonal = matrix.row(i)[i];
         for j in (0..size).filter(|&j| j != i) {

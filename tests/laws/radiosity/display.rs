@@ -1,12 +1,13 @@
 //! The card's picture: what a pixel shows is what exact arithmetic finds there.
 
 use crossbar::geom::exact::{Sides, nearest_all};
-use crossbar::geom::vector::{Vec3, add, cross, dot, scale, sub};
+use crossbar::geom::vector::{narrow, wide};
 use crossbar::geom::{Mesh, Ray};
-use crossbar::radiosity::display::{Display, DisplayOptions, Picture, VectorTexture, at_corners};
+use crossbar::radiosity::display::{CardPicture, Display, DisplayOptions, VectorTexture, at_corners};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
+use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind, Machine};
 use refsim::texture::TexelFormat;
@@ -35,26 +36,26 @@ fn colours(patches: &Patches) -> Vec<[f64; 3]> {
 
 /// A point of the picture as a ray, in pixels from the upper left corner.
 fn ray(camera: &Camera, [x, y]: [f64; 2]) -> Ray {
-    Ray::new(camera.eye(), camera.direction_at(x, y).map(|d| d as f32)).expect("a ray")
+    Ray::new(camera.eye(), narrow(camera.direction_at(x, y))).expect("a ray")
 }
 
-fn holds(patch: &Patch, point: Vec3) -> bool {
+fn holds(patch: &Patch, point: DVec3) -> bool {
     let corners = patch.corners();
     let inside = |i: usize| {
-        let side = sub(corners[(i + 1) % corners.len()], corners[i]);
-        dot(cross(side, sub(point, corners[i])), patch.normal()) >= 0.0
+        let side = corners[(i + 1) % corners.len()] - corners[i];
+        side.cross(point - corners[i]).dot(patch.normal()) >= 0.0
     };
     (0..corners.len()).all(inside)
 }
 
 /// Which patch each point of the picture shows by exact hits, and where it is hit.
-fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<(usize, Vec3)>> {
+fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<(usize, DVec3)>> {
     let rays: Vec<Ray> = points.iter().map(|&point| ray(camera, point)).collect();
     let hits = nearest_all(patches.mesh(), &rays, Sides::Both);
     let found = |(ray, hit): (&Ray, Option<crossbar::geom::exact::NearestHit>)| {
         let hit = hit?;
-        let [origin, direction] = [ray.origin(), ray.direction()].map(|v| v.map(f64::from));
-        let (point, face) = (add(origin, scale(hit.t.to_f64(), direction)), patches.face_of(hit.triangle));
+        let [origin, direction] = [ray.origin(), ray.direction()].map(wide);
+        let (point, face) = (origin + hit.t.to_f64() * direction, patches.face_of(hit.triangle));
         let seen = |patch: &Patch| patch.face == face && patch.height(origin) > 0.0 && holds(patch, point);
         patches.list().iter().position(seen).map(|patch| (patch, point))
     };
@@ -62,7 +63,7 @@ fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<
 }
 
 /// The patch of each pixel if its centre is farther than [`SNAPPED`] from any other; the outer `None` marks those that are not.
-fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, Vec3)>>> {
+fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, DVec3)>>> {
     let around = [[0.0, 0.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let pixels = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| [x, y]));
     let points: Vec<[f64; 2]> =
@@ -122,8 +123,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     let camera = scene.views[0].camera(64, 64).expect("a camera");
     let mut machine = card("nv35");
     let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
-    let slope = |[x, y, z]: Vec3| [1.0 + x + 2.0 * y, 1.0 + z * z, 1.0 + x * y];
-    let radiosity: Vec<[f64; 3]> = patches.list().iter().map(|patch| slope(patch.centre())).collect();
+    let slope = |DVec3 { x, y, z }| [1.0 + x + 2.0 * y, 1.0 + z * z, 1.0 + x * y];
+    let radiosity: Vec<[f64; 3]> = patches.list().iter().map(|patch| slope(patch.center())).collect();
     let corners = at_corners(&patches, &radiosity);
     let texture = display.upload(&mut machine, &radiosity).expect("a texture");
     let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
@@ -132,8 +133,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
         let Some(Some((patch, point))) = certain else { continue };
         let values = &corners[patch];
         let [a, b, _, d] = *patches.list()[patch].corners() else { panic!("a quadrilateral") };
-        let share = |side: Vec3| dot(sub(point, a), side) / dot(side, side);
-        let (u, v) = (share(sub(b, a)), share(sub(d, a)));
+        let share = |side: DVec3| (point - a).dot(side) / side.dot(side);
+        let (u, v) = (share(b - a), share(d - a));
         for c in 0..3 {
             let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
             let want: f64 = weights.iter().zip(values).map(|(w, corner)| w * corner[c]).sum();
@@ -191,7 +192,7 @@ fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
     let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
     let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
     let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
-    let bits = |picture: Picture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
+    let bits = |picture: CardPicture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
     let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
     let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
     let ids = display.ids(&mut machine).expect("ids");

@@ -6,7 +6,7 @@ use crossbar::radiosity::form_factor::FormFactorError;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{SolveError, Solver};
 use crossbar::radiosity::{
-    DrawError, FormFactors, MOST_PATCHES, PatchError, Patches, Subdivision, System, SystemError, packing,
+    DrawError, FormFactors, MAX_PATCHES, PatchError, Patches, Subdivision, System, SystemError, packing,
 };
 use crossbar::scene::{Material, Scene, Surface};
 
@@ -30,7 +30,7 @@ fn scenes_that_make_no_patches() {
     let good = scene(corners.clone(), vec![[0, 1, 2]], white());
     assert_eq!(Patches::new(&good, Subdivision::PerSide(0)), Err(PatchError::NoParts));
     assert_eq!(Patches::new(&good, Subdivision::PerSide(200)), Err(PatchError::TooMany { found: 40_000 }));
-    assert!(Patches::new(&good, Subdivision::AtMost(MOST_PATCHES)).is_ok());
+    assert!(Patches::new(&good, Subdivision::AtMost(MAX_PATCHES)).is_ok());
     let mirror = Material { surface: Surface::Mirror { reflectance: [1.0; 3] }, ..white() };
     let found = Patches::new(&scene(corners, vec![[0, 1, 2]], mirror), one);
     assert_eq!(found, Err(PatchError::NotDiffuse { name: "white".to_owned(), found: "a mirror" }));
@@ -76,8 +76,8 @@ fn a_matrix_beyond_the_cards_textures_names_the_limit() {
 #[test]
 fn every_refusal_in_its_words() {
     let factor: [FormFactorError; 9] = [
-        MatrixError::TooLarge { rows: 20_000 }.into(),
-        MatrixError::Shape { rows: 3, values: 8 }.into(),
+        MatrixError::TooLarge { rows: 20_000, columns: 20_000 }.into(),
+        MatrixError::Count { rows: 3, columns: 3, values: 8 }.into(),
         FormFactorError::Areas { rows: 6, areas: 5 },
         FormFactorError::Value { expected: "an area above 0", value: -1.0, patch: 2 },
         FormFactorError::Open { patch: 7, sum: 0.75, open: 3, blind: 2, patches: 60, tolerance: 1e-3 },

@@ -2,12 +2,12 @@
 
 use crossbar::geom::Mesh;
 use crossbar::geom::random::Keyed;
-use crossbar::geom::vector::Vec3;
 use crossbar::radiosity::form_factor::rectangles::{Bounded, parallel, perpendicular};
 use crossbar::radiosity::form_factor::{VisibilityParameters, point_to_polygon};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision};
 use crossbar::scene::{Material, Scene};
+use glam::DVec3;
 
 use super::tracer;
 
@@ -19,20 +19,20 @@ fn cube(per_side: u32) -> Patches {
 }
 
 /// The closed form for two patches of the unit cube.
-fn closed_form(one: &[Vec3], other: &[Vec3]) -> Option<Bounded> {
-    let span = |corners: &[Vec3], axis: usize| {
+fn closed_form(one: &[DVec3], other: &[DVec3]) -> Option<Bounded> {
+    let span = |corners: &[DVec3], axis: usize| {
         let values = corners.iter().map(|corner| corner[axis]);
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     };
     let flat =
-        |corners: &[Vec3]| (0..3).find(|&axis| span(corners, axis)[0] == span(corners, axis)[1]).expect("on a wall");
+        |corners: &[DVec3]| (0..3).find(|&axis| span(corners, axis)[0] == span(corners, axis)[1]).expect("on a wall");
     let (a, b) = (flat(one), flat(other));
     if a == b {
         let apart = (one[0][a] - other[0][a]).abs();
-        let across = |corners: &[Vec3]| [span(corners, (a + 1) % 3), span(corners, (a + 2) % 3)];
+        let across = |corners: &[DVec3]| [span(corners, (a + 1) % 3), span(corners, (a + 2) % 3)];
         return (apart > 0.0).then(|| parallel(across(one), across(other), apart));
     }
-    let (along, wall) = (3 - a - b, |corners: &[Vec3], axis: usize, at: f64| {
+    let (along, wall) = (3 - a - b, |corners: &[DVec3], axis: usize, at: f64| {
         let [low, high] = span(corners, axis).map(|x| (x - at).abs());
         [low.min(high), low.max(high)]
     });
@@ -147,7 +147,7 @@ fn enforcement_closes_rows_and_keeps_reciprocity() {
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     // Spoil them by up to a tenth.
     let mut spoilt = factors.matrix().clone();
-    for i in 0..spoilt.size() {
+    for i in 0..spoilt.row_count() {
         for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
             *value *= 0.9 + 0.2 * Keyed::new(3).unit(i as u64, j as u64, 0);
         }
@@ -162,8 +162,8 @@ fn enforcement_closes_rows_and_keeps_reciprocity() {
 #[test]
 fn a_point_sees_of_a_patch_what_rays_find() {
     let random = Keyed::new(8);
-    let patch = [[0.3, 2.0, -0.5], [1.4, 2.2, 0.6], [0.2, 1.9, 1.5], [-0.9, 1.7, 0.4]];
-    let factor = point_to_polygon([0.0; 3], [0.0, 1.0, 0.0], &patch);
+    let patch = [[0.3, 2.0, -0.5], [1.4, 2.2, 0.6], [0.2, 1.9, 1.5], [-0.9, 1.7, 0.4]].map(DVec3::from);
+    let factor = point_to_polygon(DVec3::ZERO, DVec3::Y, &patch);
     // Uniform points of the disc are a cosine-distributed direction each (Nusselt's analogue).
     let (mut hits, mut all) = (0_u32, 0_u32);
     for i in 0..200_000 {
@@ -171,7 +171,7 @@ fn a_point_sees_of_a_patch_what_rays_find() {
         let square = x * x + z * z;
         if square < 1.0 {
             all += 1;
-            hits += u32::from(pierces(&patch, [x, (1.0 - square).sqrt(), z]));
+            hits += u32::from(pierces(&patch, DVec3::new(x, (1.0 - square).sqrt(), z)));
         }
     }
     let (share, sigma) = (f64::from(hits) / f64::from(all), (factor * (1.0 - factor) / f64::from(all)).sqrt());
@@ -179,12 +179,8 @@ fn a_point_sees_of_a_patch_what_rays_find() {
 }
 
 /// Whether the direction is on the same side of all planes through the origin and a side.
-fn pierces(corners: &[Vec3; 4], d: Vec3) -> bool {
-    (0..4).all(|i| {
-        let [a, b] = [corners[i], corners[(i + 1) % 4]];
-        let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        n[0] * d[0] + n[1] * d[1] + n[2] * d[2] <= 0.0
-    })
+fn pierces(corners: &[DVec3; 4], d: DVec3) -> bool {
+    (0..4).all(|i| corners[i].cross(corners[(i + 1) % 4]).dot(d) <= 0.0)
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn finer_hemicubes_come_nearer_to_what_the_centre_sees() {
         let mut most = 0.0_f64;
         for (patch, row) in list.iter().zip(factors.matrix().rows()) {
             for (other, found) in list.iter().zip(row) {
-                let exact = point_to_polygon(patch.centre(), patch.normal(), other.corners());
+                let exact = point_to_polygon(patch.center(), patch.normal(), other.corners());
                 let exact = if other.face == patch.face { 0.0 } else { exact };
                 most = most.max((found - exact).abs());
             }

@@ -1,10 +1,10 @@
 //! Physics: furnaces, energy, and light that is gathered at points.
 
-use crossbar::geom::vector::Vec3;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, display, gather};
+use glam::DVec3;
 
 use super::{cornell, tracer};
 
@@ -36,7 +36,7 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     };
     let closed = cornell(250);
     let solution = closed.solve(Solver::Direct, &EXACT, None).expect("a solution").radiosity();
-    assert!(closed.imbalance(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
+    assert!(closed.energy_balance_error(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
     // An open room balances as well: its row sums say what leaves.
     let scene = rooms::cornell(CornellBox { blocks: true, open: true });
     let patches = Patches::new(&scene, Subdivision::AtMost(250)).expect("patches");
@@ -48,12 +48,12 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     let open = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
     let solution = open.solve(Solver::GaussSeidel, &EXACT, None).expect("a solution").radiosity();
     assert!(
-        open.imbalance(&solution).iter().all(|left| left.abs() < 1e-11 * emitted(&open)),
+        open.energy_balance_error(&solution).iter().all(|left| left.abs() < 1e-11 * emitted(&open)),
         "{:?}",
-        open.imbalance(&solution)
+        open.energy_balance_error(&solution)
     );
     let wrong: Vec<[f64; 3]> = solution.iter().map(|b| b.map(|x| 1.01 * x)).collect();
-    assert!(open.imbalance(&wrong).iter().all(|left| left.abs() > 1e-3), "a wrong solution shows");
+    assert!(open.energy_balance_error(&wrong).iter().all(|left| left.abs() > 1e-3), "a wrong solution shows");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn walls_bleed_their_colour() {
             .list()
             .iter()
             .zip(&solution)
-            .filter(|(p, _)| p.normal()[2] > 0.5 && (p.centre()[0] - x).abs() < 0.6);
+            .filter(|(p, _)| p.normal()[2] > 0.5 && (p.center()[0] - x).abs() < 0.6);
         let (red, green) = floor.fold((0.0, 0.0), |(r, g), (_, b)| (r + b[0], g + b[1]));
         red / green
     };
@@ -108,7 +108,7 @@ fn corners_share_what_meets_there() {
     let even = display::at_corners(&patches, &[[0.25, 0.5, 1.0]; 96]);
     assert!(even.iter().flatten().all(|corner| *corner == [0.25, 0.5, 1.0]));
     // A radiosity that grows along x: inner corners of the floor lie on the line.
-    let slope: Vec<[f64; 3]> = patches.list().iter().map(|p| [p.centre()[0]; 3]).collect();
+    let slope: Vec<[f64; 3]> = patches.list().iter().map(|p| [p.center()[0]; 3]).collect();
     let corners = display::at_corners(&patches, &slope);
     for (patch, values) in patches.list().iter().zip(&corners).filter(|(p, _)| p.normal()[2] == 1.0) {
         for (corner, value) in patch.corners().iter().zip(values) {
@@ -133,12 +133,12 @@ fn irradiance_at_a_point_is_what_the_patch_around_it_reflects() {
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
     let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
     // The patch in the middle of the back wall: nothing near it changes fast.
-    let middle = |p: &Vec3| (p[0] - 2.75).abs() + (p[1] - 5.5).abs() + (p[2] - 4.0).abs();
+    let middle = |p: &DVec3| (p[0] - 2.75).abs() + (p[1] - 5.5).abs() + (p[2] - 4.0).abs();
     let nearest = (0..b.len())
-        .min_by(|&i, &j| middle(&patches.list()[i].centre()).total_cmp(&middle(&patches.list()[j].centre())));
+        .min_by(|&i, &j| middle(&patches.list()[i].center()).total_cmp(&middle(&patches.list()[j].center())));
     let i = nearest.expect("a patch");
     let patch = &patches.list()[i];
-    let h = gather::irradiance(&patches, &b, [patch.centre(), patch.normal()], &mut tracer, parameters).expect("light");
+    let h = gather::irradiance(&patches, &b, [patch.center(), patch.normal()], &mut tracer, parameters).expect("light");
     for (c, found) in h.into_iter().enumerate() {
         let expected = b[i][c] / system.reflectance()[i][c];
         assert!((found - expected).abs() < 0.02 * expected, "channel {c}: {found} against {expected}");

@@ -39,7 +39,7 @@ fn tracer(scene: &Scene) -> HostTracer {
 fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
     let random = Keyed::new(seed);
     let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);
-    let mut matrix = Matrix::zero(size).expect("small");
+    let mut matrix = Matrix::zeros([size; 2]).expect("small");
     for i in 0..size {
         let diagonal = 0.5 + number(i, size);
         let weights: Vec<f64> = (0..size).map(|j| if i == j { 0.0 } else { number(i, j) }).collect();

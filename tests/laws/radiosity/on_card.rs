@@ -1,10 +1,11 @@
 //! Matrix radiosity on the card: within its bound of the truth, relit, refused in words that help; programs counted.
 
+use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{self, CardError, CardOptions, CardSolver, Fit, Storage};
-use crossbar::radiosity::packing::{Packing, Texels};
+use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Solver;
 use crossbar::radiosity::{System, kernels, model};
 use refsim::asm::assemble;
@@ -57,7 +58,7 @@ fn the_cards_solution_is_within_its_bound_of_the_direct_one() {
         let host = fit.systems(&device("nv35"), packing, &system).expect("systems");
         for (c, found) in found.into_iter().enumerate() {
             let (place, lane) = if packing == Packing::Rgb { (0, c) } else { (c, 0) };
-            let (matrix, right) = (system.matrix(c), system.right(c));
+            let (matrix, right) = (system.matrix(c), system.right_hand_side(c));
             let [running, before] = bounds(&host[place], (&matrix, &right), lane, STEPS);
             assert!(found <= running, "{packing:?}, channel {c}: off by {found}, bound {running}");
             assert!(running <= 2.0 * before, "{packing:?}, channel {c}: {running}, before {before}");

@@ -11,6 +11,7 @@ use crossbar::renderer::Settings;
 use crossbar::renderer::form_factor::form_factor;
 use crossbar::renderer::path::{self, Direct};
 use crossbar::scene::{Camera, Material, Scene, built};
+use glam::DVec3;
 
 use super::tracer;
 
@@ -61,7 +62,7 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
     ];
     for (name, at, normal, albedo) in points {
         let fine = VisibilityParameters { side: 4, ..VisibilityParameters::default() };
-        let found = gather::irradiance(&patches, &b, [at, normal], &mut tracer, fine).expect("light");
+        let found = gather::irradiance(&patches, &b, [at, normal].map(DVec3::from), &mut tracer, fine).expect("light");
         let camera = Camera::new(eye, at.map(|x| x as f32), [0.0, 0.1, 1.0], 1e-3, 1, 1).expect("a camera");
         let settings = Settings { samples: 6000, depth: 40, ..Settings::default() };
         let picture =

@@ -12,10 +12,10 @@ fn all_solvers_agree_on_random_matrices_and_the_cornell_box() {
     let options = Options { tolerance: 1e-12, most_iterations: 5000 };
     let mut systems: Vec<_> = (1..40).map(|size| random_system(size, 0.9, size as u64)).collect();
     let cornell = cornell(200);
-    systems.push((cornell.matrix(0), cornell.right(0)));
+    systems.push((cornell.matrix(0), cornell.right_hand_side(0)));
     for (matrix, right) in &systems {
         let areas = vec![1.0; right.len()];
-        let problem = Problem { matrix, right, areas: &areas, start: None };
+        let problem = Problem { matrix, right_hand_side: right, areas: &areas, start: None };
         let truth = solve(Solver::Direct, &problem, &options).expect("a solution").radiosity;
         let size = truth.iter().fold(0.0_f64, |m, b| m.max(b.abs()));
         for solver in ALL {
@@ -35,12 +35,12 @@ fn a_start_at_the_solution_is_the_end() {
     let areas = [1.0; 30];
     let truth = solve(
         Solver::Direct,
-        &Problem { matrix: &matrix, right: &right, areas: &areas, start: None },
+        &Problem { matrix: &matrix, right_hand_side: &right, areas: &areas, start: None },
         &Options::default(),
     );
     let truth = truth.expect("a solution").radiosity;
     for solver in [Solver::Jacobi, Solver::GaussSeidel, Solver::Shooting] {
-        let problem = Problem { matrix: &matrix, right: &right, areas: &areas, start: Some(&truth) };
+        let problem = Problem { matrix: &matrix, right_hand_side: &right, areas: &areas, start: Some(&truth) };
         let solution = solve(solver, &problem, &Options::default()).expect("a solution");
         assert_eq!((solution.iterations(), solution.converged), (0, true), "{solver}");
     }
@@ -58,7 +58,7 @@ fn shooting_sends_the_brightest_light_first() {
 #[test]
 fn histories_stop_where_they_are_told() {
     let (matrix, right) = random_system(20, 0.9, 1);
-    let problem = Problem { matrix: &matrix, right: &right, areas: &[1.0; 20], start: None };
+    let problem = Problem { matrix: &matrix, right_hand_side: &right, areas: &[1.0; 20], start: None };
     let few = solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 3 }).expect("a solution");
     assert_eq!((few.iterations(), few.converged), (3, false));
     let enough =
@@ -69,14 +69,14 @@ fn histories_stop_where_they_are_told() {
             && enough.history[enough.iterations()] <= target
             && enough.history[enough.iterations() - 1] > target
     );
-    let dark = Problem { right: &[0.0; 20], ..problem };
+    let dark = Problem { right_hand_side: &[0.0; 20], ..problem };
     assert_eq!(solve(Solver::GaussSeidel, &dark, &Options::default()).expect("a solution").iterations(), 0);
 }
 
 #[test]
 fn what_cannot_be_solved_is_refused() {
     let (matrix, right) = random_system(4, 0.9, 1);
-    let problem = Problem { matrix: &matrix, right: &right, areas: &[1.0; 4], start: None };
+    let problem = Problem { matrix: &matrix, right_hand_side: &right, areas: &[1.0; 4], start: None };
     let options = Options::default();
     for step in [0.0, 2.0, -1.0, f64::NAN] {
         let refused = solve(Solver::OverRelaxation(step), &problem, &options);
@@ -92,7 +92,7 @@ fn what_cannot_be_solved_is_refused() {
     let refused = solve(Solver::Jacobi, &Problem { matrix: &zero, ..problem }, &options);
     assert_eq!(refused, Err(SolveError::Diagonal { row: 2 }));
     let (runaway, right) = random_system(8, 3.0, 2);
-    let problem = Problem { matrix: &runaway, right: &right, areas: &[1.0; 8], start: None };
+    let problem = Problem { matrix: &runaway, right_hand_side: &right, areas: &[1.0; 8], start: None };
     let refused = solve(Solver::Jacobi, &problem, &Options { tolerance: 1e-9, most_iterations: 100_000 });
     assert!(matches!(refused, Err(SolveError::Diverged { .. })), "{refused:?}");
 }

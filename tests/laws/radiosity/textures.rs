@@ -1,8 +1,9 @@
 //! Layouts read back to what was laid out; the card's order of operations against plain loops.
 
+use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::packing::{self, Packing, Texels};
+use crossbar::radiosity::packing::{self, Packing};
 use crossbar::radiosity::{FormFactors, System};
 use proptest::prelude::*;
 
@@ -19,7 +20,7 @@ proptest! {
 
     #[test]
     fn every_layout_reads_back(size in 0..40_usize, seed in any::<u64>()) {
-        let [a, b, c] = [0, 1, 2].map(|k| if size == 0 { Matrix::zero(0).expect("small") } else { random_system(size, 0.9, seed ^ k).0 });
+        let [a, b, c] = [0, 1, 2].map(|k| if size == 0 { Matrix::zeros([0; 2]).expect("small") } else { random_system(size, 0.9, seed ^ k).0 });
         let texels = packing::rgb_matrix([&a, &b, &c], LIMIT).expect("it fits");
         prop_assert_eq!((texels.width, texels.height, texels.texels.len()), (size, size, size * size));
         for (channel, matrix) in [&a, &b, &c].into_iter().enumerate() {
@@ -58,7 +59,7 @@ proptest! {
 
 #[test]
 fn a_texture_that_the_card_does_not_have_is_refused() {
-    let matrix = Matrix::zero(40).expect("small");
+    let matrix = Matrix::zeros([40; 2]).expect("small");
     let refused = packing::rgb_matrix([&matrix; 3], 32).expect_err("40 > 32");
     assert_eq!((refused.limit, refused.width, refused.height), (32, 40, 40));
     assert!(packing::luminance_matrix(&matrix, 32).is_err(), "it has 40 rows");
@@ -125,7 +126,8 @@ fn luminance_passes_add_four_partial_sums_a_block() {
 #[test]
 fn the_diagonal_is_divided_out_of_both_sides() {
     let values = vec![0.5, 0.25, 0.25, 0.0];
-    let factors = FormFactors::from_values(vec![1.0; 2], Matrix::new(2, values).expect("a matrix")).expect("factors");
+    let factors =
+        FormFactors::from_values(vec![1.0; 2], Matrix::new([2, 2], values).expect("a matrix")).expect("factors");
     let system = System::new(factors, vec![[0.5; 3]; 2], vec![[3.0, 0.75, 1.5], [0.0; 3]]).expect("a system");
     let card = CardSystem::rgb(&system, 254, LIMIT).expect("it fits");
     assert_eq!(card.emittance().texels[0], [4.0, 1.0, 2.0, 0.0]);

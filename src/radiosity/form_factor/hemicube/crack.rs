@@ -3,23 +3,23 @@
 //! Where the patches of one face end in the middle of a patch of the next, snapping to the raster's grid opens cracks of a sixteenth of a
 //! pixel. A pixel centre that falls into one is asked of the geometry itself; a real opening stays one.
 
-use super::item::Eye;
-use crate::geom::vector::{Vec3, add, cross, dot, scale, sub};
+use super::item::HemicubeView;
 use crate::radiosity::draw::Projection;
 use crate::radiosity::{Patch, Patches};
+use glam::DVec3;
 
 /// How far outside a side of a patch a ray may pass and still meet it, in shares of the side: neighbours' corners agree in f32.
 const SLACK: f64 = 1e-6;
 
 /// Fills the cracks of a face of `width` pixels a row; returns how many there were.
-pub(super) fn fill(patches: &Patches, eye: &Eye, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
+pub(super) fn fill(patches: &Patches, eye: &HemicubeView, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
     let height = codes.len() / width;
     let cracks: Vec<usize> =
         (0..codes.len()).filter(|&at| codes[at] <= 0.0 && is_edge(codes, width, height, at)).collect();
     let mut filled = 0;
     for at in cracks {
-        let centre = [(at % width, width), (at / width, height)].map(|(i, n)| (2 * i + 1) as f64 / n as f64 - 1.0);
-        let found = nearest(patches, eye, face, direction(face, [centre[0], -centre[1]]));
+        let center = [(at % width, width), (at / width, height)].map(|(i, n)| (2 * i + 1) as f64 / n as f64 - 1.0);
+        let found = nearest(patches, eye, face, direction(face, [center[0], -center[1]]));
         codes[at] = found as f32;
         filled += usize::from(found > 0.0);
     }
@@ -37,21 +37,21 @@ fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
 
 /// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right angles, but for
 /// `upwards` of a side, which is twice the normal less `forward`.
-fn direction(face: &Projection, [x, y]: [f64; 2]) -> Vec3 {
-    let leaning = dot(face.upwards, face.forward);
-    let up = sub(face.upwards, scale(leaning, face.forward));
-    let height = (y - leaning) / dot(up, up);
-    add(add(face.forward, scale(x, face.across)), scale(height, up))
+fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
+    let leaning = face.upwards.dot(face.forward);
+    let up = face.upwards - leaning * face.forward;
+    let height = (y - leaning) / up.dot(up);
+    face.forward + x * face.across + height * up
 }
 
 /// The colour of the nearest patch along a ray from the eye; 0 for none.
-fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: Vec3) -> f64 {
+fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: DVec3) -> f64 {
     let (mut best, mut first) = (0.0, f64::INFINITY);
     for &(i, code) in &eye.seen {
         let patch = &patches.list()[i as usize];
-        let (height, fall) = (patch.height(face.eye), dot(patch.normal(), direction));
+        let (height, fall) = (patch.height(face.eye), patch.normal().dot(direction));
         let t = -height / fall;
-        if t > 0.0 && t < first && holds(patch, add(face.eye, scale(t, direction))) {
+        if t > 0.0 && t < first && holds(patch, face.eye + t * direction) {
             (best, first) = (code, t);
         }
     }
@@ -59,11 +59,11 @@ fn nearest(patches: &Patches, eye: &Eye, face: &Projection, direction: Vec3) -> 
 }
 
 /// Whether a point of a patch's plane is in the patch, or a hair outside.
-fn holds(patch: &Patch, point: Vec3) -> bool {
+fn holds(patch: &Patch, point: DVec3) -> bool {
     let corners = patch.corners();
     (0..corners.len()).all(|i| {
-        let side = sub(corners[(i + 1) % corners.len()], corners[i]);
-        dot(cross(side, sub(point, corners[i])), patch.normal()) >= -SLACK * dot(side, side)
+        let side = corners[(i + 1) % corners.len()] - corners[i];
+        side.cross(point - corners[i]).dot(patch.normal()) >= -SLACK * side.dot(side)
     })
 }
 
@@ -76,11 +76,11 @@ mod tests {
     fn a_direction_goes_through_its_pixel() {
         let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
         let patch = &patches.list()[5];
-        let eye = Eye::new(&patches, patch, patch.centre());
+        let eye = HemicubeView::new(&patches, patch, patch.center());
         for face in &eye.faces {
             for [x, y] in [[0.3, -0.7], [-1.0, 1.0], [0.0, 0.25]] {
                 let d = direction(face, [x, y]);
-                let found = [face.across, face.upwards, face.forward].map(|axis| dot(axis, d));
+                let found = [face.across, face.upwards, face.forward].map(|axis| axis.dot(d));
                 assert!(found.iter().zip([x, y, 1.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
             }
         }
@@ -90,7 +90,7 @@ mod tests {
     fn cracks_are_filled_with_what_is_there() {
         let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(2)).expect("patches");
         let patch = &patches.list()[0];
-        let eye = Eye::new(&patches, patch, patch.centre());
+        let eye = HemicubeView::new(&patches, patch, patch.center());
         let ceiling = |code: f32| patches.list()[code as usize - 1].face == 1;
         let mut codes = vec![0.0; 25];
         codes[12] = 9.0;

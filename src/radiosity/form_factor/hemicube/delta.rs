@@ -21,20 +21,20 @@ impl Deltas {
     /// For so many pixels along a side of the top face, an even number.
     pub(super) fn new(resolution: u32) -> Self {
         let (across, half) = (f64::from(resolution), resolution / 2);
-        let centred = |i: u32| 2.0 * f64::from(i) / across - 1.0;
+        let centered = |i: u32| 2.0 * f64::from(i) / across - 1.0;
         // Rows of a side face run from height 1 down to 0.
         let height = |j: u32| 1.0 - 2.0 * f64::from(j) / across;
         let mut top = Vec::new();
         for j in 0..resolution {
             top.extend((0..resolution).map(|i| {
-                let [x, y] = [[centred(i), centred(i + 1)], [centred(j), centred(j + 1)]];
+                let [x, y] = [[centered(i), centered(i + 1)], [centered(j), centered(j + 1)]];
                 corners(above, x, y)
             }));
         }
         let mut side = Vec::new();
         for j in 0..half {
             side.extend(
-                (0..resolution).map(|i| corners(beside, [centred(i), centred(i + 1)], [height(j + 1), height(j)])),
+                (0..resolution).map(|i| corners(beside, [centered(i), centered(i + 1)], [height(j + 1), height(j)])),
             );
         }
         Self { top, side }

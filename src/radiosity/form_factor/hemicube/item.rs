@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DepthId, DrawCall, Executor, Machine, TextureId, VertexSource};
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive, Vertex, Viewport};
+use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
+use refsim::output::DepthFormat;
+use refsim::raster::{Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
-use crate::geom::vector::{Vec3, cross, scale, sub, unit};
-use crate::radiosity::display::programs::checked;
+use crate::card::{NearestTarget, Texels};
+use crate::geom::vector::unit;
 use crate::radiosity::draw::{DrawError, Projection, bits};
 use crate::radiosity::kernels;
 use crate::radiosity::{Patch, Patches};
@@ -24,44 +25,36 @@ pub(super) struct ItemBuffer {
     machine: Machine,
     program: CheckedProgram,
     resolution: u32,
-    target: TextureId,
-    depth: DepthId,
+    target: NearestTarget,
 }
 
 impl ItemBuffer {
     pub(super) fn new(executor: &Executor, profile: &Arc<Profile>, resolution: u32) -> Result<Self, DrawError> {
         let mut machine = executor.machine(Arc::clone(profile))?;
-        let program = checked(profile, kernels::ID)?;
-        let [width, height] = size(resolution);
-        let target = machine.create_target(TexelFormat::R32f, width, height)?;
-        let depth = machine.create_depth(DepthFormat::Unorm24, width, height)?;
-        Ok(Self { machine, program, resolution, target, depth })
+        let program = kernels::ID.checked(profile)?;
+        let formats = (TexelFormat::R32f, DepthFormat::Unorm24);
+        let target = NearestTarget::new(&mut machine, formats, size(resolution))?;
+        Ok(Self { machine, program, resolution, target })
     }
 
     /// What a hemicube sees: patches' numbers from 1, negative from behind, 0 for nothing; each face row by row from the top.
-    pub(super) fn see(&mut self, patches: &Patches, hemicube: &Eye) -> Result<[Vec<f32>; FACES], DrawError> {
-        self.machine.clear_target(self.target, [0; 4])?;
-        self.machine.clear_depth(self.depth, 1.0_f32.to_bits())?;
+    pub(super) fn see(&mut self, patches: &Patches, hemicube: &HemicubeView) -> Result<[Vec<f32>; FACES], DrawError> {
+        self.target.clear(&mut self.machine)?;
         for (face, projection) in hemicube.faces.iter().enumerate() {
             self.draw(patches, hemicube, projection, place(face, self.resolution))?;
         }
-        let image = self.machine.read_back(self.target)?;
-        let row = image.width() as usize;
-        let bytes = image.bytes();
+        let codes = Texels::read_back(&self.machine, self.target.color)?;
         Ok([0, 1, 2, 3, 4].map(|face| {
-            let at = place(face, self.resolution);
-            let lines = (at.y..at.y + at.height).flat_map(|y| {
-                let first = 4 * (y as usize * row + at.x as usize);
-                bytes[first..first + 4 * at.width as usize].chunks_exact(4)
-            });
-            lines.map(|code| f32::from_le_bytes([code[0], code[1], code[2], code[3]])).collect()
+            let Region { x, y, width, height } = place(face, self.resolution);
+            let rows = (y..y + height).flat_map(|y| &codes.row(y as usize)[x as usize..(x + width) as usize]);
+            rows.map(|&[code, ..]| code).collect()
         }))
     }
 
     fn draw(
         &mut self,
         patches: &Patches,
-        hemicube: &Eye,
+        hemicube: &HemicubeView,
         projection: &Projection,
         face: Region,
     ) -> Result<(), DrawError> {
@@ -80,20 +73,18 @@ impl ItemBuffer {
         let constants = Constants::default();
         for (primitive, _, vertices) in shapes.iter().filter(|shape| !shape.2.is_empty()) {
             let source = VertexSource::Transformed(vertices);
-            let mut call = DrawCall::new(source, *primitive, &self.program, &constants, self.target);
+            let mut call = DrawCall::new(source, *primitive, &self.program, &constants, self.target.color);
             let Region { x, y, width, height } = face;
             call.viewport = Some(Viewport { x: x.cast_signed(), y: y.cast_signed(), ..Viewport::new(width, height) });
             call.scissor = Some(face);
-            call.center = PixelCenter::OpenGl;
-            call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
-            call.depth_buffer = Some(self.depth);
+            self.target.keep_nearest(&mut call);
             self.machine.draw(&call)?;
         }
         Ok(())
     }
 }
 
-fn vertex(projection: &Projection, corner: Vec3, code: f64) -> Vertex {
+fn vertex(projection: &Projection, corner: DVec3, code: f64) -> Vertex {
     let mut vertex = projection.vertex(corner, [0.0; 2], crate::radiosity::draw::Side::Front);
     vertex.texcoords[3] = bits([0.0, 0.0, code, 0.0]);
     vertex
@@ -119,7 +110,7 @@ fn place(face: usize, resolution: u32) -> Region {
 
 /// A hemicube's eye on a patch: what its faces look at, and what they may see.
 #[derive(Clone, Debug)]
-pub(super) struct Eye {
+pub(super) struct HemicubeView {
     pub(super) faces: [Projection; FACES],
     /// Patches that are not wholly behind the eye's plane, with their colours.
     pub(super) seen: Vec<(u32, f64)>,
@@ -128,24 +119,24 @@ pub(super) struct Eye {
 /// Corners this far behind the eye's plane, in shares of the patch's radius, still count as behind it.
 const ON_PLANE: f64 = 1e-9;
 
-impl Eye {
+impl HemicubeView {
     /// An eye on a point of a patch.
-    pub(super) fn new(patches: &Patches, patch: &Patch, point: Vec3) -> Self {
+    pub(super) fn new(patches: &Patches, patch: &Patch, point: DVec3) -> Self {
         let corners = patch.corners();
         let normal = patch.normal();
-        let along = unit(sub(corners[1], corners[0])).unwrap_or(normal);
-        let aside = cross(normal, along);
+        let along = unit(corners[1] - corners[0]).unwrap_or(normal);
+        let aside = normal.cross(along);
         let far = patches.extent();
         let top = Projection { eye: point, forward: normal, across: along, upwards: aside, far };
         // The lower edge of a side lies on the patch's plane, the upper one on the top face: y runs over twice the height less w.
-        let side = |forward: Vec3| Projection {
+        let side = |forward: DVec3| Projection {
             eye: point,
             forward,
-            across: cross(forward, normal),
-            upwards: sub(scale(2.0, normal), forward),
+            across: forward.cross(normal),
+            upwards: 2.0 * normal - forward,
             far,
         };
-        let back = |v: Vec3| scale(-1.0, v);
+        let back = |v: DVec3| -1.0 * v;
         let faces = [top, side(along), side(aside), side(back(along)), side(back(aside))];
         let in_front = |other: &Patch| {
             other.face != patch.face && other.corners().iter().any(|&c| patch.height(c) > ON_PLANE * other.radius())

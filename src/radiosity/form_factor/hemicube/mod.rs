@@ -7,17 +7,17 @@ mod item;
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
 use super::{FormFactorError, FormFactors};
-use crate::geom::vector::Vec3;
 use crate::linalg::Matrix;
 use crate::radiosity::draw::{DrawError, patch_of};
 use crate::radiosity::{Patch, Patches};
 use delta::Deltas;
-use item::{Eye, ItemBuffer, size};
+use item::{HemicubeView, ItemBuffer, size};
 
 /// Hemicubes that are drawn between two reports of progress.
 const BUNDLE: usize = 64;
@@ -80,8 +80,8 @@ impl FormFactors {
         done: &mut dyn FnMut(usize, usize),
     ) -> Result<Self, FormFactorError> {
         hemicube.check()?;
-        let mut matrix = Matrix::zero(patches.list().len())?;
-        let work = Work { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
+        let mut matrix = Matrix::zeros([patches.list().len(); 2])?;
+        let work = HemicubeRows { patches, hemicube, executor, deltas: Deltas::new(hemicube.resolution) };
         let all = patches.list().len();
         let mut rows: Vec<&mut [f64]> = matrix.par_rows_mut().collect();
         for (bundle, rows) in rows.chunks_mut(BUNDLE).enumerate() {
@@ -96,14 +96,14 @@ impl FormFactors {
 }
 
 /// What all hemicubes share.
-struct Work<'a> {
+struct HemicubeRows<'a> {
     patches: &'a Patches,
     hemicube: &'a Hemicube,
     executor: &'a Executor,
     deltas: Deltas,
 }
 
-impl Work<'_> {
+impl HemicubeRows<'_> {
     /// The rows of some patches in a row.
     fn fill(&self, first: usize, rows: &mut [&mut [f64]]) -> Result<(), DrawError> {
         let mut buffer = ItemBuffer::new(self.executor, &self.hemicube.device, self.hemicube.resolution)?;
@@ -111,7 +111,7 @@ impl Work<'_> {
             // The largest open part; of the first of equals, so that a patch that is wholly open is its own.
             let larger = |one: &&Patch, other: &&Patch| one.area().total_cmp(&other.area());
             let Some(part) = self.patches.open_parts(patch).iter().rev().max_by(larger) else { continue };
-            if !self.look(&mut buffer, part, part.centre(), row)? {
+            if !self.look(&mut buffer, part, part.center(), row)? {
                 self.look_elsewhere(&mut buffer, part, row)?;
             }
         }
@@ -130,8 +130,8 @@ impl Work<'_> {
     }
 
     /// Adds what a hemicube sees to a row; false if it sees nothing.
-    fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: Vec3, row: &mut [f64]) -> Result<bool, DrawError> {
-        let eye = Eye::new(self.patches, patch, point);
+    fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: DVec3, row: &mut [f64]) -> Result<bool, DrawError> {
+        let eye = HemicubeView::new(self.patches, patch, point);
         let mut any = false;
         for (face, mut codes) in buffer.see(self.patches, &eye)?.into_iter().enumerate() {
             crack::fill(self.patches, &eye, &eye.faces[face], self.hemicube.resolution as usize, &mut codes);

@@ -10,7 +10,7 @@ use refsim::device::Profile;
 use super::{Findings, ReproduceError, pipeline::failed};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
-use crate::radiosity::rate::{Timed, Timing, timed_iteration};
+use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
 
 pub(super) use figure_3::findings as figure_3;
 pub(super) use figure_4::findings as figure_4;
@@ -27,7 +27,7 @@ const PRINTED_CARD: (f64, f64) = (29.7, 141.0);
 const PRINTED_HOST: (f64, f64) = (40.0, 190.0);
 
 /// An iteration of so many patches on the paper's card, by the pipeline model.
-fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<Timed, ReproduceError> {
+fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, ReproduceError> {
     let timing = Timing { patches: patches as usize, packing, storage, cache: false };
     timed_iteration(&Profile::named(CARD)?, &timing).map_err(|e| failed(CARD)(&e))
 }

@@ -3,7 +3,7 @@
 use super::{CARD, Findings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
-use crate::radiosity::rate::Timed;
+use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::report::rounded;
 use crate::study::reproduce::{Bound, Method, Origin, Prose, Row, Standing, Target, number};
@@ -55,7 +55,7 @@ fn profile_width() -> Result<f64, ReproduceError> {
     crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
-fn rows(paper: &Timed) -> Vec<Row> {
+fn rows(paper: &TimedIteration) -> Vec<Row> {
     let printed = |value: f64, decimals: usize, unit: &'static str| Target::printed(value, decimals, unit, PLACE);
     let calibrated = Standing::Calibrated { on: CHOSE_N };
     let predicted = Standing::Predicted { from: CHOSE_N };

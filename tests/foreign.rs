@@ -1,7 +1,7 @@
 //! docs/examples/foreign_intersector.md says what other people's intersectors get wrong: its numbers, asked again.
 
 #[expect(dead_code, reason = "as an example it prints what the test compares")]
-#[path = "../../docs/examples/foreign_intersector.rs"]
+#[path = "../docs/examples/foreign_intersector.rs"]
 mod foreign_intersector;
 
 use crossbar::geom::{Mesh, Ray, Sides};
@@ -9,7 +9,7 @@ use crossbar::oracle::{Oracle, Tolerance, hits_equal};
 use foreign_intersector::{intersector, teapot_table, wall_rays, walls, walls_table};
 
 fn page() -> String {
-    include_str!("../../docs/examples/foreign_intersector.md").replace('\r', "")
+    include_str!("../docs/examples/foreign_intersector.md").replace('\r', "")
 }
 
 // Their last bits come from SSE here, and from other instructions elsewhere.

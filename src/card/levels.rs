@@ -1,0 +1,99 @@
+//! A pyramid of targets: each level is drawn by a pass that reads the level before.
+
+use refsim::event::DrawEvents;
+use refsim::exec::{CheckedProgram, Constants};
+use refsim::machine::{Machine, MachineError, TextureId};
+use refsim::output::WriteMask;
+use refsim::texture::TexelFormat;
+
+use super::{FullScreenPass, new_target};
+
+/// The levels below a texture, each half as wide and high as the one before (rounded down, at least 1), down to one texel.
+#[derive(Clone, Debug)]
+pub struct Levels {
+    base: [usize; 2],
+    targets: Vec<TextureId>,
+}
+
+impl Levels {
+    /// Targets for the levels below a texture of size `base`.
+    ///
+    /// # Errors
+    /// As [`new_target`].
+    pub fn new(machine: &mut Machine, format: TexelFormat, base: [usize; 2]) -> Result<Self, MachineError> {
+        let sizes = std::iter::successors(Some(base), |&size| (size != [1, 1]).then(|| halved(size)));
+        let targets = sizes.skip(1).map(|size| new_target(machine, format, size)).collect::<Result<_, _>>()?;
+        Ok(Self { base, targets })
+    }
+
+    /// The levels, the finest first; `base` itself is not among them.
+    #[must_use]
+    pub fn targets(&self) -> &[TextureId] {
+        &self.targets
+    }
+
+    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the point of
+    /// it that lies under the fragment's center, in texels: between the four texels that the fragment covers.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the card refuses a draw.
+    pub fn fill(
+        &self,
+        machine: &mut Machine,
+        base: TextureId,
+        program: &CheckedProgram,
+    ) -> Result<DrawEvents, MachineError> {
+        let (mut finer, mut size, mut events) = (base, self.base, DrawEvents::default());
+        for &target in &self.targets {
+            let constants = &Constants::default();
+            let pass = FullScreenPass { program, constants, textures: &[finer], target, mask: WriteMask::ALL };
+            let [width, height] = size.map(|side| side as f32);
+            events += pass.draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])?;
+            (finer, size) = (target, halved(size));
+        }
+        Ok(events)
+    }
+}
+
+fn halved(size: [usize; 2]) -> [usize; 2] {
+    size.map(|side| (side / 2).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{KernelText, Texels};
+    use super::*;
+    use refsim::device::Profile;
+    use refsim::machine::{Executor, ExecutorKind};
+
+    const MEAN: KernelText = KernelText {
+        name: "mean.fp",
+        text: "!!FP1.0\nADDR R0, f[TEX0], {-0.5, -0.5, 0.5, 0.5};\nADDR R0.zw, f[TEX0].xyxy, {0.5}.x;\n\
+               TEX R1, R0, TEX0, RECT;\nTEX R2, R0.zyzw, TEX0, RECT;\nTEX R3, R0.xwzw, TEX0, RECT;\n\
+               TEX R4, R0.zwzw, TEX0, RECT;\nADDR R1, R1, R2;\nADDR R3, R3, R4;\nADDR R1, R1, R3;\n\
+               MULR o[COLR], R1, {0.25}.x;\nEND\n",
+    };
+
+    #[test]
+    fn levels_hold_the_means_of_four() {
+        let nv35 = Profile::named("nv35").expect("a card");
+        let program = MEAN.checked(&nv35).expect("the card runs it");
+        let mut machine = Executor::from(ExecutorKind::Batch).machine(nv35).expect("a machine");
+        let mut level = Texels::from_fn([16, 4], |x, y| [x as f32, y as f32, (x * y) as f32, 1.0]);
+        let base = level.upload(&mut machine, TexelFormat::Rgba32f).expect("a texture");
+        let levels = Levels::new(&mut machine, TexelFormat::Rgba32f, [16, 4]).expect("targets");
+        levels.fill(&mut machine, base, &program).expect("draws");
+        assert_eq!(levels.targets().len(), 4, "8 x 2, 4 x 1, 2 x 1, 1 x 1");
+        for &target in levels.targets() {
+            let size = halved([level.width, level.height]);
+            let at = |x: usize, y: usize, c| level.row(y.min(level.height - 1))[x][c];
+            level = Texels::from_fn(size, |x, y| {
+                let (x, y) = (2 * x, 2 * y);
+                let row = |y, c| [at(x, y, c), at(x + 1, y, c)];
+                [0, 1, 2, 3].map(|c| (row(y, c)[0] + row(y, c)[1] + (row(y + 1, c)[0] + row(y + 1, c)[1])) * 0.25)
+            });
+            assert_eq!(Texels::read_back(&machine, target).expect("a target"), level);
+        }
+        assert_eq!(level.texels[0][3], 1.0);
+    }
+}

@@ -1,0 +1,23 @@
+//! The host's side of an emulated card that computes, for all systems.
+//!
+//! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
+//! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;
+//! - [`FullScreenPass`]: one quad over a whole target; [`PingPong`]: two targets that passes write in turn;
+//! - [`Levels`]: a pyramid of targets, each filled from the one before;
+//! - [`NearestTarget`]: a color target that keeps the nearest fragment.
+//!
+//! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the center of
+//! texel i is at i + 0.5.
+
+mod kernel;
+mod levels;
+mod nearest;
+mod pass;
+mod texels;
+
+pub(crate) use kernel::kernels;
+pub use kernel::{KernelError, KernelText};
+pub use levels::Levels;
+pub use nearest::NearestTarget;
+pub use pass::{FullScreenPass, PingPong, full_screen_quad};
+pub use texels::{Texels, new_target};

@@ -1,0 +1,46 @@
+//! Targets in which the nearest fragment stays.
+
+use refsim::machine::{DepthId, DrawCall, Machine, MachineError, TextureId};
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::raster::PixelCenter;
+use refsim::texture::TexelFormat;
+
+/// A color target with the depth buffer that decides what stays in it.
+#[derive(Clone, Copy, Debug)]
+pub struct NearestTarget {
+    /// The colors.
+    pub color: TextureId,
+    /// The depths, 1 where nothing was drawn.
+    pub depth: DepthId,
+}
+
+impl NearestTarget {
+    /// A target and a depth buffer of its size.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the card has no such target or depth buffer.
+    pub fn new(
+        machine: &mut Machine,
+        (color, depth): (TexelFormat, DepthFormat),
+        [width, height]: [u32; 2],
+    ) -> Result<Self, MachineError> {
+        let color = machine.create_target(color, width, height)?;
+        Ok(Self { color, depth: machine.create_depth(depth, width, height)? })
+    }
+
+    /// Colors of 0, and the largest depth.
+    ///
+    /// # Errors
+    /// [`MachineError`] for another machine than the target's.
+    pub fn clear(&self, machine: &mut Machine) -> Result<(), MachineError> {
+        machine.clear_target(self.color, [0; 4])?;
+        machine.clear_depth(self.depth, 1.0_f32.to_bits())
+    }
+
+    /// Sets a draw into the color target up to keep the nearest fragment, with pixel centers as in OpenGL.
+    pub fn keep_nearest(&self, call: &mut DrawCall<'_>) {
+        call.center = PixelCenter::OpenGl;
+        call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
+        call.depth_buffer = Some(self.depth);
+    }
+}

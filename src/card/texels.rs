@@ -1,0 +1,132 @@
+//! Rectangles of floats on the host, and their way to a card's textures and back.
+
+use refsim::machine::{Machine, MachineError, TextureId};
+use refsim::num::Format;
+use refsim::texture::{Image, SignedTexelMinimum, TargetRounding, TexelFormat, TextureError, TextureKind};
+
+/// Texels of four f32, row by row. A vector is one row: a 1-D texture.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Texels {
+    /// Texels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green, blue, alpha; `width * height` of them.
+    pub texels: Vec<[f32; 4]>,
+}
+
+impl Texels {
+    /// Texels that a function gives, by column and row.
+    pub fn from_fn([width, height]: [usize; 2], texel: impl Fn(usize, usize) -> [f32; 4]) -> Self {
+        let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
+        Self { width, height, texels }
+    }
+
+    /// One row.
+    #[must_use]
+    pub fn vector(texels: Vec<[f32; 4]>) -> Self {
+        Self { width: texels.len(), height: 1, texels }
+    }
+
+    /// A row of texels.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn row(&self, y: usize) -> &[[f32; 4]] {
+        &self.texels[y * self.width..(y + 1) * self.width]
+    }
+
+    /// A rectangle texture, each value rounded once into the format.
+    ///
+    /// # Errors
+    /// If the extents are 0 or too large, or the texels do not fill them.
+    pub fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
+        let extents = extents([self.width, self.height]);
+        if format == TexelFormat::Rgba32f {
+            // The bits are the bytes; large matrices go this way.
+            let bytes = self.texels.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
+            return Image::from_bytes(format, TextureKind::Rectangle, extents, 1, bytes);
+        }
+        let bits: Vec<[u32; 4]> = self.texels.iter().map(|texel| texel.map(f32::to_bits)).collect();
+        Image::from_values(format, TextureKind::Rectangle, extents, Format::FP32, &bits, TargetRounding::Nearest)
+    }
+
+    /// The texels of an image of one level; components that the format lacks read as the card reads them.
+    #[must_use]
+    pub fn from_image(image: &Image) -> Self {
+        let [width, height] = [image.width(), image.height()].map(|side| side as usize);
+        let value = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
+        match image.format() {
+            TexelFormat::Rgba32f => {
+                let texel = |bytes: &[u8]| [0, 4, 8, 12].map(|at| value(&bytes[at..at + 4]));
+                Self { width, height, texels: image.bytes().chunks_exact(16).map(texel).collect() }
+            }
+            TexelFormat::R32f => {
+                let texel = |bytes: &[u8]| [value(bytes), 1.0, 1.0, 1.0];
+                Self { width, height, texels: image.bytes().chunks_exact(4).map(texel).collect() }
+            }
+            _ => Self::from_fn([width, height], |x, y| {
+                let texel = image.texel(0, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
+                texel.to_format(Format::FP32).map(f32::from_bits)
+            }),
+        }
+    }
+
+    /// A new texture of a card that holds these.
+    ///
+    /// # Errors
+    /// [`MachineError`] if there is no such texture, or the card does not have the format.
+    pub fn upload(&self, machine: &mut Machine, format: TexelFormat) -> Result<TextureId, MachineError> {
+        machine.create_texture(self.to_image(format)?)
+    }
+
+    /// Replaces what a texture holds.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the texture has another size or format.
+    pub fn update(&self, machine: &mut Machine, texture: TextureId, format: TexelFormat) -> Result<(), MachineError> {
+        machine.update_texture(texture, &self.to_image(format)?)
+    }
+
+    /// What a target holds; the host waits for it.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the card has no such target.
+    pub fn read_back(machine: &Machine, target: TextureId) -> Result<Self, MachineError> {
+        Ok(Self::from_image(machine.read_back(target)?))
+    }
+}
+
+/// A target of zeros that can be read as a texture.
+///
+/// # Errors
+/// [`MachineError`] if the extents are 0 or too large, or the card does not draw into the format.
+pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<TextureId, MachineError> {
+    machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
+}
+
+/// Extents that an image can refuse.
+fn extents([width, height]: [usize; 2]) -> [u32; 3] {
+    let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
+    [extent(width), extent(height), 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floats_come_back_as_the_format_holds_them() {
+        let texels = Texels::vector(vec![[1.0, -0.0, 1.0 / 3.0, 65504.0], [0.1, 2.0, 3.0, 4.0]]);
+        let image = texels.to_image(TexelFormat::Rgba32f).expect("an image");
+        assert_eq!(Texels::from_image(&image), texels);
+        let image = texels.to_image(TexelFormat::Rgba16f).expect("an image");
+        assert_eq!(Texels::from_image(&image).texels[0], [1.0, -0.0, 0.333_251_95, 65504.0]);
+        let image = texels.to_image(TexelFormat::R32f).expect("an image");
+        let read = image.texel(0, 0, 0, 1, SignedTexelMinimum::Clamp).to_format(Format::FP32);
+        assert_eq!(Texels::from_image(&image).texels[1].map(f32::to_bits), read);
+        assert!(Texels { height: 2, ..texels }.to_image(TexelFormat::Rgba32f).is_err(), "too few texels");
+        assert!(Texels::default().to_image(TexelFormat::Rgba32f).is_err());
+    }
+}

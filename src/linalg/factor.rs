@@ -1,0 +1,159 @@
+//! Orthogonal factorisations. Signs that the mathematics leaves open are fixed: see each.
+
+use nalgebra::{DMatrix, DVector, Dyn};
+use thiserror::Error;
+
+use super::Matrix;
+
+/// Iterations per row or column after which an eigenvalue or singular value counts as not found.
+const MAX_ITERATIONS: usize = 100;
+
+/// Why a matrix has no such factorisation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum FactorError {
+    /// An element that is infinite or no number.
+    #[error("expected finite elements, found {found} that are not")]
+    NotFinite {
+        /// How many are not finite.
+        found: usize,
+    },
+    /// The iteration did not end.
+    #[error(
+        "expected eigenvalues or singular values of {rows} x {columns} elements within {MAX_ITERATIONS} iterations each"
+    )]
+    NoConvergence {
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        columns: usize,
+    },
+    /// Columns that depend on each other, or more columns than rows.
+    #[error(
+        "expected {columns} independent columns, found column {column} (counted from 0) to depend on those before it"
+    )]
+    RankDeficient {
+        /// Columns of the matrix.
+        columns: usize,
+        /// The first that depends on others.
+        column: usize,
+    },
+}
+
+/// Eigenvalues and eigenvectors of a symmetric matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SymmetricEigen {
+    /// Eigenvalues, the largest first.
+    pub values: Vec<f64>,
+    /// Row i is the unit eigenvector of eigenvalue i; its component of largest magnitude is positive.
+    pub vectors: Matrix,
+}
+
+impl SymmetricEigen {
+    /// Of a symmetric matrix, of which only the lower triangle is read.
+    ///
+    /// # Errors
+    /// [`FactorError`] if an element is not finite, or the iteration does not end.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+        assert!(matrix.is_square(), "a square matrix");
+        let (size, most) = (matrix.row_count(), iterations(matrix));
+        let eigen = nalgebra::SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, most);
+        let eigen = eigen.ok_or(FactorError::NoConvergence { rows: size, columns: size })?;
+        let mut order: Vec<usize> = (0..size).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let vectors = DMatrix::from_fn(size, size, |row, column| {
+            let vector = eigen.eigenvectors.column(order[row]);
+            vector[column] * vector[vector.iamax()].signum()
+        });
+        let values = order.iter().map(|&i| eigen.eigenvalues[i]).collect();
+        Ok(Self { values, vectors: Matrix::from_nalgebra(&vectors) })
+    }
+}
+
+/// The thin singular value decomposition: `left` times the diagonal matrix of `values` times `right`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Svd {
+    /// Orthonormal columns, as many as there are values.
+    pub left: Matrix,
+    /// Singular values, the largest first: as many as the matrix has rows or columns, whichever is fewer.
+    pub values: Vec<f64>,
+    /// Orthonormal rows; the component of largest magnitude of each is positive.
+    pub right: Matrix,
+}
+
+impl Svd {
+    /// Of any matrix.
+    ///
+    /// # Errors
+    /// [`FactorError`] if an element is not finite, or the iteration does not end.
+    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+        let [rows, columns] = [matrix.row_count(), matrix.column_count()];
+        let values = finite(matrix)?;
+        if rows.min(columns) == 0 {
+            let empty = |rows, columns| Matrix::from_nalgebra(&DMatrix::zeros(rows, columns));
+            return Ok(Self { left: empty(rows, 0), values: Vec::new(), right: empty(0, columns) });
+        }
+        let svd = nalgebra::SVD::try_new(values, true, true, f64::EPSILON, iterations(matrix));
+        let unfinished = FactorError::NoConvergence { rows, columns };
+        let (mut left, values, mut right) =
+            svd.and_then(|svd| Some((svd.u?, svd.singular_values, svd.v_t?))).ok_or(unfinished)?;
+        for k in 0..values.len() {
+            let sign = right[(k, right.row(k).iamax_full().1)].signum();
+            left.column_mut(k).scale_mut(sign);
+            right.row_mut(k).scale_mut(sign);
+        }
+        let values = values.as_slice().to_vec();
+        Ok(Self { left: Matrix::from_nalgebra(&left), values, right: Matrix::from_nalgebra(&right) })
+    }
+}
+
+/// The QR factorisation of a matrix of independent columns, by Householder reflections.
+#[derive(Clone, Debug)]
+pub struct Qr(nalgebra::QR<f64, Dyn, Dyn>);
+
+impl Qr {
+    /// Of a matrix with at least as many rows as columns.
+    ///
+    /// # Errors
+    /// [`FactorError`] if an element is not finite, or the columns depend on each other.
+    pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
+        let [rows, columns] = [matrix.row_count(), matrix.column_count()];
+        let values = finite(matrix)?;
+        if rows < columns {
+            return Err(FactorError::RankDeficient { columns, column: rows });
+        }
+        let qr = values.qr();
+        let diagonal = qr.r().diagonal().abs();
+        let least = diagonal.max() * f64::EPSILON * rows as f64;
+        match diagonal.iter().position(|&pivot| pivot <= least) {
+            Some(column) => Err(FactorError::RankDeficient { columns, column }),
+            None => Ok(Self(qr)),
+        }
+    }
+
+    /// The x for which the matrix times x is nearest to `right`: least squares.
+    ///
+    /// # Panics
+    /// If `right` has not one element per row.
+    #[must_use]
+    pub fn least_squares(&self, right: &[f64]) -> Vec<f64> {
+        let mut projected = DVector::from_column_slice(right);
+        self.0.q_tr_mul(&mut projected);
+        let r = self.0.r();
+        let x = r.solve_upper_triangular(&projected.rows(0, r.ncols()));
+        x.map_or_else(Vec::new, |x| x.as_slice().to_vec())
+    }
+}
+
+fn finite(matrix: &Matrix) -> Result<DMatrix<f64>, FactorError> {
+    match matrix.rows().flatten().filter(|value| !value.is_finite()).count() {
+        0 => Ok(matrix.to_nalgebra()),
+        found => Err(FactorError::NotFinite { found }),
+    }
+}
+
+fn iterations(matrix: &Matrix) -> usize {
+    MAX_ITERATIONS * matrix.row_count().max(matrix.column_count()).max(1)
+}
