@@ -18,6 +18,7 @@ use refsim::texture::{Image, SamplerState, SignedTexelMinimum, TexelFormat};
 use super::draw::{DrawError, Projection, bits, patch_of};
 use super::{Patch, Patches};
 use crate::card;
+use crate::picture::Picture;
 use crate::scene::Camera;
 use corners::Meetings;
 pub use corners::at_corners;
@@ -62,17 +63,6 @@ impl Default for DisplayOptions {
     fn default() -> Self {
         Self { vector: VectorTexture::Row, target: TexelFormat::Bgra8 }
     }
-}
-
-/// A picture as the card left it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Red, green and blue, linear, rows from the top. Black where there is no patch, or its back.
-    pub pixels: Vec<[f64; 3]>,
 }
 
 /// Patches of three corners or of four, whole or as fans: their vertices, and how they are drawn smoothly.
@@ -201,13 +191,13 @@ impl Display {
     fn picture(&self, machine: &Machine) -> Result<Picture, DrawError> {
         let image = machine.read_back(self.target)?;
         let pixels = (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| pixel(image, x, y)));
-        Ok(Picture { width: image.width(), height: image.height(), pixels: pixels.collect() })
+        Ok(Picture::rgb(image.width(), image.height(), &pixels.collect::<Vec<_>>()))
     }
 }
 
-fn pixel(image: &Image, x: u32, y: u32) -> [f64; 3] {
+fn pixel(image: &Image, x: u32, y: u32) -> [f32; 3] {
     let texel = image.texel(0, 0, y, x, SignedTexelMinimum::Clamp);
-    [0, 1, 2].map(|c| f64::from(f32::from_bits(texel.to_format(Format::FP32)[c])))
+    [0, 1, 2].map(|c| f32::from_bits(texel.to_format(Format::FP32)[c]))
 }
 
 /// What vertices are made of.
