@@ -33,6 +33,7 @@ pub mod geom;
 pub mod io;
 pub mod linalg;
 pub mod oracle;
+pub mod picture;
 pub mod radiosity;
 pub mod ray_engine;
 pub mod renderer;

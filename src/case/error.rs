@@ -7,7 +7,8 @@ use miette::{Diagnostic, SourceSpan};
 use refsim::{device::DeviceError, machine::MachineError};
 
 use crate::{
-    report::{ReportError, SourceText},
+    picture::PictureError,
+    report::SourceText,
     shader::{ShaderError, ShaderWarning},
 };
 
@@ -89,7 +90,7 @@ pub enum CaseError {
     /// A picture of the result cannot be made.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Picture(#[from] ReportError),
+    Picture(#[from] PictureError),
     /// A shader that does not assemble or breaks a rule.
     #[error(transparent)]
     #[diagnostic(transparent)]

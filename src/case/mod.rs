@@ -26,7 +26,7 @@ pub use error::{CaseError, CaseWarning};
 pub use loaded::Loaded;
 pub use log::{log, log_observed};
 pub use probe::{Found, ProbeResult};
-pub use run::{Outcome, Picture, ShaderSlots, run};
+pub use run::{Outcome, ShaderSlots, run};
 pub use setup::{Setup, Vertices};
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use trace::{PixelTrace, trace};

@@ -12,7 +12,8 @@ use serde::Serialize;
 
 use super::{CaseError, Loaded, ProbeResult, Setup, probe};
 use crate::{
-    report::{Channel, ReportError, exr, picture},
+    picture::{ChannelUnit, Picture, PictureError, Rgba, Samples, buffer, exr, png},
+    report::NamedFile,
     shader,
 };
 
@@ -20,22 +21,13 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Every target, and the depth buffer, as a picture.
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<NamedFile>,
     /// The answers to the probes, in their order.
     pub probes: Vec<ProbeResult>,
     /// What happened, as counts.
     pub events: DrawEvents,
     /// The work of the pixel program.
     pub slots: ShaderSlots,
-}
-
-/// A file's name and contents.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// `target0.png` for example.
-    pub name: String,
-    /// The file.
-    pub bytes: Vec<u8>,
 }
 
 /// The slots that the pixel program took: how much work, not how long it took.
@@ -78,8 +70,8 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, Case
             .iter()
             .map(|&stored| f32::from_bits(surface.format().to_format(stored, Format::FP32)))
             .collect();
-        let bytes = exr(width as usize, height as usize, &[("depth", Channel::Float(&values))])?;
-        pictures.push(Picture { name: "depth.exr".to_owned(), bytes });
+        let picture = Picture::new(width, height).with("depth", ChannelUnit::Unknown, Samples::Float(values))?;
+        pictures.push(("depth.exr".to_owned(), exr(&picture)?));
     }
     let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
     Ok(Outcome {
@@ -105,34 +97,31 @@ fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> 
 }
 
 /// A target as PNG where its channels are unsigned fractions, else as EXR with the values as singles.
-fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<Picture, ReportError> {
-    let (width, height) = (target.width() as usize, target.height() as usize);
+fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, PictureError> {
+    let (width, height) = (target.width(), target.height());
     let record = target.format().record();
-    let texels = (0..target.height())
-        .flat_map(|y| (0..target.width()).map(move |x| (x, y)))
-        .map(|(x, y)| target.texel(0, 0, y, x, minimum));
+    let texels =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| target.texel(0, 0, y, x, minimum));
     if record.stored().iter().all(|channel| channel.class == ChannelClass::Unorm) {
         let deep = record.stored().iter().any(|channel| channel.bits > 8);
         let bytes = if deep {
-            let samples: Vec<u16> = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 65535) as u16)).collect();
-            picture::rgba16(width, height, &samples)?
+            let samples = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 65535) as u16)).collect();
+            png(&buffer::<Rgba<u16>>(width, height, samples)?)?
         } else {
-            let samples: Vec<u8> = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 255) as u8)).collect();
-            picture::rgba8(width, height, &samples)?
+            let samples = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 255) as u8)).collect();
+            png(&buffer::<Rgba<u8>>(width, height, samples)?)?
         };
-        return Ok(Picture { name: format!("{stem}.png"), bytes });
+        return Ok((format!("{stem}.png"), bytes));
     }
     let values: Vec<[f32; 4]> = texels.map(|texel| texel.to_format(Format::FP32).map(f32::from_bits)).collect();
-    let plane = |channel: usize| values.iter().map(|value| value[channel]).collect::<Vec<f32>>();
-    let planes = [plane(0), plane(1), plane(2), plane(3)];
-    let [red, green, blue, alpha] = &planes;
-    let channels = [
-        ("R", Channel::Float(red)),
-        ("G", Channel::Float(green)),
-        ("B", Channel::Float(blue)),
-        ("A", Channel::Float(alpha)),
-    ];
-    Ok(Picture { name: format!("{stem}.exr"), bytes: exr(width, height, &channels)? })
+    let plane = |channel: usize| Samples::Float(values.iter().map(|value| value[channel]).collect());
+    let picture = ["R", "G", "B", "A"]
+        .into_iter()
+        .enumerate()
+        .try_fold(Picture::new(width, height), |picture, (channel, name)| {
+            picture.with(name, ChannelUnit::Unknown, plane(channel))
+        })?;
+    Ok((format!("{stem}.exr"), exr(&picture)?))
 }
 
 /// An unsigned fraction in steps of `1 / most`, to the nearest.

@@ -21,14 +21,7 @@ use super::{
     value::{Number, vector, whole},
 };
 
-use crate::io::read_limited;
-
-/// Longest side of an image file, in pixels.
-const LONGEST_SIDE: u32 = 16384;
-/// Longest image file, in bytes.
-const MOST_BYTES: u64 = 1 << 28;
-/// Memory that decoding an image file may take, in bytes.
-const MOST_DECODED: u64 = 1 << 30;
+use crate::io::{picture::MAX_BYTES, read_limited};
 
 /// The sampler, the image and how it is read.
 pub(super) fn bind(
@@ -191,15 +184,11 @@ fn from_file(
         let help = "list `texels` for cubes, volumes and mip maps";
         return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
     }
-    let bytes = read_limited(&path, MOST_BYTES)
+    let bytes = read_limited(&path, MAX_BYTES)
         .map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?
-        .ok_or_else(|| wrong(format!("expected a picture file of at most {MOST_BYTES} bytes"), "use a smaller one"))?;
+        .ok_or_else(|| wrong(format!("expected a picture file of at most {MAX_BYTES} bytes"), "use a smaller one"))?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let mut limits = image::Limits::default();
-    limits.max_image_width = Some(LONGEST_SIDE);
-    limits.max_image_height = Some(LONGEST_SIDE);
-    limits.max_alloc = Some(MOST_DECODED);
-    reader.limits(limits);
+    reader.limits(crate::picture::limits());
     let decoded = reader.decode().map_err(|error| {
         let message = format!("expected a PNG picture, found something else in `{}`: {error}", path.display());
         wrong(message, "save the picture as PNG, 8 or 16 bits a channel")

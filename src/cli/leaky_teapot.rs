@@ -1,22 +1,21 @@
 //! `crossbar leaky-teapot`: the main job.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use miette::IntoDiagnostic as _;
 use refsim::num::Format;
 
 use super::executor::{DeviceExecutor, GpuArgs};
+use super::memory::{self, MemoryNeed};
 use super::size::Size;
-use super::{Out, Problem, Progress, Verdict, memory, view};
+use super::study::StudyArgs;
+use super::view;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
-use crate::io::atomic::FileSet;
 use crate::ray_engine::RayBatch;
-use crate::report::Provenance;
 use crate::scene::Camera;
 use crate::study::configuration::Configuration;
-use crate::study::leaky_teapot::{Parameters, run as run_study};
-use crate::study::leaky_teapot_report::{files, tables};
+use crate::study::leaky_teapot::Parameters;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -78,63 +77,45 @@ pub(super) struct Args {
     gpu: GpuArgs,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let configurations = configurations(args)?;
-    require_memory(args, configurations.len() as u64)?;
-    let mesh = teapot(args.tessellation).into_diagnostic()?;
-    let Size { width, height } = args.size;
-    let camera = Camera::teapot(width, height).into_diagnostic()?;
-    let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
-    let provenance = provenance(args, &configurations);
-    // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let bar = Progress::new("tracing", configurations.len() as u64 + 1);
-    let parameters = Parameters {
-        mesh,
-        view: rays,
-        sides: Sides::from(args.sides),
-        configurations,
-        rays_per_edge: args.rays_per_edge,
-        seed: args.seed,
-        executor: args.executor.open(&args.gpu)?,
-        all_pairs: args.all_pairs,
-    };
-    let outcome = run_study(&parameters, &|_| bar.advance(1))?;
-    drop(bar);
-    let written = files(&parameters, &outcome, &provenance)?;
-    view::write_folder(folder, &written)?;
-    let [rows, edges] = tables(&outcome);
-    if out.json() {
-        out.document(&serde_json::json!({
-            "provenance": provenance, "rows": rows.json(), "edges": edges.json(), "out": args.out,
-        }))?;
-        return Ok(Verdict::Done);
-    }
-    out.line(rows.title())?;
-    out.line(rows.text())?;
-    if args.rays_per_edge > 0 {
-        out.line("")?;
-        out.line(edges.title())?;
-        out.line(edges.text())?;
-    }
-    out.line("")?;
-    out.line(format_args!("pictures and tables: {}", args.out.join("index.html").display()))?;
-    Ok(Verdict::Done)
-}
+impl StudyArgs for Args {
+    type Study = Parameters;
 
-/// What the rays, the truth about them and the files of every row take.
-fn require_memory(args: &Args, rows: u64) -> Result<(), Problem> {
-    const PER_PIXEL: u64 = 350;
-    const PER_PIXEL_AND_ROW: u64 = 50;
-    const PER_TRIANGLE: u64 = 450;
-    const PER_AIMED_RAY: u64 = 350;
-    let triangles = 64 * u64::from(args.tessellation).pow(2);
-    // Two triangles share an edge, and as many rays as three edges have go to corners at most.
-    let aimed = (triangles * 3 / 2).saturating_mul(u64::from(args.rays_per_edge) + 1) * PER_AIMED_RAY;
-    let fixed = triangles * PER_TRIANGLE + aimed;
-    let need = memory::of_pixels(args.size.width, args.size.height, PER_PIXEL + rows * PER_PIXEL_AND_ROW, fixed);
-    let help = "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows";
-    memory::require(format_args!("a study of {} pixels in {rows} rows", args.size), need, help)
+    fn folder(&self) -> &Path {
+        &self.out
+    }
+
+    /// What the rays, the truth about them and the files of every row take.
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        const PER_PIXEL: u64 = 350;
+        const PER_PIXEL_AND_ROW: u64 = 50;
+        const PER_TRIANGLE: u64 = 450;
+        const PER_AIMED_RAY: u64 = 350;
+        let rows = configurations(self)?.len() as u64;
+        let triangles = 64 * u64::from(self.tessellation).pow(2);
+        // Two triangles share an edge, and as many rays as three edges have go to corners at most.
+        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.rays_per_edge) + 1) * PER_AIMED_RAY;
+        let fixed = triangles * PER_TRIANGLE + aimed;
+        Ok(Some(MemoryNeed {
+            what: format!("a study of {} pixels in {rows} rows", self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, PER_PIXEL + rows * PER_PIXEL_AND_ROW, fixed),
+            help: "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows",
+        }))
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        let Size { width, height } = self.size;
+        let camera = Camera::teapot(width, height).into_diagnostic()?;
+        Ok(Parameters {
+            mesh: teapot(self.tessellation).into_diagnostic()?,
+            view: RayBatch::new(width, height, camera.rays()).into_diagnostic()?,
+            sides: Sides::from(self.sides),
+            configurations: configurations(self)?,
+            rays_per_edge: self.rays_per_edge,
+            seed: self.seed,
+            executor: self.executor.open(&self.gpu)?,
+            all_pairs: self.all_pairs,
+        })
+    }
 }
 
 fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
@@ -170,27 +151,4 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
         }
     }
     Ok(all)
-}
-
-fn provenance(args: &Args, configurations: &[Configuration]) -> Provenance {
-    let mut command = format!("crossbar leaky-teapot --size {} --tessellation {}", args.size, args.tessellation);
-    for device in &args.device {
-        command.push_str(&format!(" --device {device}"));
-    }
-    for format in &args.format {
-        command.push_str(&format!(" --format {format}"));
-    }
-    command.push_str(&format!(" --rays-per-edge {} --seed {} --sides {}", args.rays_per_edge, args.seed, args.sides));
-    if args.all_pairs {
-        command.push_str(" --all-pairs");
-    }
-    let mut provenance = Provenance::new(command);
-    provenance.seed = Some(args.seed);
-    for configuration in configurations {
-        if !provenance.profiles.contains(&configuration.profile.name) {
-            provenance.profiles.push(configuration.profile.name.clone());
-        }
-        provenance.switches.extend(configuration.switch.clone());
-    }
-    provenance
 }

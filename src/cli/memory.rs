@@ -47,6 +47,27 @@ impl fmt::Display for LimitSource {
     }
 }
 
+/// What a command takes at most.
+#[derive(Clone, Debug)]
+pub(super) struct MemoryNeed {
+    /// The work, as in "tracing 512x512 pixels".
+    pub(super) what: String,
+    /// Bytes.
+    pub(super) bytes: u64,
+    /// How to ask for less.
+    pub(super) help: &'static str,
+}
+
+impl MemoryNeed {
+    /// Refuses work that needs more memory than there is.
+    ///
+    /// # Errors
+    /// [`Problem::Memory`].
+    pub(super) fn require(&self) -> Result<(), Problem> {
+        require(&self.what, self.bytes, self.help)
+    }
+}
+
 /// Sets the limit that `--memory-limit` asks for.
 pub(super) fn limit_to(bytes: Option<ByteSize>) {
     if let Some(bytes) = bytes {
@@ -132,7 +153,7 @@ const fn process_limit() -> Option<u64> {
     None
 }
 
-/// For sizes of a picture: what `per_pixel` bytes a pixel come to, and `fixed` bytes.
+/// `per_pixel` bytes for each pixel of a picture, and `fixed` bytes.
 pub(super) const fn of_pixels(width: u32, height: u32, per_pixel: u64, fixed: u64) -> u64 {
     (width as u64 * height as u64).saturating_mul(per_pixel).saturating_add(fixed)
 }

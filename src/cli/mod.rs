@@ -1,7 +1,7 @@
 //! The command line: one file a subcommand, and the only place that prints.
 //!
 //! A command computes, writes its findings to an [`Out`] and says whether its check held ([`Verdict`]); bad input
-//! comes back as a [`miette::Report`]. This file turns the two into exit codes: 0 done, 1 the check failed, 2 bad
+//! comes back as a [`miette::Report`]. Studies share one runner, `study`. This file turns the two into exit codes: 0 done, 1 the check failed, 2 bad
 //! input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
@@ -22,11 +22,13 @@ mod progress;
 mod radiosity;
 mod render;
 mod reproduce;
+mod resolved;
 mod run;
 mod scene;
 mod scene_name;
 mod shown;
 mod size;
+mod study;
 mod switch;
 mod timeline;
 mod view;
@@ -35,34 +37,20 @@ mod words;
 use std::{io::Write as _, process::ExitCode};
 
 use bytesize::ByteSize;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+
+use crate::report::Verdict;
 
 pub use error::{OutputError, Problem};
 pub use memory::LimitSource;
 pub use out::Out;
-pub use progress::Progress;
+pub use progress::ProgressBar;
 pub use size::{BadSize, Size};
 
 /// What `main` returns when the check that was asked for failed.
 const CHECK_FAILED: u8 = 1;
 /// What `main` returns on bad input or usage.
 const BAD_INPUT: u8 = 2;
-
-/// How a command ended that met no bad input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Done; where something was checked, it held.
-    Done,
-    /// Something was checked and did not hold.
-    Failed,
-}
-
-impl Verdict {
-    /// [`Verdict::Done`] if the check held.
-    pub const fn held(held: bool) -> Self {
-        if held { Self::Done } else { Self::Failed }
-    }
-}
 
 /// Global illumination on the first programmable graphics cards, emulated to the bit.
 ///
@@ -119,8 +107,13 @@ enum Command {
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
-    let cli = match Cli::try_parse_from(&arguments) {
-        Ok(cli) => cli,
+    let mut program = Cli::command();
+    let parsed = program.try_get_matches_from_mut(&arguments).and_then(|matches| {
+        let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
+        Ok((cli, resolved::command_line(&program, &matches)))
+    });
+    let (cli, command_line) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return ExitCode::from(error::print_usage(&error, &arguments)),
     };
     if let Some(threads) = cli.threads {
@@ -134,7 +127,7 @@ pub fn main() -> ExitCode {
     }
     interrupt::clean_up_on_signals();
     let mut out = Out::new(cli.json, cli.all_errors);
-    let result = obey(cli.command, &mut out).and_then(|verdict| {
+    let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
         Ok(verdict)
     });
@@ -151,17 +144,17 @@ pub fn main() -> ExitCode {
     }
 }
 
-fn obey(command: Command, out: &mut Out) -> miette::Result<Verdict> {
+fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::Alu(args) => alu::run(&args, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Intersect(args) => intersect::run(&args, out),
-        Command::LeakyTeapot(args) => leaky_teapot::run(&args, out),
-        Command::Radiosity(args) => radiosity::run(&args, out),
+        Command::LeakyTeapot(args) => study::run(&args, command_line, out),
+        Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, out),
-        Command::Reproduce(args) => reproduce::run(&args, out),
+        Command::Reproduce(args) => reproduce::run(&args, command_line, out),
         Command::Run(args) => run::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),
         Command::Timeline(args) => timeline::run(&args, out),

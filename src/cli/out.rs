@@ -6,6 +6,7 @@ use miette::Diagnostic;
 use serde::Serialize;
 
 use super::{OutputError, error};
+use crate::report::Table;
 use crate::report::visible::{visible, visible_json};
 
 /// Where a command writes what it found.
@@ -32,7 +33,7 @@ impl Out {
     }
 
     /// Columns of the terminal that this goes to, if it goes to one.
-    pub fn columns(&self) -> Option<u16> {
+    fn columns(&self) -> Option<u16> {
         terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0)
     }
 
@@ -47,6 +48,15 @@ impl Out {
     /// If standard output cannot be written.
     pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         Ok(writeln!(self, "{}", visible(&text.to_string()))?)
+    }
+
+    /// Writes a table without its title, as wide as the terminal if it goes to one.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
+        let text = self.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
+        self.line(text)
     }
 
     /// Writes what a check found, in the form of an error.

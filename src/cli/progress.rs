@@ -2,17 +2,17 @@
 
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 
 /// A progress bar that vanishes when dropped.
 #[derive(Debug)]
-pub struct Progress(ProgressBar);
+pub struct ProgressBar(indicatif::ProgressBar);
 
-impl Progress {
-    /// A bar of `total` steps of what `what` says.
+impl ProgressBar {
+    /// A bar of `total` steps of `what`.
     pub fn new(what: &str, total: u64) -> Self {
-        // `ProgressBar` draws to standard error and hides itself where that is no terminal.
-        let bar = ProgressBar::new(total).with_message(what.to_owned());
+        // It draws to standard error and hides itself where that is no terminal.
+        let bar = indicatif::ProgressBar::new(total).with_message(what.to_owned());
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {human_pos}/{human_len} {eta} left") {
             bar.set_style(style.progress_chars("=> "));
         }
@@ -20,7 +20,7 @@ impl Progress {
         Self(bar)
     }
 
-    /// `done` of `total` steps are done, of what `what` says now.
+    /// `done` of `total` steps of `what` are done.
     pub fn show(&self, what: String, done: u64, total: u64) {
         self.0.set_length(total);
         self.0.set_position(done);
@@ -33,7 +33,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressBar {
     fn drop(&mut self) {
         self.0.finish_and_clear();
     }

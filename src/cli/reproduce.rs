@@ -1,12 +1,12 @@
 //! `crossbar reproduce`: the papers' tables and figures, ours beside theirs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use super::{Out, Problem, Progress, Verdict, view};
-use crate::io::atomic::FileSet;
-use crate::report::{Provenance, Table};
-use crate::study::reproduce::report::{files, held, json, notes, questions, tables, tally_line};
-use crate::study::reproduce::{ENTRIES, choose, reproduce};
+use super::Out;
+use super::memory::MemoryNeed;
+use super::study::{self, StudyArgs};
+use crate::report::{Table, Verdict};
+use crate::study::reproduce::{ENTRIES, Parameters, choose};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,7 +17,7 @@ Examples:
   crossbar reproduce --list
       the entries
 
-Written to --out: index.html (self-contained), rows.csv, tally.csv, reproduce.json, and a drawing
+Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, and a drawing
 NAME.svg per chart.
 Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
 bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
@@ -41,45 +41,24 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    if args.list {
-        return list(out);
-    }
-    let chosen = choose(&args.entries)?;
-    let mut command = "crossbar reproduce".to_owned();
-    for name in &args.entries {
-        command.push_str(&format!(" {name}"));
-    }
-    let provenance = Provenance::new(command);
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let bar = Progress::new("reproducing", chosen.len() as u64);
-    let found = reproduce(&chosen, &mut || bar.advance(1))?;
-    drop(bar);
-    view::write_folder(folder, &files(&found, &provenance)?)?;
-    let verdict = Verdict::held(held(&found));
-    if out.json() {
-        out.document(&json(&found, &provenance))?;
-        return Ok(verdict);
-    }
-    for table in tables(&found).into_iter().chain([notes(&found)]) {
-        if !table.rows().is_empty() {
-            print(&table, out)?;
-        }
-    }
-    out.line(format_args!("tally: {}", tally_line(&found)))?;
-    for (entry, question) in questions(&found) {
-        out.line(format_args!("open ({entry}): {question}"))?;
-    }
-    out.line(format_args!("page, tables and drawings: {}", args.out.join("index.html").display()))?;
-    Ok(verdict)
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    if args.list { list(out) } else { study::run(args, command_line, out) }
 }
 
-fn print(table: &Table, out: &mut Out) -> miette::Result<()> {
-    out.line(table.title())?;
-    let text = out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
-    out.line(text)?;
-    out.line("")?;
-    Ok(())
+impl StudyArgs for Args {
+    type Study = Parameters;
+
+    fn folder(&self) -> &Path {
+        &self.out
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(None)
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        Ok(Parameters { entries: choose(&self.entries)? })
+    }
 }
 
 fn list(out: &mut Out) -> miette::Result<Verdict> {

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::{Out, Problem, Verdict, view};
+use super::{Out, Problem, view};
 use crate::io::atomic::FileSet;
 use crate::io::scene_files;
-use crate::report::Table;
+use crate::report::{Table, Verdict};
 use crate::scene::{Scene, built};
 
 const EXAMPLES: &str = "\
@@ -51,7 +51,7 @@ fn all(out: &mut Out) -> miette::Result<()> {
     for (name, what, scene) in scenes() {
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
-    out.line(out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns)))?;
+    out.table(&table)?;
     Ok(())
 }
 
@@ -65,8 +65,7 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
     let mut written = Vec::new();
     if let Some(folder) = folder {
         let files = scene_files(&scene, &name.replace('-', "_")).map_err(miette::Report::msg)?;
-        view::write_folder(FileSet::new(folder).map_err(Problem::from)?, &files)?;
-        written = files.iter().map(|(file, _)| folder.join(file)).collect();
+        written = view::write_folder(FileSet::new(folder).map_err(Problem::from)?, &files)?;
     }
     if out.json() {
         let mut row = summary(name, what, &scene);

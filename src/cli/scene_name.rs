@@ -1,4 +1,4 @@
-//! A scene by name or from a file, and from where it is looked at.
+//! A scene by name or from a file, and its camera.
 
 use std::path::Path;
 
@@ -60,15 +60,15 @@ impl EyeArgs {
     }
 }
 
-/// From where a picture is taken, as the command line says it.
+/// The camera that the command line asks for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stand<'a> {
+pub(super) struct Viewpoint<'a> {
     pub(super) size: Size,
     pub(super) view: Option<&'a str>,
     pub(super) eye: EyeArgs,
 }
 
-impl Stand<'_> {
+impl Viewpoint<'_> {
     /// The view asked for, else the eye asked for, else the scene's first view, else so that all is seen.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();

@@ -1,6 +1,6 @@
 //! What the commands that trace rays share: sizes, sides, folders of results.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
@@ -102,11 +102,10 @@ pub(super) fn require_mesh(path: &Path) -> Result<(), Problem> {
     )
 }
 
-/// Writes all files of a result together.
-pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> miette::Result<()> {
+/// Writes all files of a result together, and says where they are.
+pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Problem> {
     for (name, bytes) in files {
-        set.write(Path::new(name), |out| out.write_all(bytes)).map_err(Problem::from)?;
+        set.write(Path::new(name), |out| out.write_all(bytes))?;
     }
-    set.commit().map_err(Problem::from)?;
-    Ok(())
+    Ok(set.commit()?)
 }

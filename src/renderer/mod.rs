@@ -25,7 +25,6 @@ mod photon_map;
 pub mod sampling;
 mod settings;
 mod surfel;
-pub mod tone;
 mod tracer;
 mod vector;
 pub mod visibility;

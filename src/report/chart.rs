@@ -19,7 +19,7 @@ const PALETTE: [RGBColor; 6] = [
 
 /// A line of a chart.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct Series {
     /// What it is, for the legend.
     pub label: String,
     /// Its points, x and y, finite.
@@ -48,9 +48,9 @@ pub struct Chart {
     /// How the axis upward grows.
     pub y_scale: Scale,
     /// The lines; with `dots`, at most six of different colours.
-    pub lines: Vec<Line>,
+    pub lines: Vec<Series>,
     /// Points that no line joins.
-    pub dots: Vec<Line>,
+    pub dots: Vec<Series>,
     /// A paper's points: black rings, called "printed".
     pub printed: Vec<(f64, f64)>,
     /// What stands at 1, 2, ... of the axis to the right, where that has no numbers.
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     fn chart(points: Vec<(f64, f64)>) -> Chart {
-        let line = Line { label: "a <line>".to_owned(), points };
+        let line = Series { label: "a <line>".to_owned(), points };
         Chart { title: "title".to_owned(), x: "x".to_owned(), y: "y".to_owned(), lines: vec![line], ..Chart::default() }
     }
 
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn points_and_names_are_drawn() {
-        let series = |label: &str| Line { label: label.to_owned(), points: vec![(1.0, 2.0), (2.0, 3.0)] };
+        let series = |label: &str| Series { label: label.to_owned(), points: vec![(1.0, 2.0), (2.0, 3.0)] };
         let ticks = ["an office", "a room"].map(str::to_owned).into();
         let dots = vec![series("ours")];
         let chart = Chart { dots, printed: vec![(1.0, 2.5), (2.0, 1.0)], ticks, ..chart(Vec::new()) };

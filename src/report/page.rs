@@ -1,132 +1,66 @@
 //! One HTML file with everything inside it.
 
+use std::ops::Range;
+
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::visible::visible;
-use super::{Provenance, Table};
+use super::{Findings, Provenance, Table};
 
-/// A picture with a caption.
+/// A piece of a page; tables, charts and pictures by their places in the findings.
 #[derive(Clone, Debug)]
-pub struct Figure {
-    /// A PNG file.
-    pub png: Vec<u8>,
-    /// What the picture shows, for those who cannot see it.
-    pub alt: String,
-    /// What stands under it.
-    pub caption: String,
-}
-
-impl Figure {
-    /// A PNG with what stands under it; the caption serves as description too.
-    pub fn new(png: Vec<u8>, caption: impl Into<String>) -> Self {
-        let caption = caption.into();
-        Self { png, alt: caption.clone(), caption }
-    }
-}
-
-#[derive(Clone, Debug)]
-enum Block {
+pub(super) enum Passage {
     Heading(String),
-    Text(String),
-    Table(Table),
-    Figures(Vec<Figure>),
-    Drawing { svg: String, caption: String },
+    Paragraph(String),
+    Table(usize),
+    Chart(usize),
+    /// Side by side.
+    Pictures(Range<usize>),
 }
 
-/// A report under construction: blocks in the order in which they were added, the provenance last.
-#[derive(Clone, Debug)]
-pub struct Page {
-    title: String,
-    blocks: Vec<Block>,
-    provenance: Provenance,
-}
-
-impl Page {
-    /// A page with its title and where its contents come from.
-    pub fn new(title: impl Into<String>, provenance: Provenance) -> Self {
-        Self { title: title.into(), blocks: Vec::new(), provenance }
-    }
-
-    /// Adds a heading.
-    #[must_use]
-    pub fn heading(self, text: impl Into<String>) -> Self {
-        self.with(Block::Heading(text.into()))
-    }
-
-    /// Adds a paragraph of plain text.
-    #[must_use]
-    pub fn text(self, text: impl Into<String>) -> Self {
-        self.with(Block::Text(text.into()))
-    }
-
-    /// Adds a table under its title.
-    #[must_use]
-    pub fn table(self, table: Table) -> Self {
-        self.with(Block::Table(table))
-    }
-
-    /// Adds pictures side by side.
-    #[must_use]
-    pub fn figures(self, figures: Vec<Figure>) -> Self {
-        self.with(Block::Figures(figures))
-    }
-
-    /// Adds an SVG drawing of our own making, which is put in as it is, with what stands under it.
-    #[must_use]
-    pub fn drawing(self, svg: impl Into<String>, caption: impl Into<String>) -> Self {
-        self.with(Block::Drawing { svg: svg.into(), caption: caption.into() })
-    }
-
-    fn with(mut self, block: Block) -> Self {
-        self.blocks.push(block);
-        self
-    }
-
-    /// The page as one HTML file that needs nothing else: pictures and style are inside it, scripts there are none.
-    pub fn html(&self) -> String {
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    title { (self.title) }
-                    style { (PreEscaped(STYLE)) }
-                }
-                body {
-                    main {
-                        h1 { (self.title) }
-                        @for block in &self.blocks { (render_block(block)) }
-                        (render_provenance(&self.provenance))
-                    }
-                }
-            }
-        };
-        // Tags, styles and drawings have nothing hidden in them: what is escaped is text from outside.
-        visible(&page.into_string()).into_owned()
-    }
-}
-
-fn render_block(block: &Block) -> Markup {
-    match block {
-        Block::Heading(text) => html! { h2 { (text) } },
-        Block::Text(text) => html! { p { (text) } },
-        Block::Table(table) => render_table(table),
-        Block::Drawing { svg, caption } => html! {
-            figure.drawing { (PreEscaped(svg)) figcaption { (caption) } }
+/// The page as one HTML file that needs nothing else: pictures (`pngs`), charts (`drawings`) and style are inside it, scripts there are
+/// none. The provenance comes last.
+pub(super) fn html(findings: &Findings, pngs: &[Vec<u8>], drawings: &[String], provenance: &Provenance) -> String {
+    let passage = |passage: &Passage| match passage {
+        Passage::Heading(text) => html! { h2 { (text) } },
+        Passage::Paragraph(text) => html! { p { (text) } },
+        Passage::Table(place) => render_table(&findings.tables[*place].table),
+        // The drawing is of our own making, and put in as it is.
+        Passage::Chart(place) => html! {
+            figure.drawing { (PreEscaped(&drawings[*place])) figcaption { (findings.charts[*place].caption) } }
         },
-        Block::Figures(figures) => html! {
+        Passage::Pictures(places) => html! {
             div.figures {
-                @for figure in figures {
+                @for (picture, png) in findings.pictures[places.clone()].iter().zip(&pngs[places.clone()]) {
                     figure {
-                        img src=(format!("data:image/png;base64,{}", STANDARD.encode(&figure.png))) alt=(figure.alt);
-                        figcaption { (figure.caption) }
+                        img src=(format!("data:image/png;base64,{}", STANDARD.encode(png))) alt=(picture.caption);
+                        figcaption { (picture.caption) }
                     }
                 }
             }
         },
-    }
+    };
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (findings.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { (findings.title) }
+                    @for part in &findings.text { (passage(part)) }
+                    (render_provenance(provenance))
+                }
+            }
+        }
+    };
+    // Tags, styles and drawings have nothing hidden in them: what is escaped is text from outside.
+    visible(&page.into_string()).into_owned()
 }
 
 fn render_table(table: &Table) -> Markup {
@@ -185,21 +119,27 @@ dd { margin: 0; overflow-wrap: anywhere; }
 
 #[cfg(test)]
 mod tests {
+    use super::super::NamedPicture;
     use super::*;
+    use crate::picture::RgbImage;
 
     #[test]
     fn the_page_stands_alone_and_escapes_what_it_is_given() {
         let mut table = Table::new("a <b> table", &["x", "n"]);
         table.push(["<script>".into(), 3_u32.into()]);
-        let page = Page::new("T & U", Provenance::new("crossbar leaky-teapot --size 8x8"))
-            .heading("Pictures")
-            .text("Some text.")
-            .table(table)
-            .figures(vec![Figure::new(vec![1, 2, 3], "a \"quoted\" caption")])
-            .html();
+        let mut findings = Findings::new("T & U");
+        findings.heading("Pictures");
+        findings.paragraph("Some text.");
+        findings.table(table);
+        findings.table(Table::new("an empty table", &["x"]));
+        findings.pictures(vec![NamedPicture::new("p", RgbImage::new(1, 1), "a \"quoted\" caption")]);
+        let files = findings.take_files(&Provenance::new("crossbar leaky-teapot --size 8x8")).expect("a picture");
+        let names: Vec<&str> = files.iter().map(|file| file.0.as_str()).collect();
+        assert_eq!(names, ["p.png", "study.json", "index.html"]);
+        let page = String::from_utf8(files[2].1.clone()).expect("text");
         assert!(page.contains("T &amp; U"), "the title is escaped");
-        assert!(page.contains("&lt;script&gt;"), "cells are escaped");
-        assert!(page.contains("data:image/png;base64,AQID"), "pictures are inside");
+        assert!(page.contains("&lt;script&gt;") && !page.contains("an empty table"), "cells are escaped");
+        assert!(page.contains("data:image/png;base64,iVBORw0K"), "pictures are inside");
         assert!(page.contains("crossbar leaky-teapot --size 8x8"), "the command is told");
         assert!(!page.contains("http"), "nothing is fetched");
         assert!(!page.contains("<script"), "no scripts");

@@ -4,22 +4,23 @@
 //! reported for it, never on the reported t.
 
 use crate::geom::{Mesh, Ray};
+use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{RayBatch, reference};
 
 type Vec3 = [f64; 3];
 
-/// Colour where no surface is: linear RGB.
+/// Color where no surface is: linear RGB.
 const BACKGROUND: Vec3 = [0.012, 0.016, 0.024];
 /// The clay of the surface: linear RGB.
 const ALBEDO: Vec3 = [0.78, 0.60, 0.42];
 
 /// Normals of the corners, averaged over the triangles that meet there and weighted by their areas.
-pub struct Shader<'a> {
+pub struct TeapotShader<'a> {
     mesh: &'a Mesh,
     normals: Vec<Vec3>,
 }
 
-impl<'a> Shader<'a> {
+impl<'a> TeapotShader<'a> {
     /// Prepares the normals.
     pub fn new(mesh: &'a Mesh) -> Self {
         let mut normals = vec![[0.0; 3]; mesh.positions().len()];
@@ -34,14 +35,11 @@ impl<'a> Shader<'a> {
         Self { mesh, normals: normals.into_iter().map(unit).collect() }
     }
 
-    /// The picture of a batch of rays: `width * height` RGB bytes, row by row. `hits` holds a triangle a ray, or none.
-    pub fn picture(&self, rays: &RayBatch, hits: &[Option<u32>]) -> Vec<u8> {
-        let pixel = |(ray, hit): (usize, &Option<u32>)| {
-            let ray = &rays.rays()[ray];
-            let colour = hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle));
-            colour.map(encode)
-        };
-        hits.iter().enumerate().flat_map(pixel).collect()
+    /// The picture of a batch of rays. `hits` holds the triangle of each ray, or none.
+    pub fn picture(&self, rays: &RayBatch, hits: &[Option<u32>]) -> RgbImage {
+        let pixel =
+            |(ray, hit): (&Ray, &Option<u32>)| hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle)).map(encode);
+        rgb8(rays.width(), rays.height(), rays.rays().iter().zip(hits).map(pixel))
     }
 
     fn shade(&self, ray: &Ray, triangle: u32) -> Vec3 {
@@ -86,7 +84,8 @@ fn unit(v: Vec3) -> Vec3 {
     if length > 0.0 { v.map(|x| x / length) } else { v }
 }
 
-/// Linear light to a byte, with a square root for the display's curve.
+/// Linear light to a byte by a display of gamma 2, which makes pictures of these hits comparable by bytes: not the sRGB curve of
+/// [`crate::picture::display`].
 fn encode(linear: f64) -> u8 {
     (linear.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8
 }

@@ -4,11 +4,12 @@ use std::ops::Range;
 
 use proptest::prelude::*;
 
-/// A good text with so many bytes replaced, put in or left out.
-pub(crate) fn mutated(good: &'static str, edits: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
+/// A good file with so many bytes replaced, put in or left out.
+pub(crate) fn mutated(good: impl Into<Vec<u8>>, edits: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
+    let good = good.into();
     let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), edits);
     edits.prop_map(move |edits| {
-        let mut bytes = good.as_bytes().to_vec();
+        let mut bytes = good.clone();
         for (place, kind, byte) in edits {
             let at = place.index(bytes.len());
             match kind {

@@ -5,7 +5,7 @@ use crossbar::geom::teapot::teapot;
 use crossbar::ray_engine::RayBatch;
 use crossbar::scene::Camera;
 use crossbar::study::configuration::Configuration;
-use crossbar::study::leaky_teapot::{Outcome, Parameters, run};
+use crossbar::study::leaky_teapot::{Parameters, TeapotOutcome, run};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
@@ -23,8 +23,8 @@ fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Param
     }
 }
 
-fn study(parameters: &Parameters) -> Outcome {
-    run(parameters, &|_| {}).expect("the study runs")
+fn study(parameters: &Parameters) -> TeapotOutcome {
+    run(parameters, &mut |_, _, _| ()).expect("the study runs")
 }
 
 fn formats(names: &[&str]) -> Vec<Configuration> {
@@ -66,7 +66,7 @@ fn rays_at_seams_leak_even_in_fp32() {
 }
 
 /// The study by the batch executor, small enough for every executor.
-fn small_study() -> (Parameters, Outcome) {
+fn small_study() -> (Parameters, TeapotOutcome) {
     let mut configurations = vec![Configuration::device("r200").expect("a card")];
     for card in ["r300", "nv35"] {
         configurations.push(Configuration::device(card).expect("a card"));
@@ -78,7 +78,7 @@ fn small_study() -> (Parameters, Outcome) {
     (small, batch)
 }
 
-fn assert_same(batch: &Outcome, other: &Outcome, who: &str) {
+fn assert_same(batch: &TeapotOutcome, other: &TeapotOutcome, who: &str) {
     for (b, o) in batch.rows.iter().zip(&other.rows) {
         let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
         assert_eq!(b.triangle, o.triangle, "{who}, {}: triangles", b.configuration.label);
@@ -162,7 +162,7 @@ fn buckets_lose_nothing_that_the_whole_crossbar_finds() {
 }
 
 /// FNV-1a over what a run gives a pixel.
-fn digest(outcome: &Outcome) -> u64 {
+fn digest(outcome: &TeapotOutcome) -> u64 {
     let mut h = 0xcbf2_9ce4_8422_2325_u64;
     for row in &outcome.rows {
         for (t, triangle) in row.t.iter().zip(&row.triangle) {

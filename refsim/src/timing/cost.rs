@@ -21,7 +21,8 @@ pub struct DrawCost {
 }
 
 /// What bounds a draw.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash, PartialOrd, Ord, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Bottleneck {
     /// Fixed cost of a draw.
     #[default]
@@ -29,6 +30,7 @@ pub enum Bottleneck {
     /// Vertex units.
     Vertices,
     /// Triangle set-up.
+    #[strum(to_string = "set-up")]
     Setup,
     /// Arithmetic of the pixel pipelines.
     Arithmetic,

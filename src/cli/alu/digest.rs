@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use super::operation::Unit;
-use crate::cli::{Out, Progress};
+use crate::cli::{Out, ProgressBar};
 
 /// The widest operands whose pairs are all tried.
 const WIDEST: u32 = 16;
@@ -59,7 +59,7 @@ fn digest(unit: &Unit) -> u64 {
     if unit.op.operands() == 1 {
         return fold(FNV_START, row(&|a| [a, 0, 0]));
     }
-    let progress = Progress::new("operand pairs", u64::from(patterns).pow(2));
+    let progress = ProgressBar::new("operand pairs", u64::from(patterns).pow(2));
     let mut total = FNV_START;
     let firsts: Vec<u32> = (0..patterns).collect();
     for some in firsts.chunks(ROWS_A_STEP) {

@@ -2,7 +2,6 @@
 
 use refsim::exec::gpu::{FULL_PROBE, Gpu, GpuError, OperationReport, Tally, adapters, probe as measure};
 
-use super::show;
 use crate::cli::{Out, Problem, Verdict};
 use crate::report::Table;
 
@@ -26,7 +25,7 @@ pub(super) fn list(out: &mut Out) -> miette::Result<()> {
             adapter.largest_buffer.to_string().into(),
         ]);
     }
-    show(&table, out)?;
+    out.table(&table)?;
     Ok(())
 }
 
@@ -56,7 +55,7 @@ pub(super) fn probe(name: &str, out: &mut Out) -> miette::Result<Verdict> {
             ]);
         }
     }
-    show(&table, out)?;
+    out.table(&table)?;
     out.line("")?;
     let native: Vec<&str> = report.operations.iter().filter(|o| o.exact()).map(|o| o.name).collect();
     let listed = if native.is_empty() { "none".to_owned() } else { native.join(", ") };

@@ -12,7 +12,7 @@ mod adapters;
 #[cfg(not(feature = "wgpu"))]
 pub(super) use adapters::missing as no_adapters;
 
-use super::{Out, OutputError, Verdict};
+use super::{Out, Verdict};
 use crate::report::{Cell, Table};
 
 const EXAMPLES: &str = "\
@@ -82,7 +82,7 @@ fn all(out: &mut Out) -> miette::Result<()> {
             profile.switches().len().into(),
         ]);
     }
-    show(&table, out)?;
+    out.table(&table)?;
     out.line("")?;
     out.line("Besides these there is ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
     out.line("no limits, no time. `crossbar devices NAME` shows every figure of a device with its source.")?;
@@ -126,7 +126,7 @@ fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
         let confidence = row.confidence.to_string();
         figures.push([row.key, row.value, row.unit, confidence, row.source].map(Cell::from));
     }
-    show(&figures, out)?;
+    out.table(&figures)?;
     if profile.switches().is_empty() {
         return Ok(());
     }
@@ -143,14 +143,8 @@ fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
             switch.source.as_str().into(),
         ]);
     }
-    show(&switches, out)?;
+    out.table(&switches)?;
     Ok(())
-}
-
-/// Folded to the terminal where there is one; one line a row anywhere else.
-fn show(table: &Table, out: &mut Out) -> Result<(), OutputError> {
-    let text = out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
-    out.line(text)
 }
 
 fn figure_json(row: &FigureRow) -> Value {

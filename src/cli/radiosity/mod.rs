@@ -2,18 +2,18 @@
 
 mod ask;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::scene_name::{self, EyeArgs, Stand};
+use super::memory::{self, MemoryNeed};
+use super::number;
+use super::scene_name::{self, EyeArgs, Viewpoint};
 use super::size::Size;
-use super::{Out, Problem, Progress, Verdict, memory, number, view};
-use crate::io::atomic::FileSet;
+use super::study::StudyArgs;
 use crate::radiosity::solve::Options;
-use crate::report::Provenance;
-use crate::study::radiosity::{Parameters, files, run as run_study, tables};
+use crate::study::radiosity::Parameters;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -111,11 +111,11 @@ pub(super) struct Args {
 
     /// After the first solution, the radiance of a material; may be repeated
     #[arg(long, value_name = "MATERIAL=R,G,B", value_parser = ask::light_of)]
-    emit: Vec<ask::Colour>,
+    emit: Vec<ask::MaterialColor>,
 
     /// After the first solution, the reflectance of a material; may be repeated
     #[arg(long, value_name = "MATERIAL=R,G,B", value_parser = ask::paint_of)]
-    paint: Vec<ask::Colour>,
+    paint: Vec<ask::MaterialColor>,
 
     /// Pictures of the first way on the card after so many iterations
     #[arg(long, value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -165,79 +165,48 @@ enum Law {
     Closure,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let ways = ask::ways(args)?;
-    let scene = scene_name::scene(&args.scene)?;
-    require_memory(args, ways.len() as u64)?;
-    let stand = Stand { size: args.size, view: args.view.as_deref(), eye: args.eye };
-    let parameters = Parameters {
-        camera: stand.camera(&scene)?,
-        subdivision: ask::subdivision(args),
-        factors: ask::wishes(args),
-        ways,
-        profile: super::switch::device(&args.device, &args.switch)?,
-        executor: args.executor.open(&args.gpu)?,
-        options: Options {
-            tolerance: args.tolerance.unwrap_or(if args.iterations.is_some() { 0.0 } else { 1e-4 }),
-            most_iterations: args.iterations.unwrap_or(1000),
-        },
-        changes: ask::changes(args),
-        exposure: args.exposure,
-        frames: args.frames.clone(),
-        sweep: args.sweep.clone(),
-        scene,
-    };
-    // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let bar = Progress::new("radiosity", 1);
-    let outcome = run_study(&parameters, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
-    drop(bar);
-    let provenance = provenance(args, &parameters);
-    view::write_folder(folder, &files(&parameters, &outcome, &provenance)?)?;
-    let found = tables(&parameters, &outcome);
-    if out.json() {
-        let mut document = found.json();
-        document["provenance"] = serde_json::json!(provenance);
-        document["out"] = serde_json::json!(args.out);
-        out.document(&document)?;
-        return Ok(Verdict::Done);
-    }
-    for table in found.all() {
-        out.line(table.title())?;
-        out.line(out.columns().map_or_else(|| table.text(), |columns| table.text_within(columns)))?;
-        out.line("")?;
-    }
-    out.line(format_args!("pictures and tables: {}", args.out.join("index.html").display()))?;
-    Ok(Verdict::Done)
-}
+impl StudyArgs for Args {
+    type Study = Parameters;
 
-/// What the matrices of so many patches take, and the pictures of every way.
-fn require_memory(args: &Args, ways: u64) -> Result<(), Problem> {
-    const PER_PAIR: u64 = 64;
-    const PER_PIXEL_AND_WAY: u64 = 100;
-    // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their own.
-    let patches = args.per_side.map_or(u64::from(args.patches), |_| 0);
-    let pictures = ways + args.frames.len() as u64;
-    let need = memory::of_pixels(
-        args.size.width,
-        args.size.height,
-        pictures * PER_PIXEL_AND_WAY,
-        patches * patches * PER_PAIR,
-    );
-    let what = format_args!("radiosity of {patches} patches with {pictures} pictures of {} pixels", args.size);
-    memory::require(what, need, "ask for fewer `--patches` or a smaller `--size`")
-}
+    fn folder(&self) -> &Path {
+        &self.out
+    }
 
-fn provenance(args: &Args, parameters: &Parameters) -> Provenance {
-    let mut command = format!("crossbar radiosity {}", args.scene.display());
-    command.push_str(&match args.per_side {
-        Some(n) => format!(" --per-side {n}"),
-        None => format!(" --patches {}", args.patches),
-    });
-    command.push_str(&ask::spelled(args));
-    let mut provenance = Provenance::new(command);
-    provenance.seed = (args.factors == FactorsArg::Rays).then_some(args.seed);
-    provenance.profiles.push(parameters.profile.name.clone());
-    provenance.switches.clone_from(&args.switch);
-    provenance
+    /// What the matrices of so many patches take, and the pictures of every method.
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        const PER_PAIR: u64 = 64;
+        const PER_PIXEL_AND_PICTURE: u64 = 100;
+        // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their own.
+        let patches = self.per_side.map_or(u64::from(self.patches), |_| 0);
+        let pictures = (ask::methods(self)?.len() + self.frames.len()) as u64;
+        let matrices = patches * patches * PER_PAIR;
+        Ok(Some(MemoryNeed {
+            what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
+            help: "ask for fewer `--patches` or a smaller `--size`",
+        }))
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        let scene = scene_name::scene(&self.scene)?;
+        let viewpoint = Viewpoint { size: self.size, view: self.view.as_deref(), eye: self.eye };
+        Ok(Parameters {
+            camera: viewpoint.camera(&scene)?,
+            subdivision: ask::subdivision(self),
+            factors: ask::requirements(self),
+            ways: ask::methods(self)?,
+            profile: super::switch::device(&self.device, &self.switch)?,
+            switches: self.switch.clone(),
+            executor: self.executor.open(&self.gpu)?,
+            options: Options {
+                tolerance: self.tolerance.unwrap_or(if self.iterations.is_some() { 0.0 } else { 1e-4 }),
+                most_iterations: self.iterations.unwrap_or(1000),
+            },
+            changes: ask::changes(self),
+            exposure: self.exposure,
+            frames: self.frames.clone(),
+            sweep: self.sweep.clone(),
+            scene,
+        })
+    }
 }

@@ -8,18 +8,18 @@ use miette::IntoDiagnostic as _;
 use refsim::num::{Format, Kind, Rounding};
 use serde_json::json;
 
-use super::scene::{Asked, camera};
-use super::{Args, Out, Problem, SMALLER, Verdict, view};
+use super::scene::{LitScene, camera};
+use super::{Args, Out, Problem, SMALLER, view};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{Progress, memory, number};
+use crate::cli::{ProgressBar, memory, number};
 use crate::geom::Caster;
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
+use crate::picture::{exr, png};
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
-use crate::renderer::{Lens, Picture, Settings, Watch, distributed, eye, path, tone, whitted};
-use crate::report::picture::rgb8;
-use crate::report::{Channel, exr};
+use crate::renderer::{Lens, Picture, Settings, Watch, distributed, eye, path, whitted};
+use crate::report::Verdict;
 use crate::scene::{Camera, Scene};
 
 /// How light is found.
@@ -104,7 +104,7 @@ fn parse_lens(text: &str) -> Result<Lens, String> {
     Ok(Lens { radius, focus })
 }
 
-pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, asked: &LitScene, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
@@ -116,7 +116,9 @@ pub(super) fn run(args: &Args, asked: &Asked, out: &mut Out) -> miette::Result<V
     let mut caster = caster.build(asked.scene.mesh(), Sides::from(args.sides))?;
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
-    view::write_folder(folder, &files(&picture, args.light.exposure)?)?;
+    let shown = picture.display(args.light.exposure);
+    let files = [("picture.png".to_owned(), png(&shown)?), ("layers.exr".to_owned(), exr(&picture.layers()?)?)];
+    view::write_folder(folder, &files)?;
     tell(args, &picture, engine.as_ref(), out)?;
     Ok(Verdict::Done)
 }
@@ -194,7 +196,7 @@ fn trace(
     photons.global = light.photons.unwrap_or(photons.global);
     photons.caustic = light.photons.unwrap_or(photons.caustic);
     photons.gather = light.gather.unwrap_or(photons.gather);
-    let (start, bar) = (Instant::now(), Progress::new("rendering", 1));
+    let (start, bar) = (Instant::now(), ProgressBar::new("rendering", 1));
     let mut watch = |progress: crate::renderer::Progress| {
         let rate = progress.rays as f64 / start.elapsed().as_secs_f64().max(1e-3) / 1e6;
         bar.show(format!("{}, {rate:.2} M rays/s", progress.what), progress.done, progress.total);
@@ -215,23 +217,6 @@ fn trace(
         writeln!(std::io::stderr().lock(), "time: {seconds:.2} s, {rate:.3} M rays/s").ok();
     }
     Ok(picture)
-}
-
-fn files(picture: &Picture, exposure: f64) -> miette::Result<Vec<(String, Vec<u8>)>> {
-    let (w, h) = (picture.width as usize, picture.height as usize);
-    let [red, green, blue] = [0, 1, 2].map(|channel| picture.channel(channel));
-    let (t, triangles) = (picture.t(), picture.triangles());
-    let layers = [
-        ("R", Channel::Float(&red)),
-        ("G", Channel::Float(&green)),
-        ("B", Channel::Float(&blue)),
-        ("t", Channel::Float(&t)),
-        ("triangle", Channel::Uint(&triangles)),
-    ];
-    Ok(vec![
-        ("picture.png".to_owned(), rgb8(w, h, &tone::bytes(&picture.color, exposure))?),
-        ("layers.exr".to_owned(), exr(w, h, &layers)?),
-    ])
 }
 
 fn tell(args: &Args, picture: &Picture, engine: Option<&EngineCounts>, out: &mut Out) -> miette::Result<()> {

@@ -11,16 +11,16 @@ use refsim::device::Profile;
 use super::executor::{Decider, GpuArgs};
 use super::scene_name::EyeArgs;
 use super::size::Size;
-use super::{Out, Problem, Verdict, memory, view};
+use super::{Out, Problem, memory, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::io::obj::load_obj;
+use crate::picture::{ChannelUnit, Picture, Samples, exr, png};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::picture::rgb8;
-use crate::report::{Channel, exr};
+use crate::report::Verdict;
 use crate::scene::Camera;
-use crate::study::shade::Shader;
+use crate::study::shade::TeapotShader;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -102,14 +102,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         }
     };
     let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.0)).collect();
-    let picture = Shader::new(&mesh).picture(&rays, &triangles);
-    let t: Vec<f32> = hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.1)).collect();
-    let ids: Vec<u32> = triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
-    let (w, h) = (width as usize, height as usize);
-    let files = [
-        ("picture.png".to_owned(), rgb8(w, h, &picture)?),
-        ("layers.exr".to_owned(), exr(w, h, &[("t", Channel::Float(&t)), ("triangle", Channel::Uint(&ids))])?),
-    ];
+    let picture = TeapotShader::new(&mesh).picture(&rays, &triangles);
+    let t = hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.1)).collect();
+    let ids = triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
+    let layers = Picture::new(width, height).with("t", ChannelUnit::RayLength, Samples::Float(t))?.with(
+        "triangle",
+        ChannelUnit::Id,
+        Samples::Uint(ids),
+    )?;
+    let files = [("picture.png".to_owned(), png(&picture)?), ("layers.exr".to_owned(), exr(&layers)?)];
     view::write_folder(folder, &files)?;
     let found = hits.iter().flatten().count();
     if out.json() {

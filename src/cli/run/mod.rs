@@ -8,11 +8,11 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::{Out, Problem, Verdict, error, memory, pixel};
+use super::{Out, Problem, error, memory, pixel, view};
 use crate::{
     case::{self, Found, Outcome, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
-    report::{Cell, Table, visible::visible_line},
+    report::{Cell, Table, Verdict, visible::visible_line},
 };
 
 const EXAMPLES: &str = "\
@@ -70,12 +70,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         knows_flags: executor.kind() == ExecutorKind::Scalar,
     });
     // Before the work: a folder that cannot be written is found out early.
-    let mut files = FileSet::new(&folder).map_err(Problem::from)?;
+    let files = FileSet::new(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;
-    for picture in &outcome.pictures {
-        files.write(Path::new(&picture.name), |file| file.write_all(&picture.bytes)).map_err(Problem::from)?;
-    }
-    let written = files.commit().map_err(Problem::from)?;
+    let written = view::write_folder(files, &outcome.pictures)?;
     out.outlive_reader();
     if out.json() {
         let mut document = document(&setup, args, &outcome, &written);

@@ -11,7 +11,7 @@ use refsim::event::ReadBackMode;
 use refsim::timing::Level;
 
 use super::size::Size;
-use super::{Out, Problem, Progress, Verdict};
+use super::{Out, Problem, ProgressBar, Verdict};
 use crate::io::atomic::write_file;
 use crate::study::timeline_trace::trace;
 use run::{Input, Timed};
@@ -124,7 +124,7 @@ fn parse_rays(text: &str) -> Result<Size, super::BadSize> {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let input = Input::read(args)?;
     // One step, but it moves: with a cache to run, this takes long.
-    let bar = Progress::new("drawing", 1);
+    let bar = ProgressBar::new("drawing", 1);
     let log = input.log(args.cache)?;
     drop(bar);
     let mut timed = Vec::new();

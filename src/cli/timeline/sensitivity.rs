@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::timing::replay::{Options, replay};
 use refsim::timing::{Level, Model, Picoseconds};
 
-use crate::cli::Progress;
+use crate::cli::ProgressBar;
 
 /// A guessed figure, and the makespan with half and with twice its value.
 pub(super) struct Sensitivity {
@@ -24,7 +24,7 @@ pub(super) fn sensitivity(model: &Model, log: &[Event], options: &Options<'_>) -
     // Commands cost the rates nothing, whatever the figures say.
     let queue = if model.level() == Level::Pipeline { options.queue.rows() } else { Vec::new() };
     let guesses = model.guesses();
-    let bar = Progress::new("halving and doubling", (guesses.len() + queue.len()) as u64);
+    let bar = ProgressBar::new("halving and doubling", (guesses.len() + queue.len()) as u64);
     let mut rows = Vec::new();
     for key in guesses {
         let halved = time(&model.with_scaled(&key, 1, 2).into_diagnostic()?, options)?;

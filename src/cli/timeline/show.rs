@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use refsim::event::{DrawRecord, Event, SamplerTraffic};
 use refsim::timing::timeline::Usage;
-use refsim::timing::{Bottleneck, DrawCost, Picoseconds};
+use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
 use super::run::{Input, Timed};
@@ -104,7 +104,7 @@ fn draws(log: &[Event], timed: &Timed) -> Table {
             us(cost.memory),
             us(cost.total),
             cost.core_clocks.0.into(),
-            bottleneck(cost.bottleneck).into(),
+            cost.bottleneck.to_string().into(),
         ]);
     }
     table
@@ -130,19 +130,6 @@ fn cache(log: &[Event]) -> Table {
         table.push(numbers.map(Cell::Count));
     }
     table
-}
-
-const fn bottleneck(bottleneck: Bottleneck) -> &'static str {
-    match bottleneck {
-        Bottleneck::Overhead => "overhead",
-        Bottleneck::Vertices => "vertices",
-        Bottleneck::Setup => "set-up",
-        Bottleneck::Arithmetic => "arithmetic",
-        Bottleneck::Textures => "textures",
-        Bottleneck::Output => "output",
-        Bottleneck::Memory => "memory",
-        Bottleneck::Rate => "rate",
-    }
 }
 
 fn units(timed: &Timed) -> Table {
@@ -244,7 +231,7 @@ fn model(input: &Input, log: &[Event], timed: &Timed) -> Value {
             "memory_ps": cost.memory.0,
             "total_ps": cost.total.0,
             "core_clocks": cost.core_clocks.0,
-            "bound_by": bottleneck(cost.bottleneck),
+            "bound_by": cost.bottleneck.to_string(),
         })
     });
     let units = timeline.usage().into_iter().map(|usage| {

@@ -17,6 +17,7 @@ use refsim::texture::{SamplerState, TexelFormat};
 use super::draw::{DrawError, Projection, bits, patch_of};
 use super::{Patch, Patches, kernels};
 use crate::card::{NearestTarget, Texels};
+use crate::picture::Picture;
 use crate::scene::Camera;
 use corners::CornerSets;
 pub use corners::at_corners;
@@ -58,17 +59,6 @@ impl Default for DisplayOptions {
     fn default() -> Self {
         Self { vector: VectorTexture::Row, target: TexelFormat::Bgra8 }
     }
-}
-
-/// A picture as the card left it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CardPicture {
-    /// Pixels across.
-    pub width: u32,
-    /// Pixels down.
-    pub height: u32,
-    /// Red, green and blue, linear, rows from the top. Black where there is no patch, or its back.
-    pub pixels: Vec<[f64; 3]>,
 }
 
 /// Patches of three corners or of four, whole or as fans: their vertices, and how they are drawn smoothly.
@@ -144,7 +134,7 @@ impl Display {
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
-    pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<CardPicture, DrawError> {
+    pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
         self.picture(machine)
     }
@@ -153,7 +143,7 @@ impl Display {
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
-    pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<CardPicture, DrawError> {
+    pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         let corners = self.resampler.run(machine, radiosity)?;
         self.draw(machine, self.target, Some(corners), exposure, |shape| &shape.smooth)?;
         self.picture(machine)
@@ -193,10 +183,10 @@ impl Display {
         Ok(())
     }
 
-    fn picture(&self, machine: &Machine) -> Result<CardPicture, DrawError> {
+    fn picture(&self, machine: &Machine) -> Result<Picture, DrawError> {
         let Texels { width, height, texels } = Texels::read_back(machine, self.target.color)?;
-        let pixels = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
-        Ok(CardPicture { width: width as u32, height: height as u32, pixels })
+        let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
+        Ok(Picture::rgb(width as u32, height as u32, &pixels))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Dynamic relighting: another light or another paint, the same form factors (section 1: "while the geometry is fixed, the emittance
 //! is not").
 
-use super::StudyError;
+use super::RadiosityError;
 use crate::radiosity::{Patches, System};
 use crate::scene::{Color, Scene};
 
@@ -41,7 +41,7 @@ pub(super) fn apply(
     scene: &Scene,
     patches: &Patches,
     system: &System,
-) -> Result<Option<System>, StudyError> {
+) -> Result<Option<System>, RadiosityError> {
     if changes.is_empty() {
         return Ok(None);
     }
@@ -55,7 +55,7 @@ pub(super) fn apply(
         };
         let Some(material) = scene.materials().iter().position(|m| m.name == *name) else {
             let known = scene.materials().iter().map(|m| m.name.clone()).collect();
-            return Err(StudyError::NoMaterial { name: name.clone(), known });
+            return Err(RadiosityError::NoMaterial { name: name.clone(), known });
         };
         let painted = patches.list().iter().zip(values.iter_mut()).filter(|(p, _)| p.material as usize == material);
         painted.for_each(|(_, old)| *old = value);

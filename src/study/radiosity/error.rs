@@ -3,17 +3,20 @@
 use miette::Diagnostic;
 use refsim::device::DeviceError;
 use refsim::machine::MachineError;
+use refsim::timing::TimingError;
 use refsim::timing::replay::ReplayError;
 use thiserror::Error;
 
+use crate::picture::PictureError;
 use crate::radiosity::on_card::CardError;
+use crate::radiosity::rate::RateError;
 use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
 use crate::report::ReportError;
 
 /// Why there is no outcome.
 #[derive(Debug, Error, Diagnostic)]
-pub enum StudyError {
+pub enum RadiosityError {
     /// The scene makes no patches.
     #[error(transparent)]
     #[diagnostic(code(radiosity::patches))]
@@ -59,10 +62,22 @@ pub enum StudyError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Device(#[from] DeviceError),
+    /// The time of an iteration.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::rate))]
+    Rate(#[from] RateError),
+    /// The timing model.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::timing))]
+    Timing(#[from] TimingError),
     /// The timeline.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Replay(#[from] ReplayError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
     /// A file that cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]

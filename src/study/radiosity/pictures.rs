@@ -3,41 +3,41 @@
 use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
 
-use super::way::{CardFacts, Solved};
-use super::{Parameters, StudyError, Way, time};
-use crate::radiosity::display::{CardPicture, Display, DisplayOptions};
+use super::method::{CardFacts, Solved};
+use super::{Parameters, RadiosityError, SolveMethod, time};
+use crate::picture::RgbImage;
+use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
-use crate::renderer::tone;
 
-/// Linear light that is seen as the middle between black and white.
+/// Linear light seen as halfway between black and white.
 const MIDDLE_GREY: f64 = 0.18;
 /// Rec. 709's weights of red, green and blue.
 const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
-/// The card keeps all digits; the curve of a display comes after it.
+/// The card multiplies by the exposure and keeps all digits; the curve of a display comes after it.
 const OPTIONS: DisplayOptions =
     DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
 
-/// Pictures of a solution: red, green, blue bytes, rows from the top.
+/// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pictures {
     /// Each patch in its radiosity.
-    pub flat: Vec<u8>,
+    pub flat: RgbImage,
     /// Interpolated between corners.
-    pub smooth: Vec<u8>,
+    pub smooth: RgbImage,
     /// After the changes, interpolated.
-    pub relit: Option<Vec<u8>>,
+    pub relit: Option<RgbImage>,
 }
 
 /// The room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Frame {
+pub struct IterationPicture {
     /// Iterations.
     pub iteration: u32,
     /// Each patch in its radiosity.
-    pub flat: Vec<u8>,
+    pub flat: RgbImage,
 }
 
-/// The exposure at which what does not shine is grey in the mean over its area.
+/// Auto-exposure: surfaces that do not emit at 18 % grey on average over their area.
 pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
@@ -60,22 +60,22 @@ pub(super) struct Studio<'a> {
 }
 
 impl<'a> Studio<'a> {
-    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
+    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, RadiosityError> {
         let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
         Ok(Self { patches, parameters, exposure, machine, display })
     }
 
-    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
+    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, RadiosityError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         let picture = self.display.flat(&mut self.machine, texture, self.exposure)?;
-        Ok(bytes(&picture))
+        Ok(picture.display(1.0)?)
     }
 
-    fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<Vec<u8>, StudyError> {
+    fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, RadiosityError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         let picture = self.display.smooth(&mut self.machine, texture, self.exposure)?;
-        Ok(bytes(&picture))
+        Ok(picture.display(1.0)?)
     }
 
     /// Pictures of a solution and of what came after it, and what its card says.
@@ -83,7 +83,7 @@ impl<'a> Studio<'a> {
         &mut self,
         solved: &mut Solved,
         system: &System,
-    ) -> Result<(Pictures, Option<CardFacts>), StudyError> {
+    ) -> Result<(Pictures, Option<CardFacts>), RadiosityError> {
         let relit = solved.relit.as_ref().map(|relit| self.smooth(&relit.radiosity)).transpose()?;
         let Some(card) = &mut solved.card else {
             let (flat, smooth) = (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?);
@@ -94,28 +94,23 @@ impl<'a> Studio<'a> {
                 let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, OPTIONS)?;
                 let flat = display.flat(card.machine_mut(), all, self.exposure)?;
                 let smooth = display.smooth(card.machine_mut(), all, self.exposure)?;
-                (bytes(&flat), bytes(&smooth))
+                (flat.display(1.0)?, smooth.display(1.0)?)
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
         let facts = match solved.way {
-            Way::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
-            Way::Host(_) => None,
+            SolveMethod::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
+            SolveMethod::Host(_) => None,
         };
         Ok((Pictures { flat, smooth, relit }, facts))
     }
 
     /// The room after the iterations that were kept.
-    pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<Frame>, StudyError> {
+    pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, RadiosityError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {
-            Ok(Frame { iteration: *iteration, flat: self.flat(radiosity)? })
+            Ok(IterationPicture { iteration: *iteration, flat: self.flat(radiosity)? })
         };
         first.kept.iter().map(frame).collect()
     }
-}
-
-/// Through the curve of a display; the program has multiplied by the exposure already.
-fn bytes(picture: &CardPicture) -> Vec<u8> {
-    tone::bytes(&picture.pixels, 1.0)
 }

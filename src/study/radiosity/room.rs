@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Parameters, StudyError, Watch};
+use super::{Parameters, ProgressFn, RadiosityError};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{Hemicube, RowSums, VisibilityParameters};
 use crate::radiosity::{FormFactors, Patches};
@@ -25,10 +25,10 @@ pub enum Factors {
 
 /// What is asked of form factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wishes {
+pub struct FactorRequirements {
     /// Where they come from.
     pub from: Factors,
-    /// Row sums may be so far from 1, or there is no solution.
+    /// MethodRow sums may be so far from 1, or there is no solution.
     pub closed: Option<f64>,
     /// Make A_i F_ij and A_j F_ji equal.
     pub enforce_reciprocity: bool,
@@ -43,9 +43,13 @@ pub(super) struct Room {
     pub(super) reciprocity_error: f64,
 }
 
-pub(super) fn find(patches: &Patches, parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Room, StudyError> {
+pub(super) fn find(
+    patches: &Patches,
+    parameters: &Parameters,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Room, RadiosityError> {
     let wishes = &parameters.factors;
-    let mut done = |done: usize, of: usize| watch("form factors", done as u64, of as u64);
+    let mut done = |done: usize, of: usize| progress("form factors", done as u64, of as u64);
     let mut factors = match wishes.from {
         Factors::Unoccluded => FormFactors::unoccluded(patches)?,
         Factors::Rays(how) => {

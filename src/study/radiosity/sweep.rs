@@ -3,7 +3,7 @@
 
 use refsim::device::Profile;
 
-use super::{CardWay, Difference, Parameters, Stopped, StudyError, Watch, Way, room};
+use super::{CardMethod, Difference, Parameters, ProgressFn, RadiosityError, SolveMethod, Stopped, room};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crate::radiosity::solve::{Options, Solver};
@@ -32,9 +32,9 @@ pub struct SweepRow {
 }
 
 /// Rows by patches, way and settings.
-pub(super) fn run(parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Vec<SweepRow>, StudyError> {
-    let on_card = |way: &Way| if let Way::Card(how) = way { Some(*how) } else { None };
-    let ways: Vec<CardWay> = parameters.ways.iter().filter_map(on_card).collect();
+pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, RadiosityError> {
+    let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(*how) } else { None };
+    let ways: Vec<CardMethod> = parameters.ways.iter().filter_map(on_card).collect();
     let settings = Configuration::of(&parameters.profile).under_each_switch()?;
     let (mut rows, mut done) = (Vec::new(), 0);
     let all = (parameters.sweep.len() * ways.len() * settings.len()) as u64;
@@ -44,13 +44,13 @@ pub(super) fn run(parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Vec<
             let fit = Fit::of(&parameters.profile, how.packing)?;
             fit.require(&parameters.profile, how.packing, patches.list().len())?;
         }
-        let factors = room::find(&patches, parameters, watch)?.factors;
+        let factors = room::find(&patches, parameters, progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         let truth = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
         for &how in &ways {
             let mut found: Vec<(Vec<[f32; 3]>, SweepRow)> = Vec::new();
             for setting in &settings {
-                watch("sweep", done, all);
+                progress("sweep", done, all);
                 done += 1;
                 let (radiosity, row) = solved(how, setting, &system, &truth, parameters)?;
                 match found.iter_mut().find(|(other, _)| same_bits(other, &radiosity)) {
@@ -68,12 +68,12 @@ pub(super) fn run(parameters: &Parameters, watch: &mut Watch<'_>) -> Result<Vec<
 }
 
 fn solved(
-    how: CardWay,
+    how: CardMethod,
     setting: &Configuration,
     system: &System,
     truth: &[[f64; 3]],
     parameters: &Parameters,
-) -> Result<(Vec<[f32; 3]>, SweepRow), StudyError> {
+) -> Result<(Vec<[f32; 3]>, SweepRow), RadiosityError> {
     let profile = &setting.profile;
     let mut card = CardSolver::new(profile.clone(), parameters.executor.clone(), system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
@@ -82,7 +82,7 @@ fn solved(
     let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
     let row = SweepRow {
         patches: truth.len(),
-        way: Way::Card(how).label(profile),
+        way: SolveMethod::Card(how).label(profile),
         as_it_is: setting.switch.is_none(),
         switches: setting.switch.iter().cloned().collect(),
         iterations: solution.iterations(),
@@ -94,7 +94,12 @@ fn solved(
 }
 
 /// The mean that rounding alone should leave.
-fn bias(how: CardWay, profile: &Profile, system: &System, truth: &[[f64; 3]]) -> Result<Option<f64>, StudyError> {
+fn bias(
+    how: CardMethod,
+    profile: &Profile,
+    system: &System,
+    truth: &[[f64; 3]],
+) -> Result<Option<f64>, RadiosityError> {
     let rules = &profile.rules;
     let format = if how.storage == Storage::Fp16 { rules.partial.unwrap_or(rules.format) } else { rules.format };
     let block = Fit::of(profile, how.packing)?.block;

@@ -1,47 +1,26 @@
 //! What was found, as tables.
 
-use serde_json::{Value, json};
-
-use super::{Difference, Outcome, Parameters, Row, Stopped, Way};
+use super::{Difference, MethodRow, Parameters, RadiosityOutcome, SolveMethod, Stopped};
 use crate::report::{Cell, Table};
 
 /// The tables of a study.
-#[derive(Clone, Debug)]
-pub struct Tables {
+pub(super) struct Tables {
     /// The room, and what its form factors obey.
-    pub room: Table,
-    /// A row a way of solving.
-    pub ways: Table,
-    /// What iterations on a card come to: a row a way on a card; empty without.
-    pub ends: Table,
-    /// A row a way on a card; empty without.
-    pub card: Table,
-    /// A row a way, after the changes; empty without.
-    pub relit: Table,
-    /// A row a number of patches, way on a card, and settings of its switches that find other bits; empty without a
-    /// sweep.
-    pub sweep: Table,
-}
-
-impl Tables {
-    /// Those that have rows, in the order in which they are read.
-    pub fn all(&self) -> impl Iterator<Item = &Table> {
-        [&self.room, &self.ways, &self.ends, &self.card, &self.relit, &self.sweep]
-            .into_iter()
-            .filter(|table| !table.rows().is_empty())
-    }
-
-    /// All of them as one document.
-    pub fn json(&self) -> Value {
-        json!({
-            "room": self.room.json(), "ways": self.ways.json(), "ends": self.ends.json(), "card": self.card.json(),
-            "relit": self.relit.json(), "sweep": self.sweep.json(),
-        })
-    }
+    pub(super) room: Table,
+    /// A row per method.
+    pub(super) ways: Table,
+    /// How iterations on a card end: a row per method on a card.
+    pub(super) ends: Table,
+    /// A row per method on a card.
+    pub(super) card: Table,
+    /// A row per method, after the changes.
+    pub(super) relit: Table,
+    /// A row per number of patches, method on a card, and settings of its switches that find other bits.
+    pub(super) sweep: Table,
 }
 
 /// The tables.
-pub fn tables(parameters: &Parameters, outcome: &Outcome) -> Tables {
+pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tables {
     Tables {
         room: room(parameters, outcome),
         ways: ways(outcome),
@@ -52,7 +31,7 @@ pub fn tables(parameters: &Parameters, outcome: &Outcome) -> Tables {
     }
 }
 
-/// So many digits that count, for people.
+/// Rounded to `count` significant digits.
 pub(super) fn digits(x: f64, count: usize) -> Cell {
     if x == 0.0 || !x.is_finite() {
         return x.into();
@@ -61,7 +40,7 @@ pub(super) fn digits(x: f64, count: usize) -> Cell {
     format!("{x:.*e}", count.saturating_sub(1)).parse::<f64>().unwrap_or(x).into()
 }
 
-fn room(parameters: &Parameters, outcome: &Outcome) -> Table {
+fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let headings = [
         "patches",
         "form_factors",
@@ -95,7 +74,7 @@ fn room(parameters: &Parameters, outcome: &Outcome) -> Table {
     table
 }
 
-fn ways(outcome: &Outcome) -> Table {
+fn ways(outcome: &RadiosityOutcome) -> Table {
     let headings = [
         "way",
         "iterations",
@@ -114,7 +93,7 @@ fn ways(outcome: &Outcome) -> Table {
         let off = |of: fn(Difference) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
         table.push([
             row.label.as_str().into(),
-            if row.way == Way::DIRECT { Cell::Empty } else { row.iterations().into() },
+            if row.way == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
             row.stopped.to_string().into(),
             digits(row.residual, 3),
             digits(row.energy_balance_error, 3),
@@ -128,7 +107,7 @@ fn ways(outcome: &Outcome) -> Table {
 
 /// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit
 /// for bit.
-fn ends(parameters: &Parameters, outcome: &Outcome) -> Table {
+fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let headings = ["way", "ends", "entered_after", "period", "values_changing", "of_values", "largest_change_%"];
     let mut table =
         Table::new("What iterations on the card come to; changes from one iteration to the next", &headings);
@@ -157,7 +136,7 @@ fn ends(parameters: &Parameters, outcome: &Outcome) -> Table {
 }
 
 /// The sweep over numbers of patches and switches.
-fn sweep(outcome: &Outcome) -> Table {
+fn sweep(outcome: &RadiosityOutcome) -> Table {
     let headings =
         ["patches", "way", "switches", "iterations", "stopped_by", "largest_error", "mean_relative", "predicted_mean"];
     let mut table = Table::new(
@@ -179,7 +158,7 @@ fn sweep(outcome: &Outcome) -> Table {
     table
 }
 
-fn card(outcome: &Outcome) -> Table {
+fn card(outcome: &RadiosityOutcome) -> Table {
     let headings = [
         "way",
         "passes",
@@ -209,7 +188,7 @@ fn card(outcome: &Outcome) -> Table {
                     digits(time.seconds * 1e6, 4),
                     digits(1.0 / time.seconds, 3),
                     digits(time.mflops, 3),
-                    format!("{:?}", time.bound_by).to_lowercase().into(),
+                    time.bound_by.to_string().into(),
                     digits(100.0 * time.bandwidth, 2),
                 ]
             },
@@ -219,7 +198,7 @@ fn card(outcome: &Outcome) -> Table {
     table
 }
 
-fn relit(outcome: &Outcome) -> Table {
+fn relit(outcome: &RadiosityOutcome) -> Table {
     let mut table = Table::new(
         "After the changes: iterations from the solution before, and from nothing",
         &["way", "from_the_last", "from_nothing", "saved_%"],
@@ -232,14 +211,14 @@ fn relit(outcome: &Outcome) -> Table {
             }
             _ => Cell::Empty,
         };
-        if row.way != Way::DIRECT {
+        if row.way != SolveMethod::DIRECT {
             table.push([row.label.as_str().into(), count(relit.from_last), count(relit.from_nothing), saved]);
         }
     }
     table
 }
 
-impl Row {
+impl MethodRow {
     /// How many iterations it took.
     pub fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)

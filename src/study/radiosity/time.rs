@@ -1,12 +1,12 @@
 //! What an iteration costs on the card, and the log of a relit scene.
 
-use refsim::timing::Bottleneck;
+use refsim::timing::{Bottleneck, TimingError};
 
-use super::way::{CardFacts, CardWay};
-use super::{Parameters, StudyError};
+use super::method::{CardFacts, CardMethod};
+use super::{Parameters, RadiosityError};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::on_card::{CardSolver, PassProgram};
-use crate::radiosity::rate::{Timing, timed_iteration};
+use crate::radiosity::rate::{RateError, Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
 
 /// Iterations of the log.
@@ -30,11 +30,11 @@ pub struct IterationTime {
 /// Changes the light, iterates, shows the room, and says what it takes.
 pub(super) fn facts(
     card: &mut CardSolver,
-    how: CardWay,
+    how: CardMethod,
     system: &System,
     patches: &Patches,
     parameters: &Parameters,
-) -> Result<CardFacts, StudyError> {
+) -> Result<CardFacts, RadiosityError> {
     let systems = card.radiosity_textures().len();
     let options = DisplayOptions::default();
     let display = match systems {
@@ -58,20 +58,29 @@ pub(super) fn facts(
         block: programs.iter().map(|p| p.texels).max().unwrap_or(0),
         instructions: programs.iter().map(PassProgram::instructions).max().unwrap_or(0),
         matrix_bytes: model::matrix_bytes(card.len() as u32, how.packing.elements(), texel) * systems as f64,
-        time: time(how, systems, card.len(), parameters),
+        time: time(how, systems, card.len(), parameters)?,
         log,
     })
 }
 
 /// `None` for devices without time.
-fn time(how: CardWay, systems: usize, patches: usize, parameters: &Parameters) -> Option<IterationTime> {
+fn time(
+    how: CardMethod,
+    systems: usize,
+    patches: usize,
+    parameters: &Parameters,
+) -> Result<Option<IterationTime>, RadiosityError> {
     let timing = Timing { patches, packing: how.packing, storage: how.storage, cache: false };
-    let timed = timed_iteration(&parameters.profile, &timing).ok()?;
+    let timed = match timed_iteration(&parameters.profile, &timing) {
+        Ok(timed) => timed,
+        Err(RateError::Timing(TimingError::Missing { .. })) => return Ok(None),
+        Err(error) => return Err(error.into()),
+    };
     let seconds = timed.time.seconds() * systems as f64;
-    Some(IterationTime {
+    Ok(Some(IterationTime {
         seconds,
         mflops: CHANNELS * model::mflops(patches as u32, 1.0 / seconds),
         bound_by: timed.bottleneck,
         bandwidth: timed.bandwidth,
-    })
+    }))
 }

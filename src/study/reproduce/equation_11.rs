@@ -3,7 +3,9 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{Bound, Findings, Method, Origin, Prose, ReproduceError, Row, Standing, Target, figure, number, pipeline};
+use super::{
+    Bound, EntryFindings, FigureRow, Method, Origin, Prose, ReproduceError, Standing, Target, figure, number, pipeline,
+};
 use crate::ray_engine::model::CostRates;
 
 /// Bytes a ray: a triangle id; an id with three barycentric coordinates.
@@ -31,7 +33,7 @@ const RATES: &str = "390 M/s (fill rate), 250 MB/s (read-back)";
 /// How the GeForce4's fill rate follows.
 const IMPLIED: &str = "equation 11 solved for the fill rate: T / (T / 286 M/s - gamma / 250 MB/s), T = 10, gamma = 4 B, if it reads back like a GeForce3";
 
-pub(super) fn findings() -> Result<Findings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let mut rows = Vec::new();
     for (gamma, value) in GAMMAS.into_iter().zip([62.5, 15.6]) {
         rows.extend(read_back(gamma, Target::printed(value, 1, "M/s", PLACE))?);
@@ -47,7 +49,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
         model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![
             "Equation 11 is seconds = T R / fill + R gamma / readback. The GeForce3's fill and read-back rates are printed; the \
              GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3."
@@ -56,39 +58,39 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
                 "The pipeline model knows neither fill rate, but reads back at the printed rate. It draws screen-filling quads with two textures of \
                  the screen's size (each texel read once a quad), a depth test and depth and colour writes, and finds {} the \
                  narrowest place: {} bytes a pixel.",
-                [format!("{:?}", pixel.cost.bottleneck).to_lowercase(), number(bytes, 0)],
+                [pixel.cost.bottleneck.to_string(), number(bytes, 0)],
             ),
         ],
         rows,
         tables: vec![pipeline::cost_table(&["nv20", "nv25"])?],
-        ..Findings::default()
+        ..EntryFindings::default()
     })
 }
 
 /// Results read back: the equation's quotient of printed figures, and the pipeline's bus, which has the printed rate.
-fn read_back(gamma: f64, target: Target) -> Result<[Row; 2], ReproduceError> {
+fn read_back(gamma: f64, target: Target) -> Result<[FigureRow; 2], ReproduceError> {
     let what = format!("results read back, {gamma} B each");
     let equation = (rates("nv20")?.results_per_s(gamma) / MEGA, Standing::Predicted { from: READ_BACK });
     let pipeline = (pipeline::results_per_s("nv20", gamma)? / MEGA, Standing::Calibrated { on: READ_BACK });
     Ok([
-        Row::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
-        Row::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        FigureRow::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
+        FigureRow::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }
 
 /// The fill rate: the equation's input, and the pipeline's prediction.
-fn fill(device: &'static str, target: Target, on: &'static str) -> Result<[Row; 2], ReproduceError> {
+fn fill(device: &'static str, target: Target, on: &'static str) -> Result<[FigureRow; 2], ReproduceError> {
     let what = "fill rate, two textures a pixel";
     let equation = (rates(device)?.fill_pixels_per_s / MEGA, Standing::Calibrated { on });
     let pipeline = (pipeline::dual_textured(device)?.pixels_per_s() / MEGA, Standing::Predicted { from: "" });
     Ok([
-        Row::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        Row::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        FigureRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        FigureRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }
 
 /// Ten triangles: equation 11 on both cards, the GeForce4's with the fill rate that this figure implies; and the pipeline.
-fn ten_triangles(device: &'static str, target: Target) -> Result<[Row; 2], ReproduceError> {
+fn ten_triangles(device: &'static str, target: Target) -> Result<[FigureRow; 2], ReproduceError> {
     let what = "tests, ten triangles, 4 B a ray";
     let standing = if device == "nv20" {
         Standing::Predicted { from: RATES }
@@ -99,7 +101,7 @@ fn ten_triangles(device: &'static str, target: Target) -> Result<[Row; 2], Repro
     let pipeline = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
     let pipeline = (pipeline, Standing::Predicted { from: READ_BACK });
     Ok([
-        Row::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        Row::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        FigureRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        FigureRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }

@@ -1,9 +1,9 @@
 //! Figure 7: tests a second by the number of triangles; and the least number at which a card pays.
 
 use super::equation_11::{GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
-use super::{Findings, NamedChart, Prose, ReproduceError, pipeline};
+use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline};
 use crate::ray_engine::model::CostRates;
-use crate::report::{Chart, Line, Table};
+use crate::report::{Chart, Series, Table};
 
 /// The cards of the figure, with their names in it.
 const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
@@ -14,7 +14,7 @@ const PLOTTED: u32 = 50;
 /// Tests a second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
 const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];
 
-pub(super) fn findings() -> Result<Findings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let mut tests =
         Table::new("Millions of ray-triangle tests a second", &["device", "gamma_B", "triangles", "rates", "pipeline"]);
     let mut limits = Table::new(
@@ -40,7 +40,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
         }
         charts.push(chart(gamma, lines));
     }
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![
             "The paper's figure is for the id alone that a ray brings back; the same is shown with barycentric coordinates. Of the curves only \
              two points are printed, at ten triangles; their rows are in section 6.1's entry. T_min is the least number of triangles at which \
@@ -50,7 +50,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
         ],
         tables: vec![tests, limits],
         charts,
-        ..Findings::default()
+        ..EntryFindings::default()
     })
 }
 
@@ -66,15 +66,15 @@ fn rounded(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
-fn line(label: String, card: &CostRates, gamma: f64) -> Line {
+fn line(label: String, card: &CostRates, gamma: f64) -> Series {
     let point = |t: u32| (f64::from(t), card.tests_per_s(f64::from(t), gamma) / MEGA);
-    Line { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
+    Series { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
 }
 
-fn chart(gamma: f64, lines: Vec<Line>) -> NamedChart {
+fn chart(gamma: f64, lines: Vec<Series>) -> EntryChart {
     // The text gives the points for the id alone.
     let printed = if gamma == GAMMAS[0] { TEN_TRIANGLES.map(|(_, rate)| (TEN, rate)).into() } else { Vec::new() };
-    NamedChart {
+    EntryChart {
         name: if gamma == GAMMAS[0] { "figure-7-gamma-4" } else { "figure-7-gamma-16" },
         chart: Chart {
             title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),

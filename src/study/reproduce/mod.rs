@@ -19,11 +19,12 @@ use refsim::device::{DeviceError, Profile};
 use refsim::timing::TimingError;
 
 use crate::ray_engine::EngineError;
-use crate::report::{Chart, Table};
+use crate::report::{Chart, Findings, Provenance, ReportError, Table};
+use crate::study::{ProgressFn, Study};
 
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
-pub use row::{Bound, Explanation, Method, Origin, Row, Setting, Standing, Sweep, Target, Verdict};
+pub use row::{Bound, Explanation, FigureRow, Method, Origin, RowVerdict, Setting, Standing, Sweep, Target};
 use shared::Shared;
 
 /// Why a figure could not be worked out.
@@ -57,6 +58,10 @@ pub enum ReproduceError {
     #[error(transparent)]
     #[diagnostic(code(reproduce::timing))]
     Timing(#[from] TimingError),
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
     /// A machine refuses a draw of an entry, or a program of an entry does not assemble.
     #[error("a run of this entry failed on `{device}`: {reason}")]
     #[diagnostic(code(reproduce::run), help("this is a bug: please report it with the command line"))]
@@ -70,7 +75,7 @@ pub enum ReproduceError {
 
 /// A chart, the name of its file, and what stands under it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NamedChart {
+pub struct EntryChart {
     /// File name without folder and ending.
     pub name: &'static str,
     /// The chart.
@@ -81,17 +86,17 @@ pub struct NamedChart {
 
 /// What one entry found.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
+pub struct EntryFindings {
     /// How it was done, as paragraphs.
     pub text: Vec<Prose>,
     /// The paper's figures beside ours.
-    pub rows: Vec<Row>,
+    pub rows: Vec<FigureRow>,
     /// What would have to be known to say why rows are off.
     pub questions: Vec<&'static str>,
     /// What else there is to show.
     pub tables: Vec<Table>,
     /// Plots.
-    pub charts: Vec<NamedChart>,
+    pub charts: Vec<EntryChart>,
 }
 
 /// A table or figure of a paper.
@@ -101,24 +106,43 @@ pub struct Entry {
     pub id: &'static str,
     /// What it is, and where it is printed.
     pub title: &'static str,
-    work: fn(&Shared) -> Result<Findings, ReproduceError>,
+    work: fn(&Shared) -> Result<EntryFindings, ReproduceError>,
 }
 
 /// Entries with what they found.
-pub type Reproduced = Vec<(Entry, Findings)>;
+pub type Reproduced = Vec<(Entry, EntryFindings)>;
 
-/// Works entries out, one after the other. What several of them need is rendered and run once. `done` is called after each.
+/// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the name of each.
 ///
 /// # Errors
 /// [`ReproduceError`].
-pub fn reproduce(entries: &[Entry], done: &mut dyn FnMut()) -> Result<Reproduced, ReproduceError> {
+pub fn reproduce(entries: &[Entry], progress: &mut ProgressFn<'_>) -> Result<Reproduced, ReproduceError> {
     let shared = Shared::default();
-    let work = |entry: &Entry| {
-        let found = (entry.work)(&shared)?;
-        done();
-        Ok((*entry, found))
+    let work = |(done, entry): (u64, &Entry)| {
+        progress(entry.id, done, entries.len() as u64);
+        Ok((*entry, (entry.work)(&shared)?))
     };
-    entries.iter().map(work).collect()
+    (0..).zip(entries).map(work).collect()
+}
+
+/// Entries to be reproduced.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    /// The entries.
+    pub entries: Vec<Entry>,
+}
+
+impl Study for Parameters {
+    type Error = ReproduceError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, ReproduceError> {
+        Ok(report::findings(&reproduce(&self.entries, progress)?))
+    }
+
+    /// Entries choose their devices themselves, and nothing is random.
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        provenance
+    }
 }
 
 /// All entries, in the order of the papers.

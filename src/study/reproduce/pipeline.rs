@@ -105,7 +105,7 @@ pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
             each(clocks.textures.0),
             each(clocks.output.0),
             each(clocks.memory.0),
-            format!("{:?}", drawn.cost.bottleneck).to_lowercase().into(),
+            drawn.cost.bottleneck.to_string().into(),
         ]);
     }
     Ok(table)

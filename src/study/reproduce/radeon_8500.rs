@@ -5,7 +5,7 @@ use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
 use super::pipeline::{Timed, failed, model, timed};
-use super::{Bound, Findings, Method, Prose, ReproduceError, Row, Standing, Target, figure, number};
+use super::{Bound, EntryFindings, FigureRow, Method, Prose, ReproduceError, Standing, Target, figure, number};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
@@ -26,14 +26,14 @@ const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and 
     instructions beside it. No source gives the first rate; it was chosen because with it, and not with two a clock, our program comes near the printed \
     figure. So these rows are calibrations, by a whole number. The printed figure is {} clocks of a pipeline a test.";
 
-pub(super) fn findings() -> Result<Findings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let (rows, slots) = kernels()?;
     let profile = Profile::named(DEVICE)?;
     let rates = &profile.rates;
     let pipes = figure(&profile, "rates.pixel_pipes", rates.pixel_pipes)?;
     let clocks = pipes * figure(&profile, "rates.core_clock_hz", rates.core_clock_hz)? / (PRINTED * MEGA);
     let side = || SIDE.to_string();
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![Prose::new(PAIRS, [side(), side(), number(pipes, 0), number(clocks, 2)])],
         rows,
         questions: vec![
@@ -41,11 +41,11 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
             "at which rate the card issues pairs: no document that we found states it.",
         ],
         tables: vec![slots],
-        ..Findings::default()
+        ..EntryFindings::default()
     })
 }
 
-fn kernels() -> Result<(Vec<Row>, Table), ReproduceError> {
+fn kernels() -> Result<(Vec<FigureRow>, Table), ReproduceError> {
     let mesh = mesh()?;
     let camera = Camera::teapot(SIDE, SIDE).map_err(|e| failed(DEVICE)(&e))?;
     let eye = camera.rays();
@@ -71,10 +71,10 @@ fn kernels() -> Result<(Vec<Row>, Table), ReproduceError> {
             clocks.arithmetic.0.into(),
             clocks.textures.0.into(),
             ((rate * 10.0).round() / 10.0).into(),
-            format!("{:?}", drawn.cost.bottleneck).to_lowercase().into(),
+            drawn.cost.bottleneck.to_string().into(),
         ]);
         let standing = Standing::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
-        rows.push(Row::new(
+        rows.push(FigureRow::new(
             format!("tests, {what} ({kernel})"),
             (DEVICE, Method::Pipeline),
             Target::printed(PRINTED, 0, "M/s", "section 4.4"),

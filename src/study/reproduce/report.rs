@@ -1,8 +1,10 @@
-//! Entries as tables, files and a page.
+//! Entries as the findings of one study.
 
-use super::{Findings, NamedChart, Reproduced, Row, Verdict};
-use crate::report::{Cell, Page, Provenance, ReportError, Table};
-use crate::study::leaky_teapot_report::NamedFile;
+use serde_json::json;
+use strum::VariantArray as _;
+
+use super::{EntryChart, FigureRow, Reproduced, RowVerdict};
+use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
 const HEADINGS: [&str; 17] = [
     "entry",
@@ -24,12 +26,12 @@ const HEADINGS: [&str; 17] = [
     "explanation",
 ];
 
-fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &Row)> {
+fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &FigureRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
 }
 
 /// Every row with all that is known of it, for machines.
-pub fn rows(found: &Reproduced) -> Table {
+fn rows(found: &Reproduced) -> Table {
     let mut table = Table::new("The papers' figures and ours", &HEADINGS);
     for (entry, row) in all(found) {
         let [low, high] = limits(row);
@@ -38,26 +40,26 @@ pub fn rows(found: &Reproduced) -> Table {
             entry.into(),
             row.what.as_str().into(),
             row.device.into(),
-            row.method.word().into(),
+            row.method.to_string().into(),
             target.place.into(),
-            [target.origin.word(), target.origin.how()].join(" ").trim().into(),
+            format!("{} {}", target.origin, target.origin.how()).trim().into(),
             target.unit.into(),
             target.value.into(),
             rounded(row.ours, 1000.0).into(),
             rounded(100.0 * row.difference(), 10.0).into(),
-            row.standing.word().into(),
+            row.standing.to_string().into(),
             row.standing.inputs().into(),
             row.bound.text().into(),
             low,
             high,
-            row.verdict().word().into(),
+            row.verdict().to_string().into(),
             row.explanation().map(super::Explanation::text).into(),
         ]);
     }
     table
 }
 
-fn limits(row: &Row) -> [Cell; 2] {
+fn limits(row: &FigureRow) -> [Cell; 2] {
     let limit = |value: Option<f64>| value.map(|value| rounded(value, 100.0)).into();
     let interval = row.bound.interval(&row.target);
     [limit(interval.map(|[low, _]| low)), limit(interval.map(|[_, high]| high))]
@@ -66,25 +68,25 @@ fn limits(row: &Row) -> [Cell; 2] {
 const SHOWN: [&str; 10] =
     ["what", "device", "method", "place", "unit", "paper", "ours", "difference_%", "bound", "verdict"];
 
-fn shown(row: &Row) -> [Cell; 10] {
+fn shown(row: &FigureRow) -> [Cell; 10] {
     let target = &row.target;
     let steps = if row.ours.abs() < 1000.0 { 10.0 } else { 1.0 };
     let steps = if row.ours.abs() < 10.0 { 100.0 } else { steps };
     [
         row.what.as_str().into(),
         row.device.into(),
-        row.method.word().into(),
+        row.method.to_string().into(),
         target.place.into(),
         target.unit.into(),
         target.text().into(),
         rounded(row.ours, steps).into(),
         rounded(100.0 * row.difference(), 10.0).into(),
         row.bound.text().into(),
-        row.verdict().word().into(),
+        row.verdict().to_string().into(),
     ]
 }
 
-fn calibrated(row: &Row) -> bool {
+fn calibrated(row: &FigureRow) -> bool {
     matches!(row.standing, super::Standing::Calibrated { .. })
 }
 
@@ -99,7 +101,7 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
 }
 
 /// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those outside their bounds.
-pub fn notes(found: &Reproduced) -> Table {
+fn notes(found: &Reproduced) -> Table {
     let mut table = Table::new("Origins, calibrations and explanations", &["what", "place", "paper", "says", "of"]);
     for (_, row) in all(found) {
         let mut note = |kind: &str, text: &str| {
@@ -113,9 +115,9 @@ pub fn notes(found: &Reproduced) -> Table {
                 ]);
             }
         };
-        note(row.target.origin.word(), row.target.origin.how());
+        note(&row.target.origin.to_string(), row.target.origin.how());
         if calibrated(row) {
-            note(row.standing.word(), row.standing.inputs());
+            note(&row.standing.to_string(), row.standing.inputs());
         }
         note("explained", &row.explanation().map(super::Explanation::text).unwrap_or_default());
     }
@@ -123,26 +125,26 @@ pub fn notes(found: &Reproduced) -> Table {
 }
 
 /// How many rows came out how.
-pub fn tally(found: &Reproduced) -> Table {
+fn tally(found: &Reproduced) -> Table {
     let mut table = Table::new("Tally", &["verdict", "rows"]);
-    for verdict in Verdict::ALL {
-        table.push([verdict.word().into(), count(found, verdict).into()]);
+    for verdict in RowVerdict::VARIANTS {
+        table.push([verdict.to_string().into(), count(found, *verdict).into()]);
     }
     table
 }
 
-fn count(found: &Reproduced, verdict: Verdict) -> usize {
+fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
 /// The tally in one line.
 pub fn tally_line(found: &Reproduced) -> String {
-    let part = |verdict: Verdict| format!("{} {}", count(found, verdict), verdict.word());
-    Verdict::ALL.map(part).join(", ")
+    let part = |verdict: &RowVerdict| format!("{} {verdict}", count(found, *verdict));
+    RowVerdict::VARIANTS.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
 /// What would have to be known to say why rows are off: each question once, with the entry that asks first.
-pub fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
+fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     let mut all: Vec<(&str, &str)> = Vec::new();
     for (entry, question) in found.iter().flat_map(|(entry, found)| found.questions.iter().map(|q| (entry.id, *q))) {
         if !all.iter().any(|(_, asked)| *asked == question) {
@@ -154,44 +156,7 @@ pub fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
 
 /// Whether no figure is missed.
 pub fn held(found: &Reproduced) -> bool {
-    count(found, Verdict::Missed) == 0
-}
-
-/// The files of a reproduction: `index.html`, `rows.csv`, `tally.csv`, `reproduce.json` and a drawing a chart.
-///
-/// # Errors
-/// If a table or drawing cannot be encoded.
-pub fn files(found: &Reproduced, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
-    let mut files = vec![
-        ("index.html".to_owned(), page(found, provenance)?.html().into_bytes()),
-        ("rows.csv".to_owned(), rows(found).csv()?.into_bytes()),
-        ("tally.csv".to_owned(), tally(found).csv()?.into_bytes()),
-    ];
-    let mut document = serde_json::to_vec_pretty(&json(found, provenance))
-        .map_err(|e| ReportError::Encode { format: "JSON", reason: e.to_string() })?;
-    document.push(b'\n');
-    files.push(("reproduce.json".to_owned(), document));
-    for NamedChart { name, chart, .. } in found.iter().flat_map(|(_, found)| &found.charts) {
-        files.push((format!("{name}.svg"), chart.svg()?.into_bytes()));
-    }
-    Ok(files)
-}
-
-/// Everything as JSON.
-pub fn json(found: &Reproduced, provenance: &Provenance) -> serde_json::Value {
-    let tables = |found: &Findings| -> Vec<_> {
-        let table = |t: &Table| serde_json::json!({ "title": t.title(), "rows": t.json() });
-        found.tables.iter().map(table).collect()
-    };
-    let entry = |(entry, found): &(super::Entry, Findings)| {
-        serde_json::json!({
-            "id": entry.id, "title": entry.title, "open_questions": found.questions, "tables": tables(found),
-        })
-    };
-    serde_json::json!({
-        "provenance": provenance, "tally": tally(found).json(), "rows": rows(found).json(),
-        "entries": found.iter().map(entry).collect::<Vec<_>>(),
-    })
+    count(found, RowVerdict::Missed) == 0
 }
 
 const HOW: &str = "The papers' figures beside ours. A figure is printed, implied by printed ones, or inferred by us. Ours is predicted, counted, or \
@@ -201,29 +166,36 @@ const HOW: &str = "The papers' figures beside ours. A figure is printed, implied
     Outside it is missed, unless a sweep of this run over something that the papers leave open reaches the value without losing \
     another row that holds: then it is explained, with the setting. Differences are shares of the paper's value.";
 
-fn page(found: &Reproduced, provenance: &Provenance) -> Result<Page, ReportError> {
+pub(super) fn findings(found: &Reproduced) -> Findings {
+    let mut all = Findings::new("The papers' figures, reproduced");
     let how = super::Prose::new(HOW, [super::number(100.0 * super::Bound::SHARE, 0)]);
-    let mut page =
-        Page::new("The papers' figures, reproduced", provenance.clone()).text(how.to_string()).table(tally(found));
-    for table in tables(found).into_iter().chain([notes(found)]).filter(|table| !table.rows().is_empty()) {
-        page = page.table(table);
-    }
+    all.paragraph(how.to_string());
+    all.table(FoundTable::from(tally(found)).csv("tally").field("tally").unprinted());
+    all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
+    tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
+    let mut entries = Vec::new();
     for (entry, found) in found {
-        page = page.heading(entry.title);
-        for paragraph in &found.text {
-            page = page.text(paragraph.to_string());
+        all.heading(entry.title);
+        found.text.iter().for_each(|paragraph| all.paragraph(paragraph.to_string()));
+        found.questions.iter().for_each(|question| all.paragraph(format!("Open: {question}")));
+        for EntryChart { name, chart, caption } in &found.charts {
+            let (name, chart, caption) = ((*name).to_owned(), chart.clone(), caption.to_string());
+            all.chart(NamedChart { name, chart, caption });
         }
-        for question in &found.questions {
-            page = page.text(format!("Open: {question}"));
-        }
-        for chart in &found.charts {
-            page = page.drawing(chart.chart.svg()?, chart.caption.to_string());
-        }
-        for table in &found.tables {
-            page = page.table(table.clone());
-        }
+        found.tables.iter().for_each(|table| all.table(FoundTable::from(table.clone()).unprinted()));
+        let tables = found.tables.iter().map(|table| json!({ "title": table.title(), "rows": table.json() }));
+        entries.push(json!({
+            "id": entry.id, "title": entry.title, "open_questions": found.questions,
+            "tables": tables.collect::<Vec<_>>(),
+        }));
     }
-    Ok(page)
+    all.field("entries", json!(entries));
+    all.print(format!("tally: {}", tally_line(found)));
+    for (entry, question) in questions(found) {
+        all.print(format!("open ({entry}): {question}"));
+    }
+    all.conclude(Verdict::held(held(found)));
+    all
 }
 
 /// A value to whole parts of `steps` in one.

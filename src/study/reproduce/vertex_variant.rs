@@ -5,7 +5,7 @@ use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
 use super::pipeline::{failed, model, timed};
-use super::{Bound, Findings, Method, Prose, ReproduceError, Row, Standing, Target, figure, number};
+use super::{Bound, EntryFindings, FigureRow, Method, Prose, ReproduceError, Standing, Target, figure, number};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::Table;
@@ -20,7 +20,7 @@ const HOW: &str = "The road not taken: a ray as constants, a triangle as three v
     program for it (vertex_test.vsa) runs, finds what the pixel pipelines find, and has {} instructions; a test is {} vertices. The printed \
     figure has no card: on {} it would be {} clocks a test.";
 
-pub(super) fn findings() -> Result<Findings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let (mut rows, mut seen) = (Vec::new(), None);
     let mut table = Table::new(
         "A test in the vertex units",
@@ -54,7 +54,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
             (counts.vertices / mesh.len() as u64).into(),
             clocks.into(),
             units.into(),
-            format!("{:?}", drawn.cost.bottleneck).to_lowercase().into(),
+            drawn.cost.bottleneck.to_string().into(),
         ]);
         let printed_clocks = figure(&profile, "rates.core_clock_hz", profile.rates.core_clock_hz)? / (PRINTED * MEGA);
         seen.get_or_insert([
@@ -63,7 +63,7 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
             device.to_owned(),
             number(printed_clocks, 0),
         ]);
-        rows.push(Row::new(
+        rows.push(FigureRow::new(
             "tests in the vertex units, no card named",
             (device, Method::Pipeline),
             Target::printed(PRINTED, 1, "M/s", "section 3.4"),
@@ -71,13 +71,13 @@ pub(super) fn findings() -> Result<Findings, ReproduceError> {
             Bound::PREDICTION,
         ));
     }
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![Prose::new(HOW, seen.into_iter().flatten())],
         rows,
         questions: vec![
             "which card it was, how long the program was, and whether a test was one vertex (a point) or three (a triangle).",
         ],
         tables: vec![table],
-        ..Findings::default()
+        ..EntryFindings::default()
     })
 }

@@ -3,7 +3,8 @@
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{narrow, wide};
 use crossbar::geom::{Mesh, Ray};
-use crossbar::radiosity::display::{CardPicture, Display, DisplayOptions, VectorTexture, at_corners};
+use crossbar::picture::Picture;
+use crossbar::radiosity::display::{Display, DisplayOptions, VectorTexture, at_corners};
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
@@ -32,6 +33,11 @@ fn rooms_and_cameras() -> Vec<(Patches, Camera)> {
 /// Numbers that tell patches apart.
 fn colours(patches: &Patches) -> Vec<[f64; 3]> {
     (0..patches.list().len()).map(|i| [0.25 + i as f64, 3.0 / (1.0 + i as f64), 0.1]).collect()
+}
+
+/// Linear red, green and blue per pixel.
+fn pixels(picture: &Picture) -> Vec<[f64; 3]> {
+    picture.linear().expect("color").into_iter().map(|pixel| pixel.map(f64::from)).collect()
 }
 
 /// A point of the picture as a ray, in pixels from the upper left corner.
@@ -88,9 +94,9 @@ fn a_pixel_shows_the_patch_that_exact_arithmetic_finds_there() {
         let certain = certain(&patches, &camera);
         let sure = certain.iter().flatten().count();
         assert!(sure * 10 > certain.len() * 8, "{sure} of {} pixels are no edge", certain.len());
-        for (pixel, ((id, colour), want)) in ids.iter().zip(&flat.pixels).zip(&certain).enumerate() {
+        for (pixel, ((id, colour), want)) in ids.iter().zip(pixels(&flat)).zip(&certain).enumerate() {
             let shown = id.map_or([0.0; 3], |id| colours[id as usize].map(|b| f64::from(b as f32 * factor)));
-            assert_eq!(*colour, shown, "pixel {pixel}: flat shows what ids say");
+            assert_eq!(colour, shown, "pixel {pixel}: flat shows what ids say");
             if let Some(want) = want {
                 assert_eq!(id.map(|id| id as usize), want.map(|w| w.0), "pixel {pixel}");
             }
@@ -109,7 +115,7 @@ fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
         let texture = display.upload(&mut machine, &vec![same; patches.list().len()]).expect("a texture");
         let want = same.map(|b| f64::from(b as f32 * std::f64::consts::FRAC_1_PI as f32));
         for picture in [display.flat(&mut machine, texture, 1.0), display.smooth(&mut machine, texture, 1.0)] {
-            let other = picture.expect("a picture").pixels.into_iter().filter(|&pixel| pixel != want).count();
+            let other = pixels(&picture.expect("a picture")).into_iter().filter(|&pixel| pixel != want).count();
             // No crack shows the background, even where faces meet whose corners do not.
             assert_eq!(other, 0, "{vector:?}: pixels of another colour");
         }
@@ -129,7 +135,7 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     let texture = display.upload(&mut machine, &radiosity).expect("a texture");
     let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
     let mut compared = 0;
-    for (pixel, certain) in picture.pixels.iter().zip(certain(&patches, &camera)) {
+    for (pixel, certain) in pixels(&picture).iter().zip(certain(&patches, &camera)) {
         let Some(Some((patch, point))) = certain else { continue };
         let values = &corners[patch];
         let [a, b, _, d] = *patches.list()[patch].corners() else { panic!("a quadrilateral") };
@@ -175,7 +181,7 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let radiosity: Vec<[f64; 3]> = (0..count).map(|i| [i as f64, 1.0, (i * i) as f64]).collect();
         let texture = display.upload(&mut machine, &radiosity).expect("a texture");
         let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
-        let middle = picture.pixels[16 * 33 + 16];
+        let middle = pixels(&picture)[16 * 33 + 16];
         let mean = at_corners(&patches, &radiosity)[0][0];
         for (found, want) in middle.iter().zip(mean) {
             // An operation is off by 2^-24 of its result; there are 3 a patch.
@@ -192,7 +198,7 @@ fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
     let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
     let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
     let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
-    let bits = |picture: CardPicture| picture.pixels.iter().flatten().map(|value| value.to_bits()).collect();
+    let bits = |picture: Picture| pixels(&picture).iter().flatten().map(|value| value.to_bits()).collect();
     let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
     let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
     let ids = display.ids(&mut machine).expect("ids");

@@ -1,13 +1,13 @@
 //! Figure 3: the residual of Jacobi and of Gauss-Seidel, iteration by iteration.
 
-use super::{Findings, ReproduceError, failed};
+use super::{EntryFindings, ReproduceError, failed};
 use crate::geom::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};
-use crate::report::{Chart, Line, Scale, Table};
+use crate::report::{Chart, Scale, Series, Table};
 use crate::study::reproduce::report::rounded;
-use crate::study::reproduce::{Bound, Method, NamedChart, Prose, Row, Setting, Standing, Sweep, Target};
+use crate::study::reproduce::{Bound, EntryChart, FigureRow, Method, Prose, Setting, Standing, Sweep, Target};
 
 /// Patches; the number hardly matters to how fast iterations converge.
 const CUT: usize = 400;
@@ -26,7 +26,7 @@ const HOW: &str = "A closed Cornell box without blocks, its form factors in clos
     takes part: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to converge\" is read twice: \
     by the iterations down to {} of what the residual was, and late, by the slopes of the plot's lines over its last half.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let system = closed_box()?;
     let mut table = Table::new(
         "Iterations until the residual is so small a share of what it was",
@@ -55,14 +55,14 @@ pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError
     }
     let mut rows = converged(&both);
     rows.extend(late);
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![Prose::new(HOW, [CONVERGED.to_string()])],
         rows,
         questions: vec![
             "down to which residual the authors counted, and where their figure's axes begin and end: the text does not say.",
         ],
         tables: vec![table],
-        charts: vec![NamedChart {
+        charts: vec![EntryChart {
             name: "radiosity-figure-3",
             chart: Chart {
                 title: "Mean squared residual of M B - E, red".to_owned(),
@@ -77,17 +77,18 @@ pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError
     })
 }
 
-fn row(which: String, ours: f64) -> Row {
+fn row(which: String, ours: f64) -> FigureRow {
     let what = format!("Jacobi's iterations over Gauss-Seidel's, {which}");
     let target = Target::printed(TWICE, 1, "times", "section 3.1");
-    Row::new(what, ("-", Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
+    FigureRow::new(what, ("-", Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
 }
 
 /// The ratios where solutions have converged, a row a channel, which the sweep over the residual may explain.
-fn converged(channels: &[(Solution, Solution)]) -> Vec<Row> {
+fn converged(channels: &[(Solution, Solution)]) -> Vec<FigureRow> {
     let ratios = |share: f64| channels.iter().map(|(jacobi, seidel)| ratio(jacobi, seidel, share)).collect::<Vec<_>>();
     let named = CHANNELS.iter().zip(ratios(CONVERGED));
-    let mut rows: Vec<Row> = named.map(|(name, ours)| row(format!("{name}, residual {CONVERGED}"), ours)).collect();
+    let mut rows: Vec<FigureRow> =
+        named.map(|(name, ours)| row(format!("{name}, residual {CONVERGED}"), ours)).collect();
     let setting = |share: f64| Setting { at: share.to_string(), values: ratios(share) };
     let sweep = Sweep { name: "where iterations end", parameter: "residual", settings: RESIDUALS.map(setting).into() };
     sweep.explain(&mut rows);
@@ -123,7 +124,7 @@ fn slope(solution: &Solution) -> f64 {
     ln(solution.history[half] / solution.history[last]) / (last - half).max(1) as f64
 }
 
-fn line(label: &str, solution: &Solution) -> Line {
+fn line(label: &str, solution: &Solution) -> Series {
     let points = solution.history.iter().enumerate().map(|(k, &error)| (k as f64, error)).collect();
-    Line { label: label.to_owned(), points }
+    Series { label: label.to_owned(), points }
 }

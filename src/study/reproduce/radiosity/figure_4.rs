@@ -1,10 +1,10 @@
 //! Figure 4: the time of an iteration by the size of the matrix, on the card and on the host.
 
-use super::{CARD, Findings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
+use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::geom::elementary::ln;
 use crate::radiosity::packing::Packing;
-use crate::report::{Cell, Chart, Line, Table};
-use crate::study::reproduce::{Bound, Method, NamedChart, Origin, Prose, Row, Standing, Target, number};
+use crate::report::{Cell, Chart, Series, Table};
+use crate::study::reproduce::{Bound, EntryChart, FigureRow, Method, Origin, Prose, Standing, Target, number};
 
 /// Sizes; the card of the paper had textures of at most 2048 texels a side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
@@ -38,9 +38,9 @@ impl Point {
     }
 }
 
-pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let points = SIZES.into_iter().map(Point::at).collect::<Result<Vec<_>, _>>()?;
-    let line = |label: &str, of: fn(&Point) -> f64| Line {
+    let line = |label: &str, of: fn(&Point) -> f64| Series {
         label: label.to_owned(),
         points: std::iter::once((0.0, 0.0)).chain(points.iter().map(|p| (p.elements() / 1e6, of(p)))).collect(),
     };
@@ -57,12 +57,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError
         printed: [PRINTED_CARD, PRINTED_HOST].map(|(per_s, _)| (size, 1e3 / per_s)).into(),
         ..Chart::default()
     };
-    Ok(Findings {
+    Ok(EntryFindings {
         text: text(&points),
         rows: overtakes(&points).into_iter().collect(),
         questions: vec!["what would make the host's time grow faster than the bytes that it reads, as the authors' belief needs."],
         tables: vec![table(&points)],
-        charts: vec![NamedChart {
+        charts: vec![EntryChart {
             name: "radiosity-figure-4",
             chart,
             caption: "Figure 4 of the radiosity paper. Of its points only the printed rates are known, here at the inferred number of patches; the \
@@ -73,12 +73,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError
 }
 
 /// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
-fn overtakes(points: &[Point]) -> Option<Row> {
+fn overtakes(points: &[Point]) -> Option<FigureRow> {
     let largest = points.last()?;
     let implied = Origin::Implied(
         "the card overtakes the host above 2000 patches: time of the host over the card's, at least 1".to_owned(),
     );
-    Some(Row::new(
+    Some(FigureRow::new(
         format!("host's time over the card's at {} patches", largest.patches),
         (CARD, Method::Pipeline),
         Target { origin: implied, ..Target::printed(1.0, 2, "times", "section 3.1") },

@@ -7,7 +7,7 @@ mod rates;
 
 use refsim::device::Profile;
 
-use super::{Findings, ReproduceError, pipeline::failed};
+use super::{EntryFindings, ReproduceError, pipeline::failed};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};

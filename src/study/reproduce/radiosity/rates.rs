@@ -1,12 +1,12 @@
 //! The printed rates: 29.7 iterations and 141 MFLOP a second on the card, 40 and 190 on the host. And what the number of patches decides.
 
-use super::{CARD, Findings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
+use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::report::rounded;
-use crate::study::reproduce::{Bound, Method, Origin, Prose, Row, Standing, Target, number};
+use crate::study::reproduce::{Bound, FigureRow, Method, Origin, Prose, Standing, Target, number};
 
 const PLACE: &str = "section 3.1";
 /// Numbers of patches that are compared: six whole blocks; six sides of 16 x 16; the four at which both pairs of rates hold, with
@@ -24,14 +24,14 @@ const WHERE: &str = "Where the time goes: each of a texel's two reads is of {} b
     takes {} clocks for; and of each quad of fragments only {} % lie in the one row of the target. The unit's width and how registers slow the card \
     are guesses or measurements of others, as `crossbar devices` says.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
     let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n)).collect();
     let ends = [fits.first(), fits.last()].map(|n| n.map_or_else(String::new, u32::to_string));
     let [least, most] = ends;
     let (sizes, texel) = (sizes()?, 16.0);
     let width = profile_width()?;
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![
             Prose::new(HOW, [number(PRINTED_CARD.1 / PRINTED_CARD.0, 2), least, most, CARD.to_owned()]),
             Prose::new(
@@ -45,7 +45,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<Findings, ReproduceError
             "what share of its bandwidth the card used: the text guesses, and of the card's texture cache nothing is documented.",
         ],
         tables: vec![sizes, costs()?],
-        ..Findings::default()
+        ..EntryFindings::default()
     })
 }
 
@@ -55,7 +55,7 @@ fn profile_width() -> Result<f64, ReproduceError> {
     crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
-fn rows(paper: &TimedIteration) -> Vec<Row> {
+fn rows(paper: &TimedIteration) -> Vec<FigureRow> {
     let printed = |value: f64, decimals: usize, unit: &'static str| Target::printed(value, decimals, unit, PLACE);
     let calibrated = Standing::Calibrated { on: CHOSE_N };
     let predicted = Standing::Predicted { from: CHOSE_N };
@@ -64,7 +64,7 @@ fn rows(paper: &TimedIteration) -> Vec<Row> {
     let inferred =
         Origin::Inferred("ceil(N / 254) for the inferred number of patches; the paper prints neither".to_owned());
     vec![
-        Row::new(
+        FigureRow::new(
             "Jacobi iterations",
             (CARD, Method::Pipeline),
             printed(PRINTED_CARD.0, 1, "1/s"),
@@ -72,28 +72,28 @@ fn rows(paper: &TimedIteration) -> Vec<Row> {
             Bound::PREDICTION,
         ),
         // The paper's own arithmetic: so many operations an iteration, times its rate.
-        Row::new(
+        FigureRow::new(
             "operations of Jacobi, 2 N N times the printed rate",
             (CARD, Method::Equation),
             printed(PRINTED_CARD.1, 0, "MFLOP/s"),
             (jacobi, calibrated),
             Bound::Print,
         ),
-        Row::new(
+        FigureRow::new(
             "operations of Gauss-Seidel, 2 N N times the printed rate",
             (HOST, Method::Equation),
             printed(PRINTED_HOST.1, 0, "MFLOP/s"),
             (gauss_seidel, calibrated),
             Bound::Print,
         ),
-        Row::new(
+        FigureRow::new(
             "Gauss-Seidel iterations",
             (HOST, Method::Host),
             printed(PRINTED_HOST.0, 0, "1/s"),
             (1.0 / host::iteration(PATCHES), Standing::Calibrated { on: "this figure, which sets what memory costs" }),
             Bound::Print,
         ),
-        Row::new(
+        FigureRow::new(
             "passes an iteration",
             (CARD, Method::Pipeline),
             Target { origin: inferred, ..printed(passes, 0, "passes") },
@@ -101,7 +101,7 @@ fn rows(paper: &TimedIteration) -> Vec<Row> {
             Bound::Print,
         ),
         // "Only a fraction (perhaps as little as 10%)": nothing that is much less than all of it contradicts that.
-        Row::new(
+        FigureRow::new(
             "bandwidth used, at least; \"perhaps as little as\"",
             (CARD, Method::Pipeline),
             printed(10.0, 0, "%"),
@@ -183,7 +183,7 @@ fn costs() -> Result<Table, ReproduceError> {
                 rounded(100.0 * timed.filled),
                 rounded(100.0 * timed.bandwidth),
                 rounded(timed.per_s),
-                format!("{:?}", timed.bottleneck).to_lowercase().into(),
+                timed.bottleneck.to_string().into(),
             ]);
         }
     }

@@ -12,7 +12,8 @@ pub use sweep::{Explanation, Setting, Sweep};
 use super::prose::number;
 
 /// Where a figure comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Origin {
     /// It stands in the paper.
     Printed,
@@ -23,15 +24,6 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// One word for tables.
-    pub const fn word(&self) -> &'static str {
-        match self {
-            Self::Printed => "printed",
-            Self::Implied(_) => "implied",
-            Self::Inferred(_) => "inferred",
-        }
-    }
-
     /// The formula or the conclusion; nothing for what is printed.
     pub fn how(&self) -> &str {
         match self {
@@ -70,12 +62,13 @@ impl Target {
     /// The value as it is printed, with its origin where that is not print.
     pub fn text(&self) -> String {
         let value = number(self.value, self.decimals);
-        if self.origin == Origin::Printed { value } else { format!("{value} ({})", self.origin.word()) }
+        if self.origin == Origin::Printed { value } else { format!("{value} ({})", self.origin) }
     }
 }
 
 /// How our value came about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Method {
     /// The paper's own equation with its printed rates.
     Equation,
@@ -84,26 +77,15 @@ pub enum Method {
     /// A rendering played to the whole engine, its work counted and timed.
     Engine,
     /// A model of the paper's host.
+    #[strum(to_string = "host model")]
     Host,
     /// Solved in f64.
     Solver,
 }
 
-impl Method {
-    /// One word for tables.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Equation => "equation",
-            Self::Pipeline => "pipeline",
-            Self::Engine => "engine",
-            Self::Host => "host model",
-            Self::Solver => "solver",
-        }
-    }
-}
-
 /// How our value stands to the papers' figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Standing {
     /// This figure had no part in it; what other printed figures had.
     Predicted {
@@ -120,15 +102,6 @@ pub enum Standing {
 }
 
 impl Standing {
-    /// One word for tables.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Predicted { .. } => "predicted",
-            Self::Calibrated { .. } => "calibrated",
-            Self::Counted => "counted",
-        }
-    }
-
     /// The printed figures that went into our value.
     pub const fn inputs(self) -> &'static str {
         match self {
@@ -138,9 +111,10 @@ impl Standing {
     }
 }
 
-/// How a row came out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
+/// How a row came out; tallies list the variants in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "lowercase")]
+pub enum RowVerdict {
     /// Within the bound, and the figure had no part in it.
     Reproduced,
     /// Within the bound, but the figure chose a constant of the model: no evidence.
@@ -150,28 +124,13 @@ pub enum Verdict {
     /// Outside the bound.
     Missed,
     /// The text is too vague to be missed: no success either.
+    #[strum(to_string = "too vague to judge")]
     TooVague,
-}
-
-impl Verdict {
-    /// All of them, as tallies list them.
-    pub const ALL: [Self; 5] = [Self::Reproduced, Self::Calibrated, Self::Explained, Self::Missed, Self::TooVague];
-
-    /// For tables.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Reproduced => "reproduced",
-            Self::Calibrated => "calibrated",
-            Self::Explained => "explained",
-            Self::Missed => "missed",
-            Self::TooVague => "too vague to judge",
-        }
-    }
 }
 
 /// One figure of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct FigureRow {
     /// What is measured.
     pub what: String,
     /// The card, or the host.
@@ -190,7 +149,7 @@ pub struct Row {
     explanation: Option<Explanation>,
 }
 
-impl Row {
+impl FigureRow {
     /// A row without explanation.
     pub fn new(
         what: impl Into<String>,
@@ -213,16 +172,16 @@ impl Row {
     }
 
     /// How it came out.
-    pub fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> RowVerdict {
         let calibrated = matches!(self.standing, Standing::Calibrated { .. });
         if matches!(self.bound, Bound::TooVague) {
-            Verdict::TooVague
+            RowVerdict::TooVague
         } else if self.admits(self.ours) {
-            if calibrated { Verdict::Calibrated } else { Verdict::Reproduced }
+            if calibrated { RowVerdict::Calibrated } else { RowVerdict::Reproduced }
         } else if self.explanation.is_some() {
-            Verdict::Explained
+            RowVerdict::Explained
         } else {
-            Verdict::Missed
+            RowVerdict::Missed
         }
     }
 
@@ -236,30 +195,30 @@ impl Row {
 pub(super) mod tests {
     use super::*;
 
-    pub(super) fn row(ours: f64) -> Row {
+    pub(super) fn row(ours: f64) -> FigureRow {
         let target = Target::printed(15.6, 1, "M/s", "section 6.1");
         let standing = Standing::Predicted { from: "" };
-        Row::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
+        FigureRow::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
     }
 
     #[test]
     fn a_value_outside_its_bound_is_missed_and_no_word_changes_that() {
         assert_eq!(
             [15.0, 18.0, 13.0].map(|ours| row(ours).verdict()),
-            [Verdict::Reproduced, Verdict::Missed, Verdict::Missed]
+            [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Missed]
         );
     }
 
     #[test]
     fn a_calibrated_value_proves_nothing_and_still_has_a_bound() {
         let standing = Standing::Calibrated { on: "itself" };
-        assert_eq!(Row { standing, ..row(15.6) }.verdict(), Verdict::Calibrated);
-        assert_eq!(Row { standing, ..row(10.0) }.verdict(), Verdict::Missed);
+        assert_eq!(FigureRow { standing, ..row(15.6) }.verdict(), RowVerdict::Calibrated);
+        assert_eq!(FigureRow { standing, ..row(10.0) }.verdict(), RowVerdict::Missed);
     }
 
     #[test]
     fn vague_text_is_no_success() {
-        assert_eq!(Row { bound: Bound::TooVague, ..row(15.6) }.verdict(), Verdict::TooVague);
+        assert_eq!(FigureRow { bound: Bound::TooVague, ..row(15.6) }.verdict(), RowVerdict::TooVague);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the papers do not print, varied: the only thing that can explain a row.
 
-use super::{Row, Standing};
+use super::{FigureRow, Standing};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::prose::number;
 use crate::study::reproduce::report::rounded;
@@ -68,8 +68,8 @@ impl Explanation {
 impl Sweep {
     /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains nothing if a
     /// row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows are never explained.
-    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut Row>) {
-        let mut rows: Vec<&mut Row> = rows.into_iter().collect();
+    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut FigureRow>) {
+        let mut rows: Vec<&mut FigureRow> = rows.into_iter().collect();
         for setting in &self.settings {
             let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
             if rows.iter().zip(&held).any(|(row, held)| row.admits(row.ours) && !held) {
@@ -92,7 +92,7 @@ impl Sweep {
     }
 
     /// A line a row, a column a setting; what is within its bound is marked. Values are shown by `show`, in its unit if it has one.
-    pub fn table(&self, title: &str, rows: &[Row], show: (Option<&str>, fn(f64) -> f64)) -> Table {
+    pub fn table(&self, title: &str, rows: &[FigureRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =
             self.settings.iter().map(|setting| format!("{}={}", self.parameter.replace(' ', "_"), setting.at));
@@ -121,7 +121,7 @@ impl Sweep {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Verdict;
+    use super::super::RowVerdict;
     use super::super::tests::row;
     use super::*;
 
@@ -135,7 +135,7 @@ mod tests {
     fn what_a_setting_reaches_is_explained_by_it() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [16.0, 15.0]]).explain(&mut rows);
-        assert_eq!(rows.each_ref().map(Row::verdict), [Verdict::Explained, Verdict::Reproduced]);
+        assert_eq!(rows.each_ref().map(FigureRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
         let explanation = rows[0].explanation().expect("the second setting");
         assert_eq!((explanation.at(), explanation.value()), ("1", 16.0));
         assert!(rows[1].explanation().is_none(), "what holds needs no explanation");
@@ -145,7 +145,7 @@ mod tests {
     fn what_no_setting_reaches_stays_missed() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [25.0, 15.0]]).explain(&mut rows);
-        assert_eq!(rows[0].verdict(), Verdict::Missed);
+        assert_eq!(rows[0].verdict(), RowVerdict::Missed);
     }
 
     /// The setting that brings one row home must not drive another one out.
@@ -153,6 +153,6 @@ mod tests {
     fn a_setting_that_loses_another_row_explains_nothing() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[16.0, 9.0]]).explain(&mut rows);
-        assert_eq!(rows[0].verdict(), Verdict::Missed);
+        assert_eq!(rows[0].verdict(), RowVerdict::Missed);
     }
 }

@@ -6,7 +6,7 @@ use refsim::timing::host::{HostWeights, Operation};
 use refsim::timing::queue::QueueFigures;
 
 use super::engine_run::{Commands, HostOnly, Run};
-use super::speed_ups::Line;
+use super::speed_ups::SpeedUpRun;
 use super::sweeps::rates;
 use super::{ReproduceError, figure, speed_up};
 use crate::report::{Cell, Table};
@@ -20,7 +20,7 @@ fn keys() -> Vec<String> {
 
 /// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated anew each
 /// time, so that it does the work alone in the same time.
-pub(super) fn table(alone: &HostOnly, lines: &[&Line]) -> Result<Table, ReproduceError> {
+pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
         .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))
         .collect();
@@ -44,7 +44,7 @@ pub(super) fn table(alone: &HostOnly, lines: &[&Line]) -> Result<Table, Reproduc
 
 fn speed_ups(
     alone: &HostOnly,
-    lines: &[&Line],
+    lines: &[&SpeedUpRun],
     weights: HostWeights,
     queue: QueueFigures,
 ) -> Result<Vec<f64>, ReproduceError> {

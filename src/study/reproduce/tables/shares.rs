@@ -1,9 +1,9 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings of it.
 
-use super::super::{Bound, Method, Row, Setting, Standing, Sweep, Target};
+use super::super::{Bound, FigureRow, Method, Setting, Standing, Sweep, Target};
 use super::engine_run::TIMES;
 use crate::ray_engine::engine::EngineCounts;
-use crate::report::{Chart, Line, Table};
+use crate::report::{Chart, Series, Table};
 
 /// A share, from 0 to 1.
 type Reading = fn(&EngineCounts) -> f64;
@@ -24,11 +24,11 @@ pub(super) struct Share<'a> {
 }
 
 /// Rows by the first reading, explained by the second where that reaches them, and the two readings side by side.
-pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<Row>, Table) {
+pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<FigureRow>, Table) {
     let row = |share: &Share<'_>| {
         let target = Target::printed(share.printed, 0, "%", place);
         let what = format!("{}: rays on the card", share.what);
-        Row::new(
+        FigureRow::new(
             what,
             (TIMES, Method::Engine),
             target,
@@ -36,7 +36,7 @@ pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<Row>, Tabl
             Bound::PREDICTION,
         )
     };
-    let mut rows: Vec<Row> = shares.iter().map(row).collect();
+    let mut rows: Vec<FigureRow> = shares.iter().map(row).collect();
     let setting = |(at, of): (&str, Reading)| Setting {
         at: at.to_owned(),
         values: shares.iter().map(|share| 100.0 * of(share.counts)).collect(),
@@ -61,8 +61,8 @@ pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Chart 
         y: "%".to_owned(),
         ticks: ticks.iter().map(ToString::to_string).collect(),
         dots: vec![
-            Line { label: "rays that met the card".to_owned(), points: rays },
-            Line { label: "visits of caches that ended on the card".to_owned(), points: visits },
+            Series { label: "rays that met the card".to_owned(), points: rays },
+            Series { label: "visits of caches that ended on the card".to_owned(), points: visits },
         ],
         printed: points(&|share| share.printed),
         ..Chart::default()

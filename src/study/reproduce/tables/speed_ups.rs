@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::super::{Bound, Method, ReproduceError, Row, Standing, Sweep, Target};
+use super::super::{Bound, FigureRow, Method, ReproduceError, Standing, Sweep, Target};
 use super::engine_run::{Commands, Run, TIMES};
 use super::teapot::{TeapotRoom, Variant};
 use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
@@ -15,12 +15,12 @@ const IN_FLIGHT: usize = 4;
 const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
 
 /// A row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
-pub(super) struct Line {
-    pub(super) row: Row,
+pub(super) struct SpeedUpRun {
+    pub(super) row: FigureRow,
     pub(super) run: Rc<Run>,
 }
 
-impl Line {
+impl SpeedUpRun {
     /// The printed speed-up over the host alone, in per cent.
     pub(super) fn printed(&self) -> f64 {
         speed_up(self.row.target.value)
@@ -34,25 +34,25 @@ impl Line {
 
 /// All rows, and what they would be under other guesses.
 pub(super) struct SpeedUps {
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<SpeedUpRun>,
     pub(super) commands: Sweep,
     pub(super) host_leaf: Sweep,
 }
 
 impl SpeedUps {
     /// The lines of a table.
-    pub(super) fn of(&self, place: &'static str) -> Vec<&Line> {
+    pub(super) fn of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
         self.lines.iter().filter(|line| line.row.target.place == place).collect()
     }
 
     /// The rows of a table with that of the host alone.
-    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<Row> {
+    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<FigureRow> {
         std::iter::once(room.host_alone(place)).chain(self.of(place).into_iter().map(|line| line.row.clone())).collect()
     }
 
     /// All rows under each setting of a sweep, as speed-ups.
     pub(super) fn table(&self, sweep: &Sweep, title: &str) -> Table {
-        let rows: Vec<Row> = self.lines.iter().map(|line| line.row.clone()).collect();
+        let rows: Vec<FigureRow> = self.lines.iter().map(|line| line.row.clone()).collect();
         sweep.table(title, &rows, (Some("%"), speed_up))
     }
 
@@ -99,8 +99,8 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let mut lines = Vec::new();
     for (((what, place, value, _), run), ours) in printed.into_iter().zip(&runs).zip(ours) {
         let target = Target::printed(value, 0, "rays/s", place);
-        let row = Row::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
-        lines.push(Line { row, run: Rc::clone(run) });
+        let row = FigureRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
+        lines.push(SpeedUpRun { row, run: Rc::clone(run) });
     }
     let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
     for sweep in [&commands, &host_leaf] {
@@ -109,11 +109,11 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> Row {
+pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> FigureRow {
     let standing = Standing::Calibrated { on: "this figure" };
     let ours = room.work.alone.rays_per_s(&room.host);
     let target = Target::printed(HOST_ALONE, 0, "rays/s", place);
-    Row::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
+    FigureRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
 }
 
 const HEADINGS: [&str; 14] = [
@@ -134,7 +134,7 @@ const HEADINGS: [&str; 14] = [
 ];
 
 /// The speed-ups of some lines over the host alone, and what their engines did.
-pub(super) fn table(room: &TeapotRoom, lines: &[&Line], place: &str) -> Result<Table, ReproduceError> {
+pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, ReproduceError> {
     let mut table = Table::new(format!("Speed-ups over the host alone, {place}"), &HEADINGS);
     for line in lines {
         let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);

@@ -5,13 +5,13 @@ use std::rc::Rc;
 use rayon::prelude::*;
 
 use super::super::shared::Shared;
-use super::super::{Bound, Findings, Method, NamedChart, ReproduceError, Row, Target};
+use super::super::{Bound, EntryChart, EntryFindings, FigureRow, Method, ReproduceError, Target};
 use super::engine_run::{Run, TIMES, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
 use super::workload::{Asks, Job};
 use super::{HOST_ALONE, QUESTION, RATE, commands, figure, speed_up};
-use crate::report::{Chart, Line, Table};
+use crate::report::{Chart, Series, Table};
 
 /// A line of both tables.
 struct Scene {
@@ -94,7 +94,7 @@ struct Ran {
     alone_rays_per_s: f64,
 }
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
     let first = room.runs(&[Variant { rays: SCENES[0].rays, ..Variant::PLUS_CARD }])?;
     let others = SCENES.par_iter().filter_map(|scene| Some((scene, scene.job?)));
@@ -124,18 +124,18 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
     let (share_rows, readings) = shares::rows(&shares, "Table 2");
     rows.extend(share_rows);
     let ticks = SCENES.each_ref().map(|scene| scene.tick);
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![HOW.into(), READINGS.into()],
         rows,
         questions: vec![QUESTION],
         tables: vec![table(&ran), readings],
         charts: vec![
-            NamedChart {
+            EntryChart {
                 name: "ray-engine-table-1",
                 chart: rates_chart(&ran, &ticks),
                 caption: "Rays a second of the five rows of Table 1.".into(),
             },
-            NamedChart {
+            EntryChart {
                 name: "ray-engine-table-2",
                 chart: shares::chart(&shares, &ticks, "Share of rays on the card"),
                 caption: "Table 2, and both readings of our runs.".into(),
@@ -144,25 +144,25 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
     })
 }
 
-fn rates(ran: &[Ran]) -> Vec<Row> {
+fn rates(ran: &[Ran]) -> Vec<FigureRow> {
     let by = (TIMES, Method::Engine);
     let row = |(i, (scene, ran)): (usize, (&Scene, &Ran))| {
         let target = Target::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
         // The first row's room is the one on which the host was calibrated; of the others no host alone is printed.
         let gain = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
         let bound = if i == 0 { gain } else { Bound::PREDICTION };
-        Row::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)
+        FigureRow::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)
     };
-    let mut rows: Vec<Row> = SCENES.iter().zip(ran).enumerate().map(row).collect();
+    let mut rows: Vec<FigureRow> = SCENES.iter().zip(ran).enumerate().map(row).collect();
     let tuned = Target::printed(TUNED, 0, "%", "section 6.3");
     let ours = ran.first().map_or(f64::NAN, |ran| speed_up(ran.rays_per_s));
-    rows.insert(1, Row::new("the same, over the host alone", by, tuned, (ours, RATE), Bound::PREDICTION));
+    rows.insert(1, FigureRow::new("the same, over the host alone", by, tuned, (ours, RATE), Bound::PREDICTION));
     rows
 }
 
 fn rates_chart(ran: &[Ran], ticks: &[&str]) -> Chart {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value / 1000.0)).collect();
-    let dots = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), points: points(values) };
+    let dots = |label: &str, values: Vec<f64>| Series { label: label.to_owned(), points: points(values) };
     Chart {
         title: "Rays a second".to_owned(),
         y: "thousand rays/s".to_owned(),

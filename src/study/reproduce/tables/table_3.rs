@@ -2,10 +2,10 @@
 
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
-use super::super::{Findings, NamedChart, ReproduceError};
-use super::speed_ups::{Line as Run, SpeedUps, table};
+use super::super::{EntryChart, EntryFindings, ReproduceError};
+use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, host_work, how, sensitivity};
-use crate::report::{Chart, Line};
+use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 3";
 
@@ -14,11 +14,11 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
     triangles the infinitely fast card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall either side of \
     a knife-edge of our mesh. Rows take {}, which was chosen before any of them was worked out, for host and engine alike.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
     let found = room.speed_ups()?;
     let lines = found.of(PLACE);
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],
         rows: found.rows(room, PLACE),
         questions: vec![
@@ -31,7 +31,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
             host_work::table(room, &lines),
             sensitivity::table(&room.work.alone, &lines)?,
         ],
-        charts: vec![NamedChart {
+        charts: vec![EntryChart {
             name: "ray-engine-host-octree",
             chart: chart(found, &lines),
             caption: Prose::new(
@@ -43,12 +43,12 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
 }
 
 /// What the printed figures and ours leave for a pass.
-fn passes(lines: &[&Run]) -> Prose {
+fn passes(lines: &[&SpeedUpRun]) -> Prose {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
     let [plus, asynchronous, fast] = lines else { return Prose::from("") };
     let counts = &plus.run.counts;
     let a_pass = counts.rays as f64 / counts.passes as f64;
-    let of = |of: fn(&Run) -> f64| [fast, asynchronous].map(|other| (us(of(plus)) - us(of(other))) * a_pass);
+    let of = |of: fn(&SpeedUpRun) -> f64| [fast, asynchronous].map(|other| (us(of(plus)) - us(of(other))) * a_pass);
     let ([printed_all, printed_wait], [our_all, our_wait]) =
         (of(|line| line.row.target.value), of(|line| line.row.ours));
     Prose::new(
@@ -76,9 +76,9 @@ fn octree(found: &SpeedUps) -> Prose {
     Prose::new(OCTREE, [from.clone(), to.clone(), number(fast(low), 0), number(fast(high), 0), stated])
 }
 
-fn chart(found: &SpeedUps, lines: &[&Run]) -> Chart {
+fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
     let settings = found.under(&found.host_leaf, PLACE);
-    let line = |(i, line): (usize, &&Run)| Line {
+    let line = |(i, line): (usize, &&SpeedUpRun)| Series {
         label: line.row.what.clone(),
         points: settings.iter().filter_map(|(at, values)| Some((at.parse().ok()?, values[i]))).collect(),
     };

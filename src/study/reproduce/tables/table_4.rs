@@ -1,11 +1,11 @@
 //! Table 4: the teapot room by the range of triangles that goes to the card.
 
 use super::super::shared::Shared;
-use super::super::{Findings, NamedChart, Prose, ReproduceError, number};
+use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
 use super::shares::{self, Share};
-use super::speed_ups::{Line as Run, SpeedUps, table};
+use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, how};
-use crate::report::{Chart, Line};
+use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 4";
 /// The share of rays on the card, in per cent.
@@ -15,7 +15,7 @@ const ORDER: &str = "Printed, the widest range brings the fewest rays to the car
     cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. Our speed-ups are {}, {} and {} % \
     for the printed {}, {} and {} %.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
     let found = room.speed_ups()?;
     let lines = found.of(PLACE);
@@ -26,11 +26,11 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
         .collect();
     let (share_rows, readings) = shares::rows(&shares, PLACE);
     let ticks: Vec<&str> = lines.iter().map(|line| line.row.what.as_str()).collect();
-    let speed_ups_of = |of: fn(&Run) -> f64| lines.iter().map(move |line| number(of(line), 1));
-    let order = Prose::new(ORDER, speed_ups_of(Run::ours).chain(speed_ups_of(Run::printed)));
+    let speed_ups_of = |of: fn(&SpeedUpRun) -> f64| lines.iter().map(move |line| number(of(line), 1));
+    let order = Prose::new(ORDER, speed_ups_of(SpeedUpRun::ours).chain(speed_ups_of(SpeedUpRun::printed)));
     let mut rows = found.rows(room, PLACE);
     rows.extend(share_rows);
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![how(room), order],
         rows,
         questions: vec![
@@ -39,12 +39,12 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
         ],
         tables: vec![table(room, &lines, PLACE)?, readings],
         charts: vec![
-            NamedChart {
+            EntryChart {
                 name: "ray-engine-table-4",
                 chart: speed_ups(found, &lines, &ticks),
                 caption: "Table 4 by the range of triangles, with the costs of commands as stated and more.".into(),
             },
-            NamedChart {
+            EntryChart {
                 name: "ray-engine-table-4-shares",
                 chart: shares::chart(&shares, &ticks, "Share of rays on the card"),
                 caption: "The share of rays on the card of Table 4, and both readings of our runs.".into(),
@@ -53,10 +53,10 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
     })
 }
 
-fn speed_ups(found: &SpeedUps, lines: &[&Run], ticks: &[&str]) -> Chart {
+fn speed_ups(found: &SpeedUps, lines: &[&SpeedUpRun], ticks: &[&str]) -> Chart {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
     let dots =
-        |(at, values): (String, Vec<f64>)| Line { label: format!("ours, commands x {at}"), points: points(values) };
+        |(at, values): (String, Vec<f64>)| Series { label: format!("ours, commands x {at}"), points: points(values) };
     Chart {
         title: "Speed-up over the host alone".to_owned(),
         y: "%".to_owned(),

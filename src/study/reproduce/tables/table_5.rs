@@ -1,21 +1,21 @@
 //! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
 
 use super::super::shared::Shared;
-use super::super::{Findings, NamedChart, Prose, ReproduceError, number};
-use super::speed_ups::{Line as Run, SpeedUps, table};
+use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
+use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, how};
-use crate::report::{Chart, Line};
+use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 5";
 
 const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, and their rays are forced to the host: {} in a ray at {}, {} at {}. \
     What a pass costs is mostly commands, whose costs are guesses; the sweep multiplies all of them by one factor, for the rows of all three tables.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
     let found = room.speed_ups()?;
     let lines = found.of(PLACE);
-    Ok(Findings {
+    Ok(EntryFindings {
         text: vec![how(room), size(&lines)],
         rows: found.rows(room, PLACE),
         questions: vec![
@@ -26,7 +26,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
             table(room, &lines, PLACE)?,
             found.table(&found.commands, "Speed-ups by a factor on the costs of all commands"),
         ],
-        charts: vec![NamedChart {
+        charts: vec![EntryChart {
             name: "ray-engine-table-5",
             chart: chart(found, &lines),
             caption: "Table 5, with the costs of commands as stated and more.".into(),
@@ -34,17 +34,17 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<Findings, ReproduceE
     })
 }
 
-fn size(lines: &[&Run]) -> Prose {
-    let forced = |line: &Run| number(line.run.counts.forced_rays as f64 / line.run.counts.rays as f64, 2);
+fn size(lines: &[&SpeedUpRun]) -> Prose {
+    let forced = |line: &SpeedUpRun| number(line.run.counts.forced_rays as f64 / line.run.counts.rays as f64, 2);
     let (Some(first), Some(last)) = (lines.first(), lines.last()) else { return Prose::from("") };
     Prose::new(SIZE, [forced(first), first.row.what.clone(), forced(last), last.row.what.clone()])
 }
 
-fn chart(found: &SpeedUps, lines: &[&Run]) -> Chart {
+fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
     let rays: Vec<f64> = lines.iter().filter_map(|line| line.row.what.split(' ').next()?.parse().ok()).collect();
     let points = |values: Vec<f64>| rays.iter().copied().zip(values).collect();
     let line =
-        |(at, values): (String, Vec<f64>)| Line { label: format!("ours, commands x {at}"), points: points(values) };
+        |(at, values): (String, Vec<f64>)| Series { label: format!("ours, commands x {at}"), points: points(values) };
     Chart {
         title: "Speed-up over the host alone".to_owned(),
         x: "rays in a pass".to_owned(),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
 use super::super::shared::get_or_try;
-use super::super::{ReproduceError, Row};
+use super::super::{FigureRow, ReproduceError};
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::speed_ups::{self, SpeedUps};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
@@ -91,7 +91,7 @@ impl TeapotRoom {
     }
 
     /// The first row of Tables 3 to 5: what the host's scale was calibrated on.
-    pub(super) fn host_alone(&self, place: &'static str) -> Row {
+    pub(super) fn host_alone(&self, place: &'static str) -> FigureRow {
         speed_ups::host_alone(self, place)
     }
 }

@@ -4,17 +4,22 @@
 //! decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles share,
 //! where the paper's equations are evaluated once for each neighbour and need not agree.
 
+mod report;
+
 use rayon::prelude::*;
 use refsim::machine::Executor;
 use serde::Serialize;
 
 use super::configuration::Configuration;
-use super::shade::Shader;
+use super::shade::TeapotShader;
+use super::{ProgressFn, Study};
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::classify::{Candidate, Verdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
+use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EngineError, Hit, RayBatch};
+use crate::report::{Findings, Provenance, ReportError};
 
 /// What is asked.
 #[derive(Clone, Debug)]
@@ -85,7 +90,7 @@ impl Tally {
 
 /// One configuration's answer.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct TeapotRow {
     /// Who answered.
     pub configuration: Configuration,
     /// The program that ran.
@@ -94,13 +99,13 @@ pub struct Row {
     pub tally: Tally,
     /// Pixels of the shaded picture that differ from the exact one.
     pub pixels_differing: u64,
-    /// The shaded picture: RGB bytes, row by row.
-    pub picture: Vec<u8>,
-    /// The leak map: RGB bytes, row by row; [`verdict_colour`] explains it.
-    pub map: Vec<u8>,
-    /// t a pixel; infinite where nothing was hit.
+    /// The shaded picture.
+    pub picture: RgbImage,
+    /// The leak map; [`verdict_color`] explains it.
+    pub map: RgbImage,
+    /// t per pixel; infinite where nothing was hit.
     pub t: Vec<f32>,
-    /// The triangle a pixel; `u32::MAX` where nothing was hit.
+    /// The triangle per pixel; `u32::MAX` where nothing was hit.
     pub triangle: Vec<u32>,
     /// Rays aimed at shared edges.
     pub edges: Tally,
@@ -108,17 +113,30 @@ pub struct Row {
     pub vertices: Tally,
 }
 
-/// Everything that the study found.
+/// Why the study has no findings.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum TeapotError {
+    /// A configuration has no intersection program, or the card refuses the work.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Engine(#[from] EngineError),
+    /// A file that cannot be encoded.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
+}
+
+/// All answers, and the truth.
 #[derive(Clone, Debug)]
-pub struct Outcome {
-    /// The exact picture: RGB bytes, row by row.
-    pub exact_picture: Vec<u8>,
-    /// t a pixel, exact and then rounded once; infinite where nothing is.
+pub struct TeapotOutcome {
+    /// The exact picture.
+    pub exact_picture: RgbImage,
+    /// t per pixel, exact and then rounded once; infinite where nothing is.
     pub exact_t: Vec<f32>,
-    /// The triangle a pixel (the smallest of a tie); `u32::MAX` where nothing is.
+    /// The triangle per pixel (the smallest of a tie); `u32::MAX` where nothing is.
     pub exact_triangle: Vec<u32>,
     /// The rows, in the order of the configurations.
-    pub rows: Vec<Row>,
+    pub rows: Vec<TeapotRow>,
 }
 
 /// Rays with the truth about them.
@@ -133,7 +151,7 @@ impl Judged {
         Self { rays, truth }
     }
 
-    /// The verdicts on an answer, a ray each, and their tally.
+    /// The verdict on each ray's answer, and their tally.
     fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<Verdict>, Tally) {
         let judge = |(hit, truth): (&Option<Hit>, &Option<NearestHit>)| {
             let none = Candidate { triangle: None, t: 0.0 };
@@ -150,13 +168,15 @@ impl Judged {
     }
 }
 
-/// Runs the study. `progress` hears the label of each configuration before it starts.
+/// Asks all configurations. `progress` hears the label of each before it starts.
 ///
 /// # Errors
 /// If a configuration has no intersection program, or the card refuses the work.
-pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, EngineError> {
+pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<TeapotOutcome, EngineError> {
     let Parameters { mesh, sides, .. } = parameters;
-    progress("exact arithmetic");
+    let (width, height) = (parameters.view.width(), parameters.view.height());
+    let steps = parameters.configurations.len() as u64 + 1;
+    progress("exact arithmetic", 0, steps);
     let tracer = Tracer::new(mesh);
     let view = Judged::new(&tracer, parameters.view.rays().to_vec(), *sides);
     let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
@@ -164,12 +184,12 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
     let edges = eye.map(|eye| aim(aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed)));
     let vertices = eye.map(|eye| aim(aimed_at_vertices(mesh, eye)));
 
-    let shader = Shader::new(mesh);
+    let shader = TeapotShader::new(mesh);
     let exact: Vec<Option<u32>> = view.truth.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
-    for configuration in &parameters.configurations {
-        progress(&configuration.label);
+    for (done, configuration) in (1..).zip(&parameters.configurations) {
+        progress(&configuration.label, done, steps);
         let crossbar =
             Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs);
         let answer = crossbar.intersect(mesh, &parameters.view, *sides)?;
@@ -180,12 +200,12 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
             let Some(judged) = judged else { return Ok(Tally::default()) };
             Ok(judged.judge(mesh, &crossbar.intersect_list(mesh, &judged.rays, *sides)?).1)
         };
-        rows.push(Row {
+        rows.push(TeapotRow {
             configuration: configuration.clone(),
             kernel: answer.kernel,
             tally,
             pixels_differing: pixels_differing(&picture, &exact_picture),
-            map: verdicts.iter().zip(&exact).flat_map(|(v, e)| verdict_colour(*v, e.is_some())).collect(),
+            map: rgb8(width, height, verdicts.iter().zip(&exact).map(|(v, e)| verdict_color(*v, e.is_some()))),
             picture,
             t: answer.hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
@@ -193,7 +213,7 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
             vertices: aimed(&vertices)?,
         });
     }
-    Ok(Outcome {
+    Ok(TeapotOutcome {
         exact_picture,
         exact_t: view.truth.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())).collect(),
         exact_triangle: exact.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
@@ -201,13 +221,32 @@ pub fn run(parameters: &Parameters, progress: &dyn Fn(&str)) -> Result<Outcome, 
     })
 }
 
-fn pixels_differing(a: &[u8], b: &[u8]) -> u64 {
-    a.chunks_exact(3).zip(b.chunks_exact(3)).filter(|(x, y)| x != y).count() as u64
+impl Study for Parameters {
+    type Error = TeapotError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, TeapotError> {
+        Ok(report::findings(self, run(self, progress)?)?)
+    }
+
+    fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        provenance.seed = Some(self.seed);
+        for configuration in &self.configurations {
+            if !provenance.profiles.contains(&configuration.profile.name) {
+                provenance.profiles.push(configuration.profile.name.clone());
+            }
+            provenance.switches.extend(configuration.switch.clone());
+        }
+        provenance
+    }
 }
 
-/// The leak map's colours: red for a leak, blue for a false hit, yellow and orange for a wrong triangle that touches the
+fn pixels_differing(a: &RgbImage, b: &RgbImage) -> u64 {
+    a.pixels().zip(b.pixels()).filter(|(x, y)| x != y).count() as u64
+}
+
+/// The leak map's colors: red for a leak, blue for a false hit, yellow and orange for a wrong triangle that touches the
 /// right one or does not, grey where the surface is right, black where nothing is.
-pub const fn verdict_colour(verdict: Verdict, surface: bool) -> [u8; 3] {
+pub const fn verdict_color(verdict: Verdict, surface: bool) -> [u8; 3] {
     match verdict {
         Verdict::Right if surface => [120, 124, 130],
         Verdict::Right => [16, 18, 22],

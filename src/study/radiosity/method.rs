@@ -7,7 +7,7 @@ use refsim::event::Event;
 
 use super::change::Relit;
 use super::time::IterationTime;
-use super::{Parameters, StudyError};
+use super::{Parameters, RadiosityError};
 use crate::radiosity::System;
 use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage, to_f64};
 use crate::radiosity::packing::Packing;
@@ -15,7 +15,7 @@ use crate::radiosity::solve::{Options, Solver, mean_square};
 
 /// How a system is solved on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CardWay {
+pub struct CardMethod {
     /// How elements lie in texels.
     pub packing: Packing,
     /// What registers, textures and targets hold.
@@ -24,11 +24,11 @@ pub struct CardWay {
 
 /// How a system is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum SolveMethod {
     /// On the host, in f64.
     Host(Solver),
     /// By fragment programs.
-    Card(CardWay),
+    Card(CardMethod),
 }
 
 /// Why an iteration stopped.
@@ -63,7 +63,7 @@ pub struct CardFacts {
 
 /// How a way was solved, its card still holding what it found.
 pub(super) struct Solved {
-    pub(super) way: Way,
+    pub(super) way: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,
     pub(super) history: Vec<f64>,
     /// Of no radiosity at all: what residuals are shares of.
@@ -75,7 +75,7 @@ pub(super) struct Solved {
     pub(super) kept: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
-impl Way {
+impl SolveMethod {
     /// Elimination on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
@@ -83,7 +83,7 @@ impl Way {
     pub fn label(&self, profile: &Profile) -> String {
         match self {
             Self::Host(solver) => solver.to_string().replace(':', "-"),
-            Self::Card(CardWay { packing, storage }) => {
+            Self::Card(CardMethod { packing, storage }) => {
                 let packing = if *packing == Packing::Rgb { "rgb" } else { "luminance" };
                 let storage = if *storage == Storage::Fp32 { "fp32" } else { "fp16" };
                 format!("{}-{packing}-{storage}", profile.name)
@@ -126,21 +126,26 @@ fn mean([r, g, b]: [f64; 3]) -> f64 {
 
 /// Solves; after the changes again.
 pub(super) fn solve(
-    way: Way,
+    way: SolveMethod,
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
-) -> Result<Solved, StudyError> {
+) -> Result<Solved, RadiosityError> {
     match way {
-        Way::Host(solver) => on_host(solver, system, changed, &parameters.options),
-        Way::Card(how) => on_card(how, system, changed, parameters),
+        SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options),
+        SolveMethod::Card(how) => on_card(how, system, changed, parameters),
     }
 }
 
-fn on_host(solver: Solver, system: &System, changed: Option<&System>, options: &Options) -> Result<Solved, StudyError> {
+fn on_host(
+    solver: Solver,
+    system: &System,
+    changed: Option<&System>,
+    options: &Options,
+) -> Result<Solved, RadiosityError> {
     let found = system.solve(solver, options, None)?;
     let radiosity = found.radiosity();
-    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
+    let relit = changed.map(|changed| -> Result<Relit, RadiosityError> {
         let again = changed.solve(solver, options, Some(&radiosity))?;
         let anew = changed.solve(solver, options, None)?;
         let count = |s: &crate::radiosity::RgbSolution| {
@@ -154,7 +159,7 @@ fn on_host(solver: Solver, system: &System, changed: Option<&System>, options: &
     let at = |k: usize| [0, 1, 2].map(|c| found.channels[c].history[k.min(found.channels[c].history.len() - 1)]);
     let converged = found.channels.iter().all(|c| c.converged);
     Ok(Solved {
-        way: Way::Host(solver),
+        way: SolveMethod::Host(solver),
         history: (0..longest).map(|k| mean(at(k))).collect(),
         emitted: emitted(system),
         stopped: match (solver, converged) {
@@ -170,11 +175,11 @@ fn on_host(solver: Solver, system: &System, changed: Option<&System>, options: &
 }
 
 fn on_card(
-    how: CardWay,
+    how: CardMethod,
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
-) -> Result<Solved, StudyError> {
+) -> Result<Solved, RadiosityError> {
     let executor = parameters.executor.clone();
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
@@ -186,7 +191,7 @@ fn on_card(
         }
     })?;
     let radiosity = to_f64(&found.radiosity);
-    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
+    let relit = changed.map(|changed| -> Result<Relit, RadiosityError> {
         let mut run = |start: &[[f32; 3]]| {
             card.load(start)?;
             card.set_system(changed)?;
@@ -202,7 +207,7 @@ fn on_card(
     });
     let relit = relit.transpose()?;
     Ok(Solved {
-        way: Way::Card(how),
+        way: SolveMethod::Card(how),
         radiosity,
         history: found.history.iter().map(|(_, residual)| mean(*residual)).collect(),
         emitted: emitted(system),

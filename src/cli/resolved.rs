@@ -1,0 +1,93 @@
+//! The command line as it was obeyed: every option that decides what is found, defaults filled in.
+
+use std::fmt::Write as _;
+
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Command};
+
+/// Options that change no result: where it goes, who computes the same bits, what is told on the way.
+const WITHOUT_EFFECT: [&str; 9] =
+    ["out", "executor", "adapter", "native", "json", "threads", "all_errors", "memory_limit", "help"];
+
+/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option replaces is left out.
+pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
+    let Some((name, matches)) = matches.subcommand() else { return program.get_name().to_owned() };
+    let mut text = format!("{} {name}", program.get_name());
+    let Some(command) = program.find_subcommand(name) else { return text };
+    let (positional, options): (Vec<&Arg>, Vec<&Arg>) = command.get_arguments().partition(|arg| arg.is_positional());
+    for arg in positional.into_iter().chain(options) {
+        if WITHOUT_EFFECT.contains(&arg.get_id().as_str()) || replaced(command, arg, matches) {
+            continue;
+        }
+        for value in values(arg, matches) {
+            // Writing to a string cannot fail.
+            let _ = match (arg.get_long(), value) {
+                (Some(long), Some(value)) => write!(text, " --{long} {value}"),
+                (Some(long), None) => write!(text, " --{long}"),
+                (None, value) => write!(text, " {}", value.unwrap_or_default()),
+            };
+        }
+    }
+    text
+}
+
+/// Whether the argument has its default only, and another one that was given excludes it.
+fn replaced(command: &Command, arg: &Arg, matches: &ArgMatches) -> bool {
+    let given = |other: &&Arg| matches.value_source(other.get_id().as_str()) == Some(ValueSource::CommandLine);
+    let default = matches.value_source(arg.get_id().as_str()) == Some(ValueSource::DefaultValue);
+    default && command.get_arguments().filter(given).any(|other| command.get_arg_conflicts_with(other).contains(&arg))
+}
+
+/// The values of each occurrence; of a flag that was given `None`, once.
+fn values(arg: &Arg, matches: &ArgMatches) -> Vec<Option<String>> {
+    let id = arg.get_id().as_str();
+    if matches!(arg.get_action(), ArgAction::SetTrue) {
+        return matches.get_flag(id).then_some(None).into_iter().collect();
+    }
+    let raw: Vec<String> =
+        matches.get_raw(id).into_iter().flatten().map(|value| value.to_string_lossy().into_owned()).collect();
+    match arg.get_value_delimiter() {
+        Some(delimiter) if !raw.is_empty() => vec![Some(raw.join(&delimiter.to_string()))],
+        _ => raw.into_iter().map(Some).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+    use crate::cli::Cli;
+
+    fn resolved(arguments: &[&str]) -> String {
+        let mut program = Cli::command();
+        program.build();
+        let matches = program.clone().try_get_matches_from(arguments).expect("arguments that are fine");
+        command_line(&program, &matches)
+    }
+
+    #[test]
+    fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
+        assert_eq!(
+            resolved(&["crossbar", "leaky-teapot", "--format", "fp16", "--out", "x", "--executor", "scalar", "--json"]),
+            "crossbar leaky-teapot --size 512x512 --tessellation 8 --format fp16 --rays-per-edge 4 --seed 1 --sides front"
+        );
+        assert_eq!(
+            resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),
+            "crossbar reproduce figure-7 equation-11"
+        );
+    }
+
+    /// What is written can be given again.
+    #[test]
+    fn what_is_resolved_resolves_to_itself() {
+        for line in [
+            "crossbar leaky-teapot --all-pairs --device r200 --device nv20",
+            "crossbar radiosity cornell-room --per-side 3 --frames 1,2 --solver card --solver direct --switch rounding=rtz",
+            "crossbar radiosity room.obj --emit light=1,0,0 --eye -1,0,2",
+        ] {
+            let once = resolved(&line.split(' ').collect::<Vec<_>>());
+            assert_eq!(resolved(&once.split(' ').collect::<Vec<_>>()), once);
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! The curve of a display: sRGB (IEC 61966-2-1), piecewise as the standard has it.
+
+/// The byte of a linear value, clipped to [0, 1]; NaN becomes black.
+pub fn encode(value: f64) -> u8 {
+    let linear = if value > 0.0 { value.min(1.0) } else { 0.0 };
+    let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 };
+    (curved * 255.0 + 0.5) as u8
+}
+
+/// The linear value that the curve takes to `value`, both in [0, 1].
+pub fn decode(value: f64) -> f64 {
+    if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_at_points_that_are_known() {
+        let known = [(0.0, 0), (1.0, 255), (7.0, 255), (-1.0, 0), (f64::NAN, 0), (0.215_860_5, 128), (0.5, 188)];
+        for (linear, byte) in known {
+            assert_eq!(encode(linear), byte, "{linear}");
+        }
+    }
+
+    #[test]
+    fn every_byte_comes_back() {
+        for byte in 0..=255 {
+            assert_eq!(encode(decode(f64::from(byte) / 255.0)), byte);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! OpenEXR files: floats and whole numbers kept to the bit.
+
+use std::io::Cursor;
+
+use exr::meta::MetaData;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, ReadChannels as _, ReadLayers as _,
+    SmallVec, Text, WritableImage as _,
+};
+
+use super::read::require_size;
+use super::{ChannelUnit, Picture, PictureChannel, PictureError, PictureFormat, Samples};
+
+/// A picture as an EXR file with its channels by their names. Losslessly packed; the same picture gives the same bytes.
+///
+/// # Errors
+/// [`PictureError::Encode`] if it has no channels, or a name cannot be written.
+pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
+    let refused = |reason: String| PictureError::Encode { format: PictureFormat::Exr, reason };
+    let channel = |channel: &PictureChannel| {
+        let name = Text::new_or_none(&channel.name)
+            .ok_or_else(|| refused("a channel's name must be plain ASCII".to_owned()))?;
+        let samples = match &channel.samples {
+            Samples::Float(samples) => FlatSamples::F32(samples.clone()),
+            Samples::Uint(samples) => FlatSamples::U32(samples.clone()),
+        };
+        Ok(AnyChannel::new(name, samples))
+    };
+    let list: SmallVec<_> = picture.channels().iter().map(channel).collect::<Result<_, PictureError>>()?;
+    if list.is_empty() || picture.width() == 0 || picture.height() == 0 {
+        return Err(refused("the picture has no samples".to_owned()));
+    }
+    let layer = Layer::new(
+        (picture.width() as usize, picture.height() as usize),
+        LayerAttributes::default(),
+        // Run-length packing is lossless for every type of sample.
+        Encoding::FAST_LOSSLESS,
+        AnyChannels::sort(list),
+    );
+    let mut file = Cursor::new(Vec::new());
+    let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut file);
+    written.map_err(|error| refused(error.to_string()))?;
+    Ok(file.into_inner())
+}
+
+/// The first layer of an EXR file, in its largest resolution. Halves become singles.
+pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
+    let broken =
+        |error: exr::error::Error| PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() };
+    // The size first: the reader takes memory for what the header says.
+    let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
+    for header in &meta.headers {
+        let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+        require_size(width, height, header.channels.list.len(), 4)?;
+    }
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(broken)?;
+    let layer = image.layer_data;
+    // Within the limit, which is below 2^32.
+    let mut picture = Picture::new(layer.size.width() as u32, layer.size.height() as u32);
+    for channel in layer.channel_data.list {
+        let name = channel.name.to_string();
+        let unit =
+            if matches!(name.as_str(), "R" | "G" | "B" | "Y") { ChannelUnit::Linear } else { ChannelUnit::Unknown };
+        let samples = match channel.sample_data {
+            FlatSamples::U32(samples) => Samples::Uint(samples),
+            FlatSamples::F32(samples) => Samples::Float(samples),
+            halves @ FlatSamples::F16(_) => Samples::Float(halves.values_as_f32().collect()),
+        };
+        picture = picture.with(&name, unit, samples)?;
+    }
+    Ok(picture)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floats_and_ids_come_back_to_the_bit() {
+        let t = vec![0.1_f32, f32::NAN, f32::INFINITY, -0.0, 1e-40, 3.0];
+        let id = vec![0, 1, u32::MAX, 4, 5, 6];
+        let picture = Picture::new(3, 2)
+            .with("t", ChannelUnit::RayLength, Samples::Float(t.clone()))
+            .and_then(|picture| picture.with("id", ChannelUnit::Id, Samples::Uint(id.clone())))
+            .expect("six samples each");
+        let back = Picture::decode(&exr(&picture).expect("a file")).expect("our own EXR");
+        let bits = |samples: &[f32]| samples.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(back.floats("t").expect("floats").1), bits(&t));
+        let ids = back.channels().iter().find(|channel| channel.name == "id").expect("ids");
+        assert_eq!(ids.samples, Samples::Uint(id));
+    }
+
+    #[test]
+    fn a_short_channel_is_an_error() {
+        assert!(Picture::new(2, 2).with("t", ChannelUnit::RayLength, Samples::Float(vec![0.0; 3])).is_err());
+        assert!(exr(&Picture::new(2, 2)).is_err(), "and so is none at all");
+    }
+}

@@ -1,0 +1,79 @@
+//! PNG files, and images of whole samples.
+
+use std::io::Cursor;
+use std::ops::Deref;
+
+use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType, Rgb, RgbImage};
+
+use super::{PictureError, PictureFormat, expect_samples};
+
+/// An image from its samples, pixel by pixel, rows from the top.
+///
+/// # Errors
+/// [`PictureError::Samples`] if they do not fill the pixels, or there are none.
+pub fn buffer<P: Pixel>(
+    width: u32,
+    height: u32,
+    samples: Vec<P::Subpixel>,
+) -> Result<ImageBuffer<P, Vec<P::Subpixel>>, PictureError> {
+    let (channels, found) = (u64::from(P::CHANNEL_COUNT), samples.len());
+    expect_samples(width, height, channels, found)?;
+    // Only a picture of more samples than there are addresses is refused here.
+    let expected = u64::MAX;
+    let refused = PictureError::Samples { width, height, expected, found: found as u64 };
+    ImageBuffer::from_vec(width, height, samples).ok_or(refused)
+}
+
+/// An image of red, green and blue bytes, rows from the top; pixels that are not given are black.
+pub fn rgb8(width: u32, height: u32, pixels: impl IntoIterator<Item = [u8; 3]>) -> RgbImage {
+    let mut image = RgbImage::new(width, height);
+    image.pixels_mut().zip(pixels).for_each(|(pixel, color)| *pixel = Rgb(color));
+    image
+}
+
+/// An image as a PNG file.
+///
+/// # Errors
+/// [`PictureError::Encode`] if it has no pixels.
+pub fn png<P, C>(image: &ImageBuffer<P, C>) -> Result<Vec<u8>, PictureError>
+where
+    P: Pixel + PixelWithColorType,
+    [P::Subpixel]: EncodableLayout,
+    C: Deref<Target = [P::Subpixel]>,
+{
+    let mut file = Cursor::new(Vec::new());
+    let refused =
+        |error: image::ImageError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
+    image.write_to(&mut file, ImageFormat::Png).map_err(refused)?;
+    Ok(file.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use image::Rgba;
+
+    use super::*;
+
+    #[test]
+    fn sixteen_bits_come_back() {
+        let samples = vec![0, 1, 0x1234, 0xffff, 0x8000, 7, 65534, 9];
+        let file = png(&buffer::<Rgba<u16>>(2, 1, samples.clone()).expect("two pixels")).expect("a file");
+        let back = image::load_from_memory(&file).expect("our own PNG");
+        assert_eq!(back.into_rgba16().into_raw(), samples);
+    }
+
+    #[test]
+    fn colors_come_back() {
+        let pixels = [[1, 2, 3], [250, 251, 252]];
+        let file = png(&rgb8(2, 1, pixels)).expect("two pixels");
+        assert_eq!(image::load_from_memory(&file).expect("our own PNG").into_rgb8().into_raw(), pixels.as_flattened());
+    }
+
+    #[test]
+    fn wrong_number_of_samples_is_an_error() {
+        let error = buffer::<Rgb<u8>>(2, 2, vec![0; 11]).expect_err("one sample is missing");
+        assert_eq!(error.to_string(), "expected 12 samples for a picture of 2x2, found 11");
+        assert!(buffer::<Rgb<u8>>(0, 0, Vec::new()).is_err(), "an empty picture is no picture");
+        assert!(png(&RgbImage::new(0, 0)).is_err(), "nor can it be a file");
+    }
+}

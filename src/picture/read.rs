@@ -1,0 +1,100 @@
+//! Pictures from files, by their first bytes.
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+
+use super::{ChannelUnit, Picture, PictureError, Samples, exr};
+
+/// Longest side of a picture that is read, in pixels.
+pub const MAX_SIDE: u32 = 16384;
+/// Memory that a decoded picture may take, in bytes (1 GiB).
+pub const MAX_DECODED_BYTES: u64 = 1 << 30;
+
+/// A file format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+pub enum PictureFormat {
+    /// Portable Network Graphics: sRGB values of 8 or 16 bits.
+    #[strum(to_string = "PNG")]
+    Png,
+    /// Radiance's RGBE: linear light.
+    #[strum(to_string = "Radiance HDR")]
+    Hdr,
+    /// OpenEXR: named channels of halves, singles and whole numbers.
+    #[strum(to_string = "EXR")]
+    Exr,
+}
+
+impl PictureFormat {
+    /// The format of a file that begins with these bytes.
+    fn of(bytes: &[u8]) -> Option<Self> {
+        const SIGNATURES: [(&[u8], PictureFormat); 4] = [
+            (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
+            (b"#?RADIANCE", PictureFormat::Hdr),
+            (b"#?RGBE", PictureFormat::Hdr),
+            (b"\x76\x2f\x31\x01", PictureFormat::Exr),
+        ];
+        SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
+    }
+}
+
+/// What a decoder of the `image` library may take.
+pub fn limits() -> Limits {
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_DECODED_BYTES);
+    limits
+}
+
+/// Refuses a size that would take too much memory.
+pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), PictureError> {
+    let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
+    if width.max(height) > u64::from(MAX_SIDE) || bytes > MAX_DECODED_BYTES {
+        return Err(PictureError::TooLarge { width, height, channels });
+    }
+    Ok(())
+}
+
+impl Picture {
+    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB values `R`, `G`, `B`
+    /// (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is read.
+    ///
+    /// # Errors
+    /// [`PictureError`].
+    pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
+        match PictureFormat::of(bytes) {
+            Some(PictureFormat::Exr) => exr::decode(bytes),
+            Some(PictureFormat::Png) => from_png(&decoded(bytes, PictureFormat::Png, ImageFormat::Png)?),
+            Some(PictureFormat::Hdr) => {
+                let image = decoded(bytes, PictureFormat::Hdr, ImageFormat::Hdr)?.into_rgb32f();
+                let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+                Ok(Self::rgb(image.width(), image.height(), &pixels))
+            }
+            None => {
+                let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+                let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
+                Err(PictureError::Unrecognized { found })
+            }
+        }
+    }
+}
+
+fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<DynamicImage, PictureError> {
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
+    reader.limits(limits());
+    reader.decode().map_err(|error| PictureError::Decode { format, reason: error.to_string() })
+}
+
+/// Codes k of n bits as k / (2^n - 1).
+fn from_png(image: &DynamicImage) -> Result<Picture, PictureError> {
+    // k / 255 is 257 k / 65535, to the bit.
+    let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());
+    let names =
+        [("R", ChannelUnit::Srgb), ("G", ChannelUnit::Srgb), ("B", ChannelUnit::Srgb), ("A", ChannelUnit::Linear)];
+    let mut named = names.into_iter().take(if alpha { 4 } else { 3 }).enumerate();
+    named.try_fold(Picture::new(image.width(), image.height()), |picture, (channel, (name, unit))| {
+        let samples = image.pixels().map(|pixel| f32::from(pixel.0[channel]) / 65535.0).collect();
+        picture.with(name, unit, Samples::Float(samples))
+    })
+}

@@ -1,0 +1,234 @@
+//! What a study found, and the one writer of it: page, tables, drawings, pictures, document, provenance.
+
+use serde_json::{Map, Value, json};
+
+use super::page::{self, Passage};
+use super::{Chart, Provenance, ReportError, Table};
+use crate::picture::{Picture, RgbImage, exr, png};
+
+/// A file of an output folder: its name and its contents.
+pub type NamedFile = (String, Vec<u8>);
+
+/// How a study, or a command that checks something, ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Verdict {
+    /// Done; where something was checked, it held.
+    #[default]
+    Done,
+    /// Something was checked and did not hold.
+    Failed,
+}
+
+impl Verdict {
+    /// [`Verdict::Done`] if the check held.
+    pub const fn held(held: bool) -> Self {
+        if held { Self::Done } else { Self::Failed }
+    }
+}
+
+/// A table with the places where it is written besides the page.
+#[derive(Clone, Debug)]
+pub struct FoundTable {
+    pub(super) table: Table,
+    csv: Option<&'static str>,
+    field: Option<&'static str>,
+    printed: bool,
+}
+
+impl From<Table> for FoundTable {
+    /// A table that is printed by the command, and written nowhere.
+    fn from(table: Table) -> Self {
+        Self { table, csv: None, field: None, printed: true }
+    }
+}
+
+impl FoundTable {
+    /// Writes the table to `NAME.csv`, if it has rows.
+    #[must_use]
+    pub fn csv(self, name: &'static str) -> Self {
+        Self { csv: Some(name), ..self }
+    }
+
+    /// Puts the table into this field of the document, with or without rows.
+    #[must_use]
+    pub fn field(self, name: &'static str) -> Self {
+        Self { field: Some(name), ..self }
+    }
+
+    /// Does not print the table.
+    #[must_use]
+    pub fn unprinted(self) -> Self {
+        Self { printed: false, ..self }
+    }
+}
+
+/// A chart, the name of its file, and what stands under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedChart {
+    /// File name without folder and ending.
+    pub name: String,
+    /// The chart.
+    pub chart: Chart,
+    /// What stands under it.
+    pub caption: String,
+}
+
+/// A picture, the name of its file, and what stands under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPicture {
+    /// File name without folder and ending.
+    pub name: String,
+    /// The picture as a screen shows it.
+    pub image: RgbImage,
+    /// What stands under it; read aloud to those who cannot see it.
+    pub caption: String,
+}
+
+impl NamedPicture {
+    /// A picture with its name and caption.
+    pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
+        Self { name: name.into(), image, caption: caption.into() }
+    }
+}
+
+/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is only written
+/// to a file. Every picture and chart is encoded once, for its file and the page.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    pub(super) title: String,
+    pub(super) text: Vec<Passage>,
+    pub(super) tables: Vec<FoundTable>,
+    pub(super) charts: Vec<NamedChart>,
+    pub(super) pictures: Vec<NamedPicture>,
+    files: Vec<NamedFile>,
+    fields: Map<String, Value>,
+    printed: Vec<String>,
+    verdict: Verdict,
+}
+
+impl Findings {
+    /// Nothing yet, under the title of the page.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// Appends a heading to the page.
+    pub fn heading(&mut self, text: impl Into<String>) {
+        self.text.push(Passage::Heading(text.into()));
+    }
+
+    /// Appends a paragraph of plain text to the page.
+    pub fn paragraph(&mut self, text: impl Into<String>) {
+        self.text.push(Passage::Paragraph(text.into()));
+    }
+
+    /// Appends a table to the page, if it has rows.
+    pub fn table(&mut self, table: impl Into<FoundTable>) {
+        let table = table.into();
+        if !table.table.rows().is_empty() {
+            self.text.push(Passage::Table(self.tables.len()));
+        }
+        self.tables.push(table);
+    }
+
+    /// Appends a chart to the page; it is also written to `NAME.svg`.
+    pub fn chart(&mut self, chart: NamedChart) {
+        self.text.push(Passage::Chart(self.charts.len()));
+        self.charts.push(chart);
+    }
+
+    /// Appends pictures side by side to the page; they are also written to `NAME.png`.
+    pub fn pictures(&mut self, pictures: Vec<NamedPicture>) {
+        let first = self.pictures.len();
+        self.pictures.extend(pictures);
+        self.text.push(Passage::Pictures(first..self.pictures.len()));
+    }
+
+    /// A table that does not stand on the page.
+    pub fn keep_table(&mut self, table: impl Into<FoundTable>) {
+        self.tables.push(table.into().unprinted());
+    }
+
+    /// A picture that does not stand on the page.
+    pub fn keep_picture(&mut self, name: impl Into<String>, image: RgbImage) {
+        self.pictures.push(NamedPicture::new(name, image, ""));
+    }
+
+    /// A picture as numbers, written to `NAME.exr`.
+    ///
+    /// # Errors
+    /// If it cannot be encoded.
+    pub fn keep_layers(&mut self, name: &str, picture: &Picture) -> Result<(), ReportError> {
+        self.keep_file(format!("{name}.exr"), exr(picture)?);
+        Ok(())
+    }
+
+    /// A file of its own.
+    pub fn keep_file(&mut self, name: impl Into<String>, bytes: Vec<u8>) {
+        self.files.push((name.into(), bytes));
+    }
+
+    /// A field of the document that is no table.
+    pub fn field(&mut self, name: &str, value: Value) {
+        self.fields.insert(name.to_owned(), value);
+    }
+
+    /// A line that the command prints after the tables.
+    pub fn print(&mut self, line: String) {
+        self.printed.push(line);
+    }
+
+    /// What the exit code says.
+    pub const fn conclude(&mut self, verdict: Verdict) {
+        self.verdict = verdict;
+    }
+
+    /// What the exit code says.
+    pub const fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    /// The tables that the command prints, those without rows left out.
+    pub fn printed_tables(&self) -> impl Iterator<Item = &Table> {
+        self.tables.iter().filter(|found| found.printed && !found.table.rows().is_empty()).map(|found| &found.table)
+    }
+
+    /// The lines that the command prints after them.
+    pub fn printed_lines(&self) -> &[String] {
+        &self.printed
+    }
+
+    /// Everything for machines: provenance, tables, fields.
+    pub fn document(&self, provenance: &Provenance) -> Value {
+        let mut document = self.fields.clone();
+        document.insert("provenance".to_owned(), json!(provenance));
+        for found in &self.tables {
+            if let Some(name) = found.field {
+                document.insert(name.to_owned(), found.table.json());
+            }
+        }
+        Value::Object(document)
+    }
+
+    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the files of its own.
+    ///
+    /// # Errors
+    /// If an encoder refuses.
+    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
+        let pngs = self.pictures.iter().map(|found| png(&found.image)).collect::<Result<Vec<_>, _>>()?;
+        let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
+        let page = page::html(self, &pngs, &drawings, provenance);
+        let mut files = std::mem::take(&mut self.files);
+        for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
+            if let Some(name) = csv {
+                files.push((format!("{name}.csv"), table.csv()?.into_bytes()));
+            }
+        }
+        files.extend(self.pictures.iter().zip(pngs).map(|(found, png)| (format!("{}.png", found.name), png)));
+        let drawings = self.charts.iter().zip(drawings);
+        files.extend(drawings.map(|(found, svg)| (format!("{}.svg", found.name), svg.into_bytes())));
+        files.push(("study.json".to_owned(), format!("{:#}\n", self.document(provenance)).into_bytes()));
+        files.push(("index.html".to_owned(), page.into_bytes()));
+        Ok(files)
+    }
+}

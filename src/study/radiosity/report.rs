@@ -1,0 +1,175 @@
+//! The study's page, tables, charts, pictures and trace.
+
+use refsim::timing::replay::{Options, replay};
+use refsim::timing::{Level, Model, TimingError};
+
+use super::tables::{Tables, digits, tables};
+use super::{IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
+use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table};
+use crate::study::timeline_trace::trace;
+
+pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, RadiosityError> {
+    let mut found = Findings::new("Matrix radiosity");
+    found.keep_table(FoundTable::from(patches(&outcome)).csv("patches"));
+    if let Some(bytes) = timeline(parameters, &outcome)? {
+        found.keep_file("timeline.json", bytes);
+    }
+    found.paragraph(format!(
+        "{} patches, solved as the fragment programs of Carr, Hall and Hart (2003, section 3) would solve them, and by \
+         solvers of the host. Pictures are drawn by the emulated {} from its radiosity texture, times {}, with the sRGB curve.",
+        outcome.patches.list().len(),
+        parameters.profile.title,
+        digits(outcome.exposure, 3).text(),
+    ));
+    let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
+    let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
+    let (mut pictures, mut relit_pictures) = (Vec::new(), Vec::new());
+    for row in outcome.rows {
+        let (label, drawn) = (row.label, row.pictures);
+        let picture = |kind: &str, image, what: &str| {
+            NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
+        };
+        pictures.push(picture("flat", drawn.flat, "each patch in its radiosity"));
+        pictures.push(picture("smooth", drawn.smooth, "resampled to corners"));
+        relit_pictures.extend(drawn.relit.map(|image| picture("relit", image, "after the changes")));
+    }
+    let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
+    found.table(FoundTable::from(room).field("room"));
+    found.heading("The room");
+    found.pictures(pictures);
+    if !frames.is_empty() {
+        found.heading("Iteration by iteration");
+        found.pictures(frames);
+    }
+    found.heading("How it was solved");
+    found.table(FoundTable::from(ways).csv("rows").field("ways"));
+    residuals.into_iter().for_each(|chart| found.chart(chart));
+    let explained = |found: &mut Findings, table: Table, field, text: &str| {
+        let rows = !table.rows().is_empty();
+        found.table(FoundTable::from(table).field(field));
+        if rows {
+            found.paragraph(text);
+        }
+    };
+    explained(&mut found, ends, "ends", ENDS);
+    if !card.rows().is_empty() {
+        found.heading("On the card");
+    }
+    explained(&mut found, card, "card", ON_THE_CARD);
+    if !relit_pictures.is_empty() {
+        found.heading("Relit");
+        found.pictures(relit_pictures);
+    }
+    found.table(FoundTable::from(relit).field("relit"));
+    if sweep.rows().is_empty() {
+        found.keep_table(FoundTable::from(sweep).field("sweep"));
+        return Ok(found);
+    }
+    found.heading("Other numbers of patches, other answers to open questions");
+    darkness.into_iter().for_each(|chart| found.chart(chart));
+    found.table(FoundTable::from(sweep).csv("sweep").field("sweep"));
+    found.paragraph(SWEEP);
+    Ok(found)
+}
+
+const ENDS: &str = "An iteration in finitely many bits that never meets its tolerance comes back to a state that it was in before, and goes \
+    round from there on. States are compared bit for bit; the period is the smallest.";
+
+const ON_THE_CARD: &str = "Operations are counted as the paper does: two an element and channel, indexing left out. bandwidth_used is what an \
+    iteration moves to and from memory, of the most that the memory can.";
+
+const SWEEP: &str = "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
+    predicted_mean is what follows to first order from rounding every term of a sum to the sum's own step.";
+
+/// The room after some iterations, as a picture.
+fn frame(frame: IterationPicture) -> NamedPicture {
+    let plural = if frame.iteration == 1 { "" } else { "s" };
+    let caption = format!("after {} iteration{plural}", frame.iteration);
+    NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat, caption)
+}
+
+/// A row per patch: its place, its areas, its material, and its radiosity by each method.
+fn patches(outcome: &RadiosityOutcome) -> Table {
+    let mut headings: Vec<String> =
+        ["patch", "x", "y", "z", "area", "open_area", "face", "material"].into_iter().map(str::to_owned).collect();
+    for row in &outcome.rows {
+        headings.extend(["r", "g", "b"].map(|c| format!("{}_{c}", row.label)));
+    }
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    let mut table = Table::new("Patches", &headings);
+    for (i, patch) in outcome.patches.list().iter().enumerate() {
+        let [x, y, z] = patch.center().to_array();
+        let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
+        let areas: [Cell; 2] = [patch.area().into(), outcome.patches.open_area(i).into()];
+        let parts: [Cell; 2] = [patch.face.into(), patch.material.into()];
+        let found = outcome.rows.iter().flat_map(|row| row.radiosity[i].map(Cell::Real));
+        table.push(places.into_iter().chain(areas).chain(parts).chain(found));
+    }
+    table
+}
+
+/// Figure 3: the residual of each method, iteration by iteration. `None` where nothing iterates.
+fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
+    let line = |row: &MethodRow| Series {
+        label: row.label.clone(),
+        points: row.history.iter().enumerate().map(|(k, &error)| (k as f64, error)).collect(),
+    };
+    let lines: Vec<Series> =
+        outcome.rows.iter().filter(|row| row.iterations() > 0 && row.way != SolveMethod::DIRECT).map(line).collect();
+    let caption = "The mean over the channels of the mean squared residual, as in the paper's Figure 3.";
+    let names = ["Mean squared residual of M B - E", "iterations", "error"];
+    (!lines.is_empty()).then(|| logarithmic("residual", names, lines, caption))
+}
+
+/// Settings of switches get a line of their own where they change the error by more than this factor; the table has all.
+const APART: f64 = 1.5;
+
+/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a difference. `None`
+/// without a sweep.
+fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
+    let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
+    let apart = |row: &SweepRow| {
+        let same = |other: &&SweepRow| other.as_it_is && (other.patches, &other.way) == (row.patches, &row.way);
+        let default = outcome.sweep.iter().find(same).map_or(0.0, error);
+        error(row).max(default) > APART * error(row).min(default)
+    };
+    let label = |row: &SweepRow| {
+        let turned = row.switches.iter().filter(|_| !row.as_it_is).map(|(name, value)| format!("{name}={value}"));
+        std::iter::once(row.way.clone()).chain(turned.take(1)).collect::<Vec<_>>().join(", ")
+    };
+    let mut lines: Vec<Series> = Vec::new();
+    for row in outcome.sweep.iter().filter(|row| row.as_it_is || apart(row)) {
+        let (label, point) = (label(row), (row.patches as f64, error(row)));
+        match lines.iter_mut().find(|line| line.label == label) {
+            Some(line) => line.points.push(point),
+            None => lines.push(Series { label, points: vec![point] }),
+        }
+    }
+    let caption = "The mean error of what does not shine, in per cent of itself, without its sign.";
+    let names = ["Mean error of patches that do not shine, either way", "patches", "error, %"];
+    (!lines.is_empty()).then(|| logarithmic("sweep", names, lines, caption))
+}
+
+fn logarithmic(name: &str, [title, x, y]: [&str; 3], lines: Vec<Series>, caption: &str) -> NamedChart {
+    let (title, x, y) = (title.to_owned(), x.to_owned(), y.to_owned());
+    let chart = Chart { title, x, y, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
+    NamedChart { name: name.to_owned(), chart, caption: caption.to_owned() }
+}
+
+/// The log of the first method on a card, as a trace; `None` for devices without time.
+fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Option<Vec<u8>>, RadiosityError> {
+    let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) else {
+        return Ok(None);
+    };
+    let model = match Model::new(Level::Pipeline, &parameters.profile) {
+        Ok(model) => model,
+        Err(TimingError::Missing { .. }) => return Ok(None),
+        Err(error) => return Err(error.into()),
+    };
+    let replayed = replay(&facts.log, &model, &Options::of(Level::Pipeline))?;
+    let what = format!("{}: new emittance, 4 iterations, the room shown", row.label);
+    let trace = trace(&parameters.profile, "pipeline", &what, &replayed.timeline);
+    let mut bytes = Vec::new();
+    trace.write(&mut bytes).map_err(|e| ReportError::Encode { format: "JSON", reason: e.to_string() })?;
+    Ok(Some(bytes))
+}

@@ -1,0 +1,115 @@
+//! Pictures: what is written reads back, to the bit or to the precision of the format, and no bytes cause a panic.
+
+use std::path::Path;
+
+use crossbar::io::{PictureFileError, load_picture};
+use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples, exr, hdr, png, rgb8};
+use proptest::prelude::*;
+
+use crate::mutation::mutated;
+
+const SIZE: [u32; 2] = [5, 3];
+const PIXELS: usize = 15;
+
+/// Colors from dark to brighter than white, with ids beside them.
+fn picture() -> Picture {
+    let color: Vec<[f32; 3]> = (0..PIXELS).map(|i| [i as f32 * 0.01, 1.0 / (1 + i) as f32, 40.0 * i as f32]).collect();
+    let ids = (0..PIXELS as u32).collect();
+    Picture::rgb(SIZE[0], SIZE[1], &color).with("id", ChannelUnit::Id, Samples::Uint(ids)).expect("an id per pixel")
+}
+
+/// One file of each format.
+fn files() -> [Vec<u8>; 3] {
+    let picture = picture();
+    let shown = picture.display(1.0).expect("color");
+    [png(&shown).expect("a file"), hdr(&picture).expect("a file"), exr(&picture).expect("a file")]
+}
+
+fn any_single() -> impl Strategy<Value = f32> {
+    any::<u32>().prop_map(f32::from_bits)
+}
+
+proptest! {
+    #[test]
+    fn exr_keeps_every_bit(samples in prop::collection::vec(any_single(), PIXELS), ids in prop::collection::vec(any::<u32>(), PIXELS)) {
+        let written = Picture::new(SIZE[0], SIZE[1]).with("a", ChannelUnit::Unknown, Samples::Float(samples.clone()));
+        let written = written.and_then(|picture| picture.with("b", ChannelUnit::Id, Samples::Uint(ids.clone())));
+        let file = exr(&written.expect("a sample per pixel")).expect("a file");
+        let read = Picture::decode(&file).expect("our own file");
+        let bits = |samples: &[f32]| samples.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        prop_assert_eq!([read.width(), read.height()], SIZE);
+        prop_assert_eq!(bits(read.floats("a").expect("floats").1), bits(&samples));
+        prop_assert_eq!(&read.channels()[1].samples, &Samples::Uint(ids));
+    }
+
+    #[test]
+    fn png_keeps_every_byte(bytes in prop::collection::vec(any::<[u8; 3]>(), PIXELS)) {
+        let image = rgb8(SIZE[0], SIZE[1], bytes);
+        let read = Picture::decode(&png(&image).expect("a file")).expect("our own file");
+        prop_assert_eq!(read.floats("R").expect("red").0, ChannelUnit::Srgb);
+        prop_assert_eq!(read.display(1.0).expect("color"), image);
+    }
+
+    /// Three mantissas of 8 bits share the exponent of the brightest: each channel is right to 1/128 of that, and what was read is
+    /// written and read again without loss.
+    #[test]
+    fn hdr_keeps_what_its_format_holds(color in prop::collection::vec(prop::array::uniform3(1e-6_f32..1e6), PIXELS)) {
+        let read = Picture::decode(&hdr(&Picture::rgb(SIZE[0], SIZE[1], &color)).expect("a file")).expect("our own file");
+        for (found, want) in read.linear().expect("color").iter().zip(&color) {
+            let brightest = want.iter().copied().fold(0.0, f32::max);
+            prop_assert!(found.iter().zip(want).all(|(x, y)| (x - y).abs() <= brightest / 128.0), "{:?}, {:?}", found, want);
+        }
+        let again = Picture::decode(&hdr(&read).expect("a file")).expect("our own file");
+        prop_assert_eq!(again, read);
+    }
+
+    #[test]
+    fn a_mutated_file_never_panics(
+        png in mutated(files()[0].clone(), 1..6),
+        hdr in mutated(files()[1].clone(), 1..6),
+        exr in mutated(files()[2].clone(), 1..6),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        for file in [png, hdr, exr] {
+            let short = &file[..cut.index(file.len())];
+            for bytes in [&file[..], short] {
+                if let Ok(picture) = Picture::decode(bytes) {
+                    let pixels = picture.width() as usize * picture.height() as usize;
+                    prop_assert!(picture.channels().iter().all(|channel| channel.samples.len() == pixels));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn arbitrary_bytes_never_panic(which in 0_usize..3, bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        let signature = &files()[which][..8];
+        prop_assert!(Picture::decode(&[signature, &bytes].concat()).is_err());
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let said = |bytes: &[u8]| Picture::decode(bytes).expect_err("no picture").to_string();
+    assert_eq!(
+        said(b"P6 1 1 255"),
+        "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with 50 36 20 31 20 31 20 32"
+    );
+    assert_eq!(said(b""), "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with nothing");
+    let [png, hdr, exr] = files();
+    for (bytes, head) in [
+        (&png[..40], "expected PNG data, found something else: "),
+        (&hdr[..20], "expected Radiance HDR data, found something else: "),
+        (&exr[..40], "expected EXR data, found something else: "),
+    ] {
+        assert!(said(bytes).starts_with(head), "{}", said(bytes));
+    }
+    let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
+    assert!(said(huge).starts_with("expected Radiance HDR data"), "{}", said(huge));
+    let ids = Picture::new(1, 1).with("id", ChannelUnit::Id, Samples::Uint(vec![0])).expect("one sample");
+    assert_eq!(ids.display(1.0).map(|_| ()), Err(PictureError::NoColor { found: "id".to_owned() }));
+    let missing = load_picture(Path::new("no/such.exr")).expect_err("no file");
+    assert_eq!(missing.to_string(), "cannot read the picture no/such.exr");
+    let shader = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+    assert!(matches!(load_picture(&shader), Err(PictureFileError::Decode { .. })));
+}
