@@ -3,100 +3,50 @@
 //! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule; wider
 //! ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
 
-use refsim::exec::batch::{LaneOperation as Op, convert, evaluate};
-use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials, ops};
+use refsim::exec::batch::{convert, evaluate, exact_dot};
+use refsim::num::{Denormals, DotOrder, Format, NumberOperation as Op, Overflow, Rounding, Specials, ops};
 
-const OPERATIONS: &[Op] = &[
-    Op::Add,
-    Op::Sub,
-    Op::Mul,
-    Op::Mad,
-    Op::FusedMad,
-    Op::ExactDot3,
-    Op::ExactDot4,
-    Op::Div,
-    Op::Sqrt,
-    Op::Rcp,
-    Op::Rsq,
-    Op::Exp2,
-    Op::Log2,
-    Op::Min,
-    Op::Max,
-    Op::Floor,
-    Op::Frc,
-    Op::Neg,
-    Op::Abs,
-    Op::Scale(-3),
-    Op::Scale(-1),
-    Op::Scale(1),
-    Op::Scale(3),
-    Op::Saturate,
-    Op::Lt,
-    Op::Le,
-    Op::Eq,
-    Op::Cmp,
-    Op::Cnd,
-];
-
-fn reference(f: Format, op: Op, a: u32, b: u32, c: u32) -> u32 {
-    match op {
-        Op::Add => ops::add(f, a, b).bits,
-        Op::Sub => ops::sub(f, a, b).bits,
-        Op::Mul => ops::mul(f, a, b).bits,
-        Op::Mad => ops::mad(f, a, b, c).bits,
-        Op::FusedMad => ops::fused_mad(f, a, b, c).bits,
-        Op::ExactDot3 => ops::dot(f, DotOrder::Exact, &[(a, b), (b, c), (c, a)]).bits,
-        Op::ExactDot4 => ops::dot(f, DotOrder::Exact, &[(a, b), (b, c), (c, a), (b, b)]).bits,
-        Op::Div => ops::div(f, a, b).bits,
-        Op::Sqrt => ops::sqrt(f, a).bits,
-        Op::Rcp => ops::rcp(f, a).bits,
-        Op::Rsq => ops::rsq(f, a).bits,
-        Op::Exp2 => ops::exp2(f, a).bits,
-        Op::Log2 => ops::log2(f, a).bits,
-        Op::Min => ops::min(f, a, b).bits,
-        Op::Max => ops::max(f, a, b).bits,
-        Op::Floor => ops::floor(f, a).bits,
-        Op::Frc => ops::frc(f, a).bits,
-        Op::Neg => ops::neg(f, a).bits,
-        Op::Abs => ops::abs(f, a).bits,
-        Op::Scale(k) => ops::scale(f, a, k.into()).bits,
-        Op::Saturate => ops::saturate01(f, a).bits,
-        Op::Lt => ops::lt(f, a, b).bits,
-        Op::Le => ops::le(f, a, b).bits,
-        Op::Eq => ops::eq(f, a, b).bits,
-        Op::Cmp => ops::cmp(f, a, b, c).bits,
-        Op::Cnd => ops::cnd(f, a, b, c).bits,
-    }
+/// The operations that `num` defines; sines and cosines the batch executor takes from there.
+fn operations() -> impl Iterator<Item = Op> {
+    Op::ALL.into_iter().filter(|&op| !matches!(op, Op::Sin | Op::Cos) && op.evaluate(Format::FP32, [0; 3]).is_some())
 }
 
 fn is_unary(op: Op) -> bool {
-    matches!(
-        op,
-        Op::Sqrt
-            | Op::Rcp
-            | Op::Rsq
-            | Op::Exp2
-            | Op::Log2
-            | Op::Floor
-            | Op::Frc
-            | Op::Neg
-            | Op::Abs
-            | Op::Scale(_)
-            | Op::Saturate
-    )
+    op.operands() == 1 || op == Op::Scale
 }
 
 /// Compares one operation on the given operands and says where it differs first.
 fn compare(f: Format, op: Op, a: &[u32], b: &[u32], c: &[u32]) {
-    let batch = evaluate(f, op, a, b, c);
-    assert_eq!(batch.len(), a.len(), "{f}: no lane arithmetic");
+    if op == Op::Scale {
+        for power in [-3i32, -1, 1, 3] {
+            compare_all(f, op, [a, &vec![power.cast_unsigned(); a.len()], c]);
+        }
+    } else {
+        compare_all(f, op, [a, b, c]);
+    }
+}
+
+fn compare_all(f: Format, op: Op, operands: [&[u32]; 3]) {
+    let batch = evaluate(f, op, operands).unwrap_or_else(|| panic!("{f}: no lane arithmetic for {op:?}"));
+    let scalar = |operands| op.evaluate(f, operands).map_or(0, |outcome| outcome.bits);
+    same(f, &format!("{op:?}"), operands, &batch, scalar);
+}
+
+/// Compares sums of three and four products, rounded once.
+fn compare_dots(f: Format, operands: [&[u32]; 3]) {
+    let exact = |terms: &[(u32, u32)]| ops::dot(f, DotOrder::Exact, terms).bits;
+    same(f, "three products", operands, &exact_dot(f, 3, operands), |[a, b, c]| exact(&[(a, b), (b, c), (c, a)]));
+    same(f, "four products", operands, &exact_dot(f, 4, operands), |[a, b, c]| {
+        exact(&[(a, b), (b, c), (c, a), (b, b)])
+    });
+}
+
+fn same(f: Format, what: &str, [a, b, c]: [&[u32]; 3], batch: &[u32], scalar: impl Fn([u32; 3]) -> u32) {
+    assert_eq!(batch.len(), a.len(), "{f} {what}: a result each");
     for i in 0..a.len() {
-        let scalar = reference(f, op, a[i], b[i], c[i]);
-        assert_eq!(
-            batch[i], scalar,
-            "{f} {op:?}({:#x}, {:#x}, {:#x}): batch {:#x}, scalar {scalar:#x}",
-            a[i], b[i], c[i], batch[i]
-        );
+        let operands = [a[i], b[i], c[i]];
+        let scalar = scalar(operands);
+        assert_eq!(batch[i], scalar, "{f} {what} {operands:#x?}: batch {:#x}, scalar {scalar:#x}", batch[i]);
     }
 }
 
@@ -184,7 +134,7 @@ fn short_formats_agree_on_all_pairs() {
             let all: Vec<u32> = (0..=f.mask()).collect();
             let n = all.len();
             let mut random = Random::new(f.mask().into());
-            for &op in OPERATIONS {
+            for op in operations() {
                 if is_unary(op) {
                     compare(f, op, &all, &all, &all);
                     continue;
@@ -193,6 +143,9 @@ fn short_formats_agree_on_all_pairs() {
                 let b: Vec<u32> = (0..n * n).map(|i| all[i % n]).collect();
                 let c = random.patterns(&f, n * n);
                 compare(f, op, &a, &b, &c);
+                if op == Op::Mul {
+                    compare_dots(f, [&a, &b, &c]);
+                }
             }
         }
     }
@@ -210,9 +163,10 @@ fn all_formats_agree_on_random_operands() {
         for (k, f) in variants(layout(text)).into_iter().enumerate() {
             let mut random = Random::new((seed * 64 + k + 1) as u64);
             let (a, b, c) = (random.patterns(&f, n), random.patterns(&f, n), random.patterns(&f, n));
-            for &op in OPERATIONS {
+            for op in operations() {
                 compare(f, op, &a, &b, &c);
             }
+            compare_dots(f, [&a, &b, &c]);
         }
     }
 }
@@ -223,7 +177,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     for text in ["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "bf16", "s3.12", "s3.12:rtz:wrap", "s0.15:rdn"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=f.mask()).step_by(stride).collect();
-        for &op in OPERATIONS {
+        for op in operations() {
             if is_unary(op) {
                 compare(f, op, &all, &all, &all);
             }

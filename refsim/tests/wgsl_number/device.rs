@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use refsim::exec::gpu::{Gpu, testing};
-use refsim::exec::wgsl::number::{NativeOperations, NumberMode, Operation, format_words, library, source_word};
-use refsim::num::{Format, ops};
+use refsim::exec::wgsl::number::{NativeOperations, NumberMode, format_words, library, source_word};
+use refsim::num::{Format, NumberOperation, ops};
 
 use crate::operands::{Words, edges, formats, pattern};
 use crate::reference::reference;
@@ -22,7 +22,7 @@ pub(crate) fn check_native(gpu: &Gpu, native: NativeOperations) {
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
     let shader = library(NumberMode::Native, native) + include_str!("operations.wgsl");
     let mut words = Words(2);
-    for operation in Operation::ALL.into_iter().filter(|&o| tried(o)) {
+    for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
         let items: Vec<Item> =
             (0..8000).map(|i| random_item(&mut words, &formats, &all, operation, usize::from(i % 8 == 0))).collect();
         check_with(gpu, &shader, &formats, &items);
@@ -41,7 +41,7 @@ pub(crate) fn adapter() -> Option<Arc<Gpu>> {
 /// One operation to try.
 #[derive(Clone, Copy, Debug)]
 struct Item {
-    operation: Operation,
+    operation: NumberOperation,
     /// Places in the list of formats: of the result, and of what is converted.
     format: usize,
     source: usize,
@@ -52,7 +52,7 @@ impl Item {
     fn words(&self, formats: &[Format]) -> [u32; 5] {
         let [a, b, c] = self.operands;
         let (b, c) = match self.operation {
-            Operation::Convert => (source_word(&formats[self.source]), self.source as u32),
+            NumberOperation::Convert => (source_word(&formats[self.source]), self.source as u32),
             _ => (b, c),
         };
         [self.operation.word(), self.format as u32, a, b, c]
@@ -62,7 +62,7 @@ impl Item {
         let [a, b, c] = self.operands;
         let format = &formats[self.format];
         match self.operation {
-            Operation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
+            NumberOperation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
             operation => reference(operation, format, a, b, c),
         }
     }
@@ -94,34 +94,49 @@ fn check_with(gpu: &Gpu, shader: &str, formats: &[Format], items: &[Item]) {
 }
 
 /// Random operands of an operation.
-fn random_item(words: &mut Words, formats: &[Format], all: &[Vec<u32>], operation: Operation, format: usize) -> Item {
+fn random_item(
+    words: &mut Words,
+    formats: &[Format],
+    all: &[Vec<u32>],
+    operation: NumberOperation,
+    format: usize,
+) -> Item {
     let source = words.below(formats.len());
     let mut operands = [0; 3];
     for (i, operand) in operands.iter_mut().enumerate() {
-        let of = if i == 0 && operation == Operation::Convert { source } else { format };
+        let of = if i == 0 && operation == NumberOperation::Convert { source } else { format };
         *operand = pattern(words, &formats[of], &all[of]);
     }
     match operation {
-        Operation::Scale => operands[1] = words.around(7).cast_unsigned(),
-        Operation::Steps => {
+        NumberOperation::Scale => operands[1] = words.around(7).cast_unsigned(),
+        NumberOperation::Steps => {
             operands[0] = pattern(words, &SINGLE, &edges(&SINGLE));
             if words.below(2) == 0 {
                 operands[0] = 0x3f80_0000 - (words.next() >> words.below(32)).min(0x3f80_0000);
             }
             operands[1] = [255, 1, 3, 7, 15, 31, 63, 127, 1023, 65535][words.below(10)];
         }
-        Operation::Sin | Operation::Cos if words.below(3) == 0 => operands[0] = angle(words, &formats[format]),
-        Operation::JoinPattern | Operation::JoinShort | Operation::JoinByte | Operation::JoinSignedByte => {
-            if operation != Operation::JoinPattern {
+        NumberOperation::Sin | NumberOperation::Cos if words.below(3) == 0 => {
+            operands[0] = angle(words, &formats[format])
+        }
+        NumberOperation::JoinPattern
+        | NumberOperation::JoinShort
+        | NumberOperation::JoinByte
+        | NumberOperation::JoinSignedByte => {
+            if operation != NumberOperation::JoinPattern {
                 operands[1] = packed_number(words);
             }
             // Nothing else is in the word's place.
-            operands[2] = place(words, matches!(operation, Operation::JoinPattern | Operation::JoinShort));
+            operands[2] = place(words, matches!(operation, NumberOperation::JoinPattern | NumberOperation::JoinShort));
             operands[0] = words.next() & !(0xffff << operands[2]);
         }
-        Operation::SplitPattern | Operation::SplitShort | Operation::SplitByte | Operation::SplitSignedByte => {
+        NumberOperation::SplitPattern
+        | NumberOperation::SplitShort
+        | NumberOperation::SplitByte
+        | NumberOperation::SplitSignedByte => {
             operands[0] = words.next() >> words.below(32);
-            operands[1] = place(words, matches!(operation, Operation::SplitPattern | Operation::SplitShort));
+            operands[1] =
+                place(words, matches!(operation, NumberOperation::SplitPattern | NumberOperation::SplitShort));
         }
         _ => {}
     }
@@ -153,22 +168,14 @@ fn packed_number(words: &mut Words) -> u32 {
     near.to_bits().wrapping_add_signed(words.around(1))
 }
 
-fn tried(operation: Operation) -> bool {
-    use Operation as Op;
-    !matches!(operation, Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
+/// Whether all operands of a small format can be tried.
+fn exhausted(o: NumberOperation) -> bool {
+    tried(o) && o.operands() < 3 && o != NumberOperation::Steps && !(o.has_immediate() && o != NumberOperation::Scale)
 }
 
-/// How many operands an operation reads.
-fn arity(operation: Operation) -> usize {
-    use Operation as Op;
-    match operation {
-        Op::Mad | Op::FusedMad | Op::SelectNonNegative | Op::SelectAboveHalf => 3,
-        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Min | Op::Max | Op::Factor => 2,
-        Op::Less | Op::LessEqual | Op::Equal => 2,
-        Op::JoinPattern | Op::JoinShort | Op::JoinByte | Op::JoinSignedByte => 3,
-        Op::SplitPattern | Op::SplitShort | Op::SplitByte | Op::SplitSignedByte => 3,
-        _ => 1,
-    }
+fn tried(operation: NumberOperation) -> bool {
+    use NumberOperation as Op;
+    !matches!(operation, Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
 }
 
 #[test]
@@ -178,7 +185,7 @@ fn every_operation_in_many_formats() {
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
     let count = std::env::var("CROSSBAR_LONG").ok().map_or(300, |_| 20_000);
     let mut words = Words(1);
-    for operation in Operation::ALL.into_iter().filter(|&o| tried(o)) {
+    for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
         let mut items = Vec::new();
         for format in 0..formats.len() {
             items.extend((0..count).map(|_| random_item(&mut words, &formats, &all, operation, format)));
@@ -199,23 +206,23 @@ fn every_pair_of_short_formats() {
             .collect();
     let mut items = Vec::new();
     for (format, layout) in formats.iter().enumerate() {
-        for operation in Operation::ALL.into_iter().filter(|&o| tried(o) && arity(o) < 3 && o != Operation::Steps) {
+        for operation in NumberOperation::ALL.into_iter().filter(|&o| exhausted(o)) {
             for a in 0..=layout.mask() {
                 match operation {
-                    Operation::Convert => items.extend((0..formats.len()).map(|to| Item {
+                    NumberOperation::Convert => items.extend((0..formats.len()).map(|to| Item {
                         operation,
                         format: to,
                         source: format,
                         operands: [a, 0, 0],
                     })),
-                    Operation::Scale => items.extend((-8..=8i32).map(|k| Item {
+                    NumberOperation::Scale => items.extend((-8..=8i32).map(|k| Item {
                         operation,
                         format,
                         source: format,
                         operands: [a, k.cast_unsigned(), 0],
                     })),
                     _ => {
-                        let seconds = if arity(operation) == 2 { layout.mask() } else { 0 };
+                        let seconds = if operation.operands() == 2 { layout.mask() } else { 0 };
                         items.extend((0..=seconds).map(|b| Item {
                             operation,
                             format,

@@ -1,48 +1,22 @@
 //! What the shader's operations must give, by `refsim::num`.
 
 use refsim::exec::unorm_steps;
-use refsim::exec::wgsl::number::Operation;
-use refsim::num::{Format, Kind, Unpacked, from_ratio, ops, unpack};
+use refsim::num::{Format, Kind, NumberOperation, Unpacked, from_ratio, ops, unpack};
 
 /// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for what
 /// is no operation on numbers.
-pub(crate) fn reference(operation: Operation, format: &Format, a: u32, b: u32, c: u32) -> Option<u32> {
-    use Operation as Op;
-    let mask = |outcome: refsim::num::Outcome| if outcome.bits == 1 { u32::MAX } else { 0 };
+pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: u32, c: u32) -> Option<u32> {
+    use NumberOperation as Op;
+    let plain = operation.evaluate(format, [a, b, c]).map(|outcome| outcome.bits);
     Some(match operation {
-        Op::Add => ops::add(format, a, b).bits,
-        Op::Sub => ops::sub(format, a, b).bits,
-        Op::Mul => ops::mul(format, a, b).bits,
-        Op::Div => ops::div(format, a, b).bits,
-        Op::Mad => ops::mad(format, a, b, c).bits,
-        Op::FusedMad => ops::fused_mad(format, a, b, c).bits,
-        Op::Min => ops::min(format, a, b).bits,
-        Op::Max => ops::max(format, a, b).bits,
-        Op::Neg => ops::neg(format, a).bits,
-        Op::Abs => ops::abs(format, a).bits,
-        Op::Floor => ops::floor(format, a).bits,
-        Op::Frc => ops::frc(format, a).bits,
-        Op::Rcp => ops::rcp(format, a).bits,
-        Op::Rsq => ops::rsq(format, a).bits,
-        Op::Exp2 => ops::exp2(format, a).bits,
-        Op::Log2 => ops::log2(format, a).bits,
-        Op::Saturate => ops::saturate01(format, a).bits,
-        Op::Sqrt => ops::sqrt(format, a).bits,
-        Op::SelectNonNegative => ops::cmp(format, a, b, c).bits,
-        Op::SelectAboveHalf => ops::cnd(format, a, b, c).bits,
-        Op::Less => mask(ops::lt(format, a, b)),
-        Op::LessEqual => mask(ops::le(format, a, b)),
-        Op::Equal => mask(ops::eq(format, a, b)),
+        Op::Less | Op::LessEqual | Op::Equal => return plain.map(|bits| if bits == 1 { u32::MAX } else { 0 }),
         Op::AddressFloor => integer(format, ops::floor(format, a).bits),
         Op::AddressNearest => {
             let nearest = ops::round_to_int_with(format, a, refsim::num::Rounding::NearestEven, false);
             integer(format, nearest.bits)
         }
-        Op::Scale => ops::scale(format, a, b.cast_signed()).bits,
         Op::Steps => from_ratio(format, false, unorm_steps(a, b).into(), b.into()).bits,
         Op::Factor => factor(format, a, b),
-        Op::Sin => ops::sin(format, a).bits,
-        Op::Cos => ops::cos(format, a).bits,
         Op::JoinPattern => a | (ops::convert(format, *format, b).bits & 0xffff) << c,
         Op::JoinShort => a | unorm_steps(b, 65535) << c,
         Op::JoinByte => a | unorm_steps(b, 255) << c,
@@ -54,7 +28,7 @@ pub(crate) fn reference(operation: Operation, format: &Format, a: u32, b: u32, c
             let byte = a >> b & 0xff;
             from_ratio(format, byte < 128, byte.abs_diff(128).into(), 127).bits
         }
-        Op::Convert | Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot => return None,
+        _ => return plain,
     })
 }
 

@@ -26,7 +26,7 @@ pub(super) enum LineError {
 
 /// How the fields of a line are read.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct LineFormat {
     operands: usize,
     operand_width: u32,
     result_width: u32,
@@ -36,16 +36,16 @@ pub(super) struct Shape {
 
 /// A line that was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Line {
+pub(super) struct AluLine {
     /// The operands; those that the operation does not take are 0.
     pub(super) operands: [u32; 3],
-    /// The expected result, where the shape has one.
+    /// The expected result, where the format has one.
     pub(super) result: u32,
     /// The expected flags, where the line has them.
     pub(super) flags: Option<u8>,
 }
 
-impl Shape {
+impl LineFormat {
     /// Operands alone.
     pub(super) const fn compute(unit: &Unit) -> Self {
         Self {
@@ -58,13 +58,13 @@ impl Shape {
 
     /// Operands, result and flags; without `flags` the last may be missing.
     pub(super) const fn verify(unit: &Unit, flags: bool) -> Self {
-        let mut shape = Self::compute(unit);
-        shape.after = if flags { (2, 2) } else { (1, 2) };
-        shape
+        let mut format = Self::compute(unit);
+        format.after = if flags { (2, 2) } else { (1, 2) };
+        format
     }
 
     /// Reads line `number` (from 1); `None` if it is blank.
-    pub(super) fn read(&self, text: &[u8], number: u64) -> Result<Option<Line>, LineError> {
+    pub(super) fn read(&self, text: &[u8], number: u64) -> Result<Option<AluLine>, LineError> {
         let mut fields = [&text[..0]; MOST_FIELDS];
         let mut count = 0;
         for field in text.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
@@ -80,7 +80,7 @@ impl Shape {
         if count < least || count > most {
             return Err(LineError::Count { line: number, expected: self.expectation(), found: count });
         }
-        let mut line = Line { operands: [0; 3], result: 0, flags: None };
+        let mut line = AluLine { operands: [0; 3], result: 0, flags: None };
         for (operand, field) in line.operands.iter_mut().zip(&fields[..self.operands]) {
             *operand = hex(field, self.operand_width, number)?;
         }
@@ -140,7 +140,7 @@ pub(super) fn push_hex(text: &mut Vec<u8>, value: u32, width: u32) {
 mod tests {
     use super::*;
 
-    const ADD: Shape = Shape { operands: 2, operand_width: 6, result_width: 6, after: (0, 0) };
+    const ADD: LineFormat = LineFormat { operands: 2, operand_width: 6, result_width: 6, after: (0, 0) };
 
     #[test]
     fn good_lines() {
@@ -165,10 +165,10 @@ mod tests {
 
     #[test]
     fn the_widest_format_fits() {
-        let shape = Shape { operands: 1, operand_width: 32, result_width: 32, after: (2, 2) };
-        let line = shape.read(b"FFFFFFFF 80000000 1F", 1);
-        assert_eq!(line, Ok(Some(Line { operands: [u32::MAX, 0, 0], result: 0x8000_0000, flags: Some(0x1f) })));
-        assert!(shape.read(b"1FFFFFFFF 0 0", 1).is_err(), "33 bits");
+        let format = LineFormat { operands: 1, operand_width: 32, result_width: 32, after: (2, 2) };
+        let line = format.read(b"FFFFFFFF 80000000 1F", 1);
+        assert_eq!(line, Ok(Some(AluLine { operands: [u32::MAX, 0, 0], result: 0x8000_0000, flags: Some(0x1f) })));
+        assert!(format.read(b"1FFFFFFFF 0 0", 1).is_err(), "33 bits");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use std::io::{self, Read};
 use clap::ValueEnum;
 use refsim::num::{Format, Tininess};
 
-use self::operation::{Operation, Unit};
+use self::operation::{AluOperation, Unit};
 use super::{Out, Problem, Verdict};
 
 const EXAMPLES: &str = "\
@@ -42,7 +42,7 @@ folded.";
 pub(super) struct Args {
     /// The operation
     #[arg(value_enum, ignore_case = true)]
-    op: Operation,
+    op: AluOperation,
 
     /// The number format of operands and result
     #[arg(long, value_name = "F")]
@@ -101,7 +101,7 @@ fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette:
 
 /// What the options ask for, once they go together.
 fn unit(args: &Args) -> Result<Unit, Problem> {
-    let convert = args.op == Operation::Convert;
+    let convert = args.op == AluOperation::Convert;
     let to = match args.to {
         Some(to) if convert => to,
         None if !convert => args.format,
@@ -122,7 +122,7 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
         When::Before => Tininess::Before,
         When::After => Tininess::After,
     };
-    if args.exact && args.op != Operation::RoundToInt {
+    if args.exact && args.op != AluOperation::RoundToInt {
         return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
     }
     Ok(Unit { op: args.op, env: args.format.tininess(tininess), to, exact: args.exact })

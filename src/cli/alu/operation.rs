@@ -1,119 +1,88 @@
 //! The operations by name.
 
 use clap::{ValueEnum, builder::PossibleValue};
-use refsim::num::{Env, Format, Outcome, ops};
+use refsim::num::{Env, Format, NumberOperation as Op, Outcome, ops};
 
-/// An operation, under TestFloat's name where it has one.
+/// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operation {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Sqrt,
-    MulAdd,
-    Eq,
-    Le,
-    Lt,
-    Min,
-    Max,
-    Floor,
-    Frc,
-    Rcp,
-    Rsq,
+pub(super) enum AluOperation {
+    /// One of the emulator's table.
+    Table(Op),
     RoundToInt,
     Convert,
 }
 
-impl Operation {
-    const ALL: [Self; 17] = [
-        Self::Add,
-        Self::Sub,
-        Self::Mul,
-        Self::Div,
-        Self::Sqrt,
-        Self::MulAdd,
-        Self::Eq,
-        Self::Le,
-        Self::Lt,
-        Self::Min,
-        Self::Max,
-        Self::Floor,
-        Self::Frc,
-        Self::Rcp,
-        Self::Rsq,
-        Self::RoundToInt,
-        Self::Convert,
-    ];
+/// The operations under TestFloat's names, where it has one, and what the help says of them.
+const NAMED: [(AluOperation, &str, &str); 17] = [
+    (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
+    (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
+    (AluOperation::Table(Op::Mul), "mul", "two operands, rounded once"),
+    (AluOperation::Table(Op::Div), "div", "two operands, rounded once"),
+    (AluOperation::Table(Op::Sqrt), "sqrt", "square root"),
+    (AluOperation::Table(Op::FusedMad), "mulAdd", "a * b + c, fused: rounded once"),
+    (AluOperation::Table(Op::Equal), "eq", "a = b, as 0 or 1; quiet"),
+    (AluOperation::Table(Op::LessEqual), "le", "a <= b, as 0 or 1; any NaN is invalid"),
+    (AluOperation::Table(Op::Less), "lt", "a < b, as 0 or 1; any NaN is invalid"),
+    (AluOperation::Table(Op::Min), "min", "the lesser"),
+    (AluOperation::Table(Op::Max), "max", "the greater"),
+    (AluOperation::Table(Op::Floor), "floor", "the next whole number below"),
+    (AluOperation::Table(Op::Frc), "frc", "a - floor(a)"),
+    (AluOperation::Table(Op::Rcp), "rcp", "1 / a"),
+    (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
+    (AluOperation::RoundToInt, "roundToInt", "to a whole number, by the rounding of the format"),
+    (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
+];
+
+impl AluOperation {
+    const ALL: [Self; NAMED.len()] = {
+        let mut all = [Self::Convert; NAMED.len()];
+        let mut i = 0;
+        while i < all.len() {
+            all[i] = NAMED[i].0;
+            i += 1;
+        }
+        all
+    };
+
+    /// Name and help.
+    fn words(self) -> (&'static str, &'static str) {
+        NAMED.iter().find(|(operation, ..)| *operation == self).map_or(("", ""), |&(_, name, help)| (name, help))
+    }
 
     /// The name on the command line.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Add => "add",
-            Self::Sub => "sub",
-            Self::Mul => "mul",
-            Self::Div => "div",
-            Self::Sqrt => "sqrt",
-            Self::MulAdd => "mulAdd",
-            Self::Eq => "eq",
-            Self::Le => "le",
-            Self::Lt => "lt",
-            Self::Min => "min",
-            Self::Max => "max",
-            Self::Floor => "floor",
-            Self::Frc => "frc",
-            Self::Rcp => "rcp",
-            Self::Rsq => "rsq",
-            Self::RoundToInt => "roundToInt",
-            Self::Convert => "convert",
-        }
+    pub(super) fn name(self) -> &'static str {
+        self.words().0
     }
 
     /// How many operands it takes, 1 to 3.
     pub(super) const fn operands(self) -> usize {
         match self {
-            Self::MulAdd => 3,
-            Self::Add | Self::Sub | Self::Mul | Self::Div | Self::Eq | Self::Le | Self::Lt | Self::Min | Self::Max => 2,
-            Self::Sqrt | Self::Floor | Self::Frc | Self::Rcp | Self::Rsq | Self::RoundToInt | Self::Convert => 1,
+            Self::Table(operation) => operation.operands(),
+            Self::RoundToInt | Self::Convert => 1,
         }
     }
 
     /// Whether the result is 0 or 1 instead of a number of the format.
     pub(super) const fn is_comparison(self) -> bool {
-        matches!(self, Self::Eq | Self::Le | Self::Lt)
+        matches!(self, Self::Table(Op::Equal | Op::LessEqual | Op::Less))
     }
 }
 
-impl ValueEnum for Operation {
+impl ValueEnum for AluOperation {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
-            Self::Add | Self::Sub | Self::Mul | Self::Div => "two operands, rounded once",
-            Self::Sqrt => "square root",
-            Self::MulAdd => "a * b + c, fused: rounded once",
-            Self::Eq => "a = b, as 0 or 1; quiet",
-            Self::Le => "a <= b, as 0 or 1; any NaN is invalid",
-            Self::Lt => "a < b, as 0 or 1; any NaN is invalid",
-            Self::Min => "the lesser",
-            Self::Max => "the greater",
-            Self::Floor => "the next whole number below",
-            Self::Frc => "a - floor(a)",
-            Self::Rcp => "1 / a",
-            Self::Rsq => "1 / sqrt(a)",
-            Self::RoundToInt => "to a whole number, by the rounding of the format",
-            Self::Convert => "to the format of --to, rounded by its rules",
-        };
-        Some(PossibleValue::new(self.name()).help(help))
+        let (name, help) = self.words();
+        Some(PossibleValue::new(name).help(help))
     }
 }
 
 /// An operation in its format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unit {
-    pub(super) op: Operation,
+    pub(super) op: AluOperation,
     /// The format of the operands.
     pub(super) env: Env,
     /// The format of the result (that of the operands, but for `convert`).
@@ -139,27 +108,15 @@ impl Unit {
     }
 
     /// The result for operands of the format's width; those that the operation does not take are ignored.
-    pub(super) fn evaluate(&self, [a, b, c]: [u32; 3]) -> Outcome {
-        let env = self.env;
+    pub(super) fn evaluate(&self, operands: [u32; 3]) -> Outcome {
+        let (env, [a, ..]) = (self.env, operands);
         match self.op {
-            Operation::Add => ops::add(env, a, b),
-            Operation::Sub => ops::sub(env, a, b),
-            Operation::Mul => ops::mul(env, a, b),
-            Operation::Div => ops::div(env, a, b),
-            Operation::Sqrt => ops::sqrt(env, a),
-            Operation::MulAdd => ops::fused_mad(env, a, b, c),
-            Operation::Eq => ops::eq(env, a, b),
-            Operation::Le => ops::le(env, a, b),
-            Operation::Lt => ops::lt(env, a, b),
-            Operation::Min => ops::min(env, a, b),
-            Operation::Max => ops::max(env, a, b),
-            Operation::Floor => ops::floor(env, a),
-            Operation::Frc => ops::frc(env, a),
-            Operation::Rcp => ops::rcp(env, a),
-            Operation::Rsq => ops::rsq(env, a),
-            Operation::RoundToInt if self.exact => ops::round_to_int_exact(env, a),
-            Operation::RoundToInt => ops::round_to_int(env, a),
-            Operation::Convert => ops::convert(&env.format, self.to.tininess(env.tininess), a),
+            AluOperation::Table(operation) => {
+                operation.evaluate(env, operands).expect("the table defines what the command names")
+            }
+            AluOperation::RoundToInt if self.exact => ops::round_to_int_exact(env, a),
+            AluOperation::RoundToInt => ops::round_to_int(env, a),
+            AluOperation::Convert => ops::convert(&env.format, self.to.tininess(env.tininess), a),
         }
     }
 }

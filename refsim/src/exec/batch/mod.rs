@@ -17,6 +17,6 @@ mod tile;
 mod vertex;
 
 pub use executor::BatchExecutor;
-pub use lanes::{LaneOperation, SimdLevel, convert, evaluate};
+pub use lanes::{SimdLevel, convert, evaluate, exact_dot};
 pub use tile::{BatchTiles, BatchTracer, TileRound};
 pub use vertex::{AttributeRows, BatchVertices, Instances, Surfaces, VertexRows};

@@ -2,13 +2,13 @@
 //! written at the scalar executor's `fragment`.
 
 use super::arith::NodeVector;
-use super::code::NodeOperation;
 use super::graph::TRUE;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
 use super::translate::{Effect, Translator};
 use crate::isa::{
     Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
 };
+use crate::num::NumberOperation;
 
 /// A condition code as masks: less than, equal to, greater than zero.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +80,7 @@ impl Translator<'_> {
 
     /// The bits of what a full precision register holds.
     fn word(&mut self, node: NodeId) -> NodeId {
-        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, NodeOperation::ToBits, node) }
+        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, NumberOperation::Encode, node) }
     }
 
     /// Whether full precision registers hold any 32 bits.
@@ -117,8 +117,8 @@ impl Translator<'_> {
         }
         let mask = self.make.formats.format(Arith::Main).mask();
         let mask = self.make.graph.constant(mask);
-        let low = self.make.binary(Arith::Single, NodeOperation::And, word, mask);
-        self.make.unary(Arith::Main, NodeOperation::FromBits, low)
+        let low = self.make.binary(Arith::Single, NumberOperation::And, word, mask);
+        self.make.unary(Arith::Main, NumberOperation::Decode, low)
     }
 
     /// The word that a packing instruction makes.
@@ -128,18 +128,18 @@ impl Translator<'_> {
         if opcode == Opcode::Pk2h {
             for (i, shift) in [0, 16].into_iter().enumerate() {
                 let half = self.make.convert(Arith::Main, Arith::Half, value[i]);
-                word = self.make.binary(Arith::Half, NodeOperation::JoinPattern(shift), word, half);
+                word = self.make.join(Arith::Half, NumberOperation::JoinPattern, word, half, shift);
             }
             return word;
         }
-        let (parts, code): (u8, fn(u8) -> NodeOperation) = match opcode {
-            Opcode::Pk2us => (2, NodeOperation::JoinShort),
-            Opcode::Pk4ub => (4, NodeOperation::JoinByte),
-            _ => (4, NodeOperation::JoinSignedByte),
+        let (parts, code) = match opcode {
+            Opcode::Pk2us => (2, NumberOperation::JoinShort),
+            Opcode::Pk4ub => (4, NumberOperation::JoinByte),
+            _ => (4, NumberOperation::JoinSignedByte),
         };
-        for i in 0..parts {
-            let single = self.make.convert(Arith::Main, Arith::Single, value[usize::from(i)]);
-            word = self.make.binary(Arith::Single, code(i * (32 / parts)), word, single);
+        for (i, &number) in (0u32..parts).zip(&value) {
+            let single = self.make.convert(Arith::Main, Arith::Single, number);
+            word = self.make.join(Arith::Single, code, word, single, i * (32 / parts));
         }
         word
     }
@@ -153,20 +153,20 @@ impl Translator<'_> {
             }
             false => {
                 let value = self.fragment_operand(source, Arith::Main, 0)[0];
-                self.make.unary(Arith::Main, NodeOperation::ToBits, value)
+                self.make.unary(Arith::Main, NumberOperation::Encode, value)
             }
         };
-        let mut part = |code| self.make.unary(Arith::Main, code, word);
+        let mut part = |code, shift| self.make.immediate(Arith::Main, code, word, shift);
         match opcode {
             Opcode::Up2us => {
-                let (x, y) = (part(NodeOperation::SplitShort(0)), part(NodeOperation::SplitShort(16)));
+                let (x, y) = (part(NumberOperation::SplitShort, 0), part(NumberOperation::SplitShort, 16));
                 [x, y, x, y]
             }
-            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(NodeOperation::SplitByte(shift))),
-            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(NodeOperation::SplitSignedByte(shift))),
+            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(NumberOperation::SplitByte, shift)),
+            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(NumberOperation::SplitSignedByte, shift)),
             _ => {
                 let [x, y] = [0, 16].map(|shift| {
-                    let half = self.make.unary(Arith::Half, NodeOperation::SplitPattern(shift), word);
+                    let half = self.make.immediate(Arith::Half, NumberOperation::SplitPattern, word, shift);
                     self.make.convert(Arith::Half, Arith::Main, half)
                 });
                 [x, y, x, y]
@@ -181,7 +181,7 @@ impl Translator<'_> {
         let raw = self.fragment_raw(instruction, k);
         let to = of_file(destination.register.file);
         raw.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(k, NodeOperation::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.unary(k, NumberOperation::Saturate, x) } else { x };
             self.make.convert(k, to, clamped)
         })
     }
@@ -207,13 +207,13 @@ impl Translator<'_> {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
         }
         if opcode == Opcode::Rsq && self.program.version == Version::ArbFp1_0 {
-            s[0] = s[0].map(|x| self.make.unary(k, NodeOperation::Abs, x));
+            s[0] = s[0].map(|x| self.make.unary(k, NumberOperation::Abs, x));
         }
         match opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceX, x)),
-            Opcode::Dsy => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceY, x)),
+            Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
+            Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
             Opcode::Cmp => std::array::from_fn(|i| {
-                let below = self.make.holds(k, NodeOperation::Less, s[0][i], zero);
+                let below = self.make.holds(k, NumberOperation::Less, s[0][i], zero);
                 self.make.select(below, s[1][i], s[2][i])
             }),
             _ => self.make.operation(k, opcode, &s, &[zero; 4]),
@@ -241,7 +241,7 @@ impl Translator<'_> {
         let to = of_file(destination.register.file);
         texel.map(|x| {
             let clamped =
-                if destination.saturate { self.make.unary(Arith::Main, NodeOperation::Saturate, x) } else { x };
+                if destination.saturate { self.make.unary(Arith::Main, NumberOperation::Saturate, x) } else { x };
             self.make.convert(Arith::Main, to, clamped)
         })
     }
@@ -262,7 +262,7 @@ impl Translator<'_> {
     fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);
-        let mut either = |a, b| self.make.binary(Arith::Single, NodeOperation::Or, a, b);
+        let mut either = |a, b| self.make.binary(Arith::Single, NumberOperation::Or, a, b);
         match condition.test {
             ConditionTest::Eq => code.equal,
             ConditionTest::Lt => code.less,
@@ -334,9 +334,9 @@ impl Translator<'_> {
         let value = self.number(value);
         let zero = self.make.zero();
         let new = CodeNodes {
-            less: self.make.holds(k, NodeOperation::Less, value, zero),
-            equal: self.make.holds(k, NodeOperation::Equal, value, zero),
-            greater: self.make.holds(k, NodeOperation::Less, zero, value),
+            less: self.make.holds(k, NumberOperation::Less, value, zero),
+            equal: self.make.holds(k, NumberOperation::Equal, value, zero),
+            greater: self.make.holds(k, NumberOperation::Less, zero, value),
         };
         let old = self.codes[component];
         self.codes[component] = CodeNodes {
@@ -363,7 +363,7 @@ impl Translator<'_> {
             let zero = self.make.zero();
             let k = of_file(source.register.file);
             for x in self.loaded(source, 0) {
-                let below = self.make.holds(k, NodeOperation::Less, x, zero);
+                let below = self.make.holds(k, NumberOperation::Less, x, zero);
                 effects.push(Effect::Kill(below));
             }
         }

@@ -4,9 +4,8 @@
 //! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
 //! results and moves cost nothing at run time.
 
+use crate::num::NumberOperation;
 use std::collections::BTreeMap;
-
-use super::code::NodeOperation;
 
 /// Index of a slot: where an executor keeps a value for all its lanes.
 pub(in crate::exec) type Slot = u16;
@@ -69,8 +68,10 @@ pub(crate) enum NodeKind {
     Held(Slot),
     /// An interpolated component, or a component of a vertex attribute; single precision.
     Input(u16),
-    /// An operation.
-    Compute(Arith, NodeOperation, [NodeId; 3]),
+    /// An operation; what it does not take is no operand. Immediates are constants.
+    Compute(Arith, NumberOperation, [NodeId; 3]),
+    /// A difference across the quad: right less left, or (if true) lower less upper.
+    Difference(Arith, bool, NodeId),
     /// A dot product of so many terms, rounded once.
     Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
     /// A value of one format rounded into another.
@@ -92,13 +93,14 @@ impl NodeKind {
     pub(crate) fn needs(&self, mut visit: impl FnMut(NodeId)) {
         match *self {
             NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
-            NodeKind::Compute(_, code, args) => args.into_iter().take(code.arity()).for_each(visit),
+            NodeKind::Compute(_, operation, args) => args.into_iter().take(operation.operands()).for_each(visit),
             NodeKind::Dot(_, terms, a, b) => {
                 a.into_iter().take(terms.into()).for_each(&mut visit);
                 b.into_iter().take(terms.into()).for_each(visit);
             }
             NodeKind::Circle(_, _, a)
             | NodeKind::Convert(_, _, a)
+            | NodeKind::Difference(_, _, a)
             | NodeKind::Steps(_, a)
             | NodeKind::Texel(a, _)
             | NodeKind::Relative(_, _, a) => visit(a),
@@ -138,8 +140,8 @@ impl Graph {
     pub(crate) fn includes(&self, mut a: NodeId, b: NodeId) -> bool {
         while a != b {
             match self.kind(a) {
-                NodeKind::Compute(_, NodeOperation::Or, [_, right, _]) if right == b => return true,
-                NodeKind::Compute(_, NodeOperation::Or, [left, ..]) => a = left,
+                NodeKind::Compute(_, NumberOperation::Or, [_, right, _]) if right == b => return true,
+                NodeKind::Compute(_, NumberOperation::Or, [left, ..]) => a = left,
                 _ => return false,
             }
         }
@@ -177,7 +179,7 @@ impl Graph {
                 NodeKind::Input(component) => input(component),
                 // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a zero,
                 // whose sign depends on the format.)
-                NodeKind::Compute(_, NodeOperation::DifferenceX | NodeOperation::DifferenceY, _) => false,
+                NodeKind::Difference(..) => false,
                 NodeKind::Held(_) | NodeKind::Fetch(..) | NodeKind::Relative(..) => false,
                 _ => {
                     let mut all = true;

@@ -1,13 +1,12 @@
 //! The executors' shared middle: a program as a graph of component values under a device's rules, before anybody decides
 //! in which order, where and by what arithmetic they are computed. `batch` and `wgsl` start from it; `scalar` does not use it.
 //!
-//! - [`Graph`] and [`NodeOperation`]: values and how they are computed; [`Formats`]: in which number formats.
+//! - [`Graph`]: values, computed by [`crate::num::NumberOperation`]s; [`Formats`]: in which number formats.
 //! - `arith`, `macros`, `translate`, `translate_texture`, `fragment`: instructions as nodes.
 //! - `program`, `flow`: whole programs without and with flow control.
 //! - `raw`: how executors hold numbers.
 
 mod arith;
-mod code;
 mod flow;
 mod formats;
 mod fragment;
@@ -18,7 +17,6 @@ mod raw;
 mod translate;
 mod translate_texture;
 
-pub(super) use code::NodeOperation;
 pub(super) use flow::{ACTIVE, COUNTER, DECIDED, KILLED, MaskedInstruction, MaskedProgram};
 pub(super) use formats::Formats;
 pub(super) use fragment::of_file;

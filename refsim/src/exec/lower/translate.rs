@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::arith::{Maker, NodeVector};
-use super::code::NodeOperation;
 use super::formats::Formats;
 use super::fragment::CodeNodes;
 use super::graph::{Arith, NodeId, NodeKind};
@@ -13,6 +12,7 @@ use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
 };
+use crate::num::NumberOperation;
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
@@ -115,7 +115,7 @@ impl<'a> Translator<'a> {
                 self.make.graph.node(NodeKind::Steps(steps, node))
             }
             ColorIterator::Full => {
-                let clamped = self.make.unary(Arith::Single, NodeOperation::Saturate, node);
+                let clamped = self.make.unary(Arith::Single, NumberOperation::Saturate, node);
                 self.make.convert(Arith::Single, Arith::Main, clamped)
             }
         }
@@ -192,9 +192,9 @@ impl<'a> Translator<'a> {
 
     /// A component of a result on its way into a register.
     fn finished(&mut self, k: Arith, destination: &Destination, x: NodeId) -> NodeId {
-        let shifted =
-            if destination.shift == 0 { x } else { self.make.unary(k, NodeOperation::Scale(destination.shift), x) };
-        let clamped = if destination.saturate { self.make.unary(k, NodeOperation::Saturate, shifted) } else { shifted };
+        let shifted = if destination.shift == 0 { x } else { self.make.scale(k, x, destination.shift) };
+        let clamped =
+            if destination.saturate { self.make.unary(k, NumberOperation::Saturate, shifted) } else { shifted };
         self.make.convert(k, Arith::Main, clamped)
     }
 
@@ -209,7 +209,7 @@ impl<'a> Translator<'a> {
     /// The complement of a mask.
     pub(crate) fn inverted(&mut self, mask: NodeId) -> NodeId {
         let all = self.make.graph.constant(TRUE);
-        self.make.binary(Arith::Single, NodeOperation::AndNot, mask, all)
+        self.make.binary(Arith::Single, NumberOperation::AndNot, mask, all)
     }
 
     /// A result on its way into a pixel register, clamped to [-1, 1] where the rules ask for it.
@@ -219,8 +219,8 @@ impl<'a> Translator<'a> {
         }
         let one = self.make.one(Arith::Main);
         let minus = self.make.neg(Arith::Main, one);
-        let below = self.make.binary(Arith::Main, NodeOperation::Min, x, one);
-        self.make.binary(Arith::Main, NodeOperation::Max, below, minus)
+        let below = self.make.binary(Arith::Main, NumberOperation::Min, x, one);
+        self.make.binary(Arith::Main, NumberOperation::Max, below, minus)
     }
 
     /// Writes of the components in the destination's mask.
@@ -254,16 +254,19 @@ impl<'a> Translator<'a> {
             *slot = self.operand(k, source);
         }
         let raw = match instruction.opcode {
-            Opcode::Dsx => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceX, x)),
-            Opcode::Dsy => s[0].map(|x| self.make.unary(k, NodeOperation::DifferenceY, x)),
+            Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
+            Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
             Opcode::Setp => {
                 let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
                 let value = std::array::from_fn(|i| self.comparison(k, comparison, s[0][i], s[1][i]));
                 return self.writes(instruction, value, effects);
             }
             opcode if opcode == Opcode::Mova || destination.register.file == RegisterFile::Address => {
-                let code =
-                    if opcode == Opcode::Mova { NodeOperation::AddressNearest } else { NodeOperation::AddressFloor };
+                let code = if opcode == Opcode::Mova {
+                    NumberOperation::AddressNearest
+                } else {
+                    NumberOperation::AddressFloor
+                };
                 let value = s[0].map(|x| self.make.unary(Arith::Main, code, x));
                 return self.writes(instruction, value, effects);
             }
@@ -311,11 +314,11 @@ impl<'a> Translator<'a> {
     /// The mask of a comparison of two numbers.
     pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
         let (code, a, b) = match comparison {
-            Comparison::Gt => (NodeOperation::Less, b, a),
-            Comparison::Lt => (NodeOperation::Less, a, b),
-            Comparison::Ge => (NodeOperation::LessEqual, b, a),
-            Comparison::Le => (NodeOperation::LessEqual, a, b),
-            Comparison::Eq | Comparison::Ne => (NodeOperation::Equal, a, b),
+            Comparison::Gt => (NumberOperation::Less, b, a),
+            Comparison::Lt => (NumberOperation::Less, a, b),
+            Comparison::Ge => (NumberOperation::LessEqual, b, a),
+            Comparison::Le => (NumberOperation::LessEqual, a, b),
+            Comparison::Eq | Comparison::Ne => (NumberOperation::Equal, a, b),
         };
         let holds = self.make.holds(k, code, a, b);
         if comparison == Comparison::Ne { self.inverted(holds) } else { holds }

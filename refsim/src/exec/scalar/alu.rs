@@ -16,6 +16,15 @@ pub(crate) struct Alu<'r> {
     pub(crate) flags: Flags,
 }
 
+/// Operations of [`ops`] under their names, in the format of the [`Alu`], their flags kept.
+macro_rules! kept {
+    ($($name:ident($($operand:ident),+) = $definition:path;)*) => {$(
+        pub(crate) fn $name(&mut self, $($operand: u32),+) -> u32 {
+            self.keep($definition(self.format, $($operand),+))
+        }
+    )*};
+}
+
 impl<'r> Alu<'r> {
     /// Pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
@@ -54,15 +63,13 @@ impl<'r> Alu<'r> {
         if from == self.format {
             return bits;
         }
-        let outcome = ops::convert(&from, self.format, bits);
-        self.keep(outcome)
+        self.keep(ops::convert(&from, self.format, bits))
     }
 
     /// [`Self::enter`] that makes a NaN canonical and flushes subnormals even where the formats are the same: for
     /// values that no operation has made yet.
     pub(crate) fn convert(&mut self, from: Format, bits: u32) -> u32 {
-        let outcome = ops::convert(&from, self.format, bits);
-        self.keep(outcome)
+        self.keep(ops::convert(&from, self.format, bits))
     }
 
     /// `bits` of this format in format `to`, rounded once.
@@ -70,18 +77,28 @@ impl<'r> Alu<'r> {
         if to == self.format {
             return bits;
         }
-        let outcome = ops::convert(&self.format, to, bits);
-        self.keep(outcome)
+        self.keep(ops::convert(&self.format, to, bits))
     }
 
-    pub(crate) fn add(&mut self, a: u32, b: u32) -> u32 {
-        let outcome = ops::add(self.format, a, b);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn sub(&mut self, a: u32, b: u32) -> u32 {
-        let outcome = ops::sub(self.format, a, b);
-        self.keep(outcome)
+    kept! {
+        add(a, b) = ops::add;
+        sub(a, b) = ops::sub;
+        div(a, b) = ops::div;
+        min(a, b) = ops::min;
+        max(a, b) = ops::max;
+        neg(a) = ops::neg;
+        abs(a) = ops::abs;
+        floor(a) = ops::floor;
+        frc(a) = ops::frc;
+        rcp(a) = ops::rcp;
+        rsq(a) = ops::rsq;
+        exp2(a) = ops::exp2;
+        log2(a) = ops::log2;
+        cos(a) = ops::cos;
+        sin(a) = ops::sin;
+        saturate(a) = ops::saturate01;
+        cmp(condition, a, b) = ops::cmp;
+        cnd(condition, a, b) = ops::cnd;
     }
 
     /// The operands of a product. With the legacy rule `zero_times_anything`, a zero beside an infinity or a NaN
@@ -94,13 +111,7 @@ impl<'r> Alu<'r> {
 
     pub(crate) fn mul(&mut self, a: u32, b: u32) -> u32 {
         let (a, b) = self.factors(a, b);
-        let outcome = ops::mul(self.format, a, b);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn div(&mut self, a: u32, b: u32) -> u32 {
-        let outcome = ops::div(self.format, a, b);
-        self.keep(outcome)
+        self.keep(ops::mul(self.format, a, b))
     }
 
     /// `a * b + c`: product and sum rounded one after the other, or the exact result rounded once, as the rules say.
@@ -112,8 +123,7 @@ impl<'r> Alu<'r> {
             }
             MadMode::Fused => {
                 let (a, b) = self.factors(a, b);
-                let outcome = ops::fused_mad(self.format, a, b, c);
-                self.keep(outcome)
+                self.keep(ops::fused_mad(self.format, a, b, c))
             }
         }
     }
@@ -125,8 +135,7 @@ impl<'r> Alu<'r> {
         for (term, (&x, &y)) in terms.iter_mut().zip(a.iter().zip(b)) {
             *term = self.factors(x, y);
         }
-        let outcome = ops::dot(self.format, self.rules.dot, &terms[..n]);
-        self.keep(outcome)
+        self.keep(ops::dot(self.format, self.rules.dot, &terms[..n]))
     }
 
     /// `factor * (a - b) + b`, the last two steps as one [`Self::mad`], or `factor * a + (1 - factor) * b` with each
@@ -146,78 +155,12 @@ impl<'r> Alu<'r> {
         }
     }
 
-    pub(crate) fn min(&mut self, a: u32, b: u32) -> u32 {
-        let outcome = ops::min(self.format, a, b);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn max(&mut self, a: u32, b: u32) -> u32 {
-        let outcome = ops::max(self.format, a, b);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn neg(&mut self, a: u32) -> u32 {
-        let outcome = ops::neg(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn abs(&mut self, a: u32) -> u32 {
-        let outcome = ops::abs(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn floor(&mut self, a: u32) -> u32 {
-        let outcome = ops::floor(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn frc(&mut self, a: u32) -> u32 {
-        let outcome = ops::frc(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn rcp(&mut self, a: u32) -> u32 {
-        let outcome = ops::rcp(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn rsq(&mut self, a: u32) -> u32 {
-        let outcome = ops::rsq(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn exp2(&mut self, a: u32) -> u32 {
-        let outcome = ops::exp2(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn log2(&mut self, a: u32) -> u32 {
-        let outcome = ops::log2(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn cos(&mut self, a: u32) -> u32 {
-        let outcome = ops::cos(self.format, a);
-        self.keep(outcome)
-    }
-
-    pub(crate) fn sin(&mut self, a: u32) -> u32 {
-        let outcome = ops::sin(self.format, a);
-        self.keep(outcome)
-    }
-
     /// Multiplies by two to the power `shift`.
     pub(crate) fn scale(&mut self, a: u32, shift: i8) -> u32 {
         if shift == 0 {
             return a;
         }
-        let outcome = ops::scale(self.format, a, i32::from(shift));
-        self.keep(outcome)
-    }
-
-    pub(crate) fn saturate(&mut self, a: u32) -> u32 {
-        let outcome = ops::saturate01(self.format, a);
-        self.keep(outcome)
+        self.keep(ops::scale(self.format, a, i32::from(shift)))
     }
 
     /// A result on its way into a register: `max(min(a, 1), -1)` where the rules ask for it. A clamp that changes the
@@ -233,18 +176,6 @@ impl<'r> Alu<'r> {
             self.flags |= Flags::OVERFLOW | Flags::INEXACT;
         }
         clamped
-    }
-
-    /// `condition >= 0 ? a : b`
-    pub(crate) fn cmp(&mut self, condition: u32, a: u32, b: u32) -> u32 {
-        let outcome = ops::cmp(self.format, condition, a, b);
-        self.keep(outcome)
-    }
-
-    /// `condition > 0.5 ? a : b`
-    pub(crate) fn cnd(&mut self, condition: u32, a: u32, b: u32) -> u32 {
-        let outcome = ops::cnd(self.format, condition, a, b);
-        self.keep(outcome)
     }
 
     /// `a < b`; false for NaN.

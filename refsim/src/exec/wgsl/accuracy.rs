@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
-use super::number::{NativeOperations, Operation};
-use crate::num::{Flags, Format, Rounding, from_ratio, ops};
+use super::number::NativeOperations;
+use crate::num::{Flags, Format, NumberOperation, Rounding, from_ratio, ops};
 
 const FP32: Format = Format::FP32;
 /// Neighbours below and above an exact result.
@@ -62,9 +62,8 @@ impl SingleOperation {
     /// How many operands it has.
     pub const fn arity(self) -> usize {
         match self {
-            Self::Rcp | Self::Sqrt | Self::Floor | Self::FromInteger => 1,
-            Self::MulAdd => 3,
-            _ => 2,
+            Self::FromInteger => 1,
+            _ => self.operation().operands(),
         }
     }
 
@@ -100,46 +99,35 @@ impl SingleOperation {
     }
 
     /// The library's operation of the same meaning.
-    pub const fn operation(self) -> Operation {
+    pub const fn operation(self) -> NumberOperation {
         match self {
-            Self::Add => Operation::Add,
-            Self::Sub => Operation::Sub,
-            Self::Mul => Operation::Mul,
-            Self::MulAdd => Operation::Mad,
-            Self::Div => Operation::Div,
-            Self::Rcp => Operation::Rcp,
-            Self::Sqrt => Operation::Sqrt,
-            Self::Floor => Operation::Floor,
-            Self::FromInteger => Operation::Convert,
-            Self::Min => Operation::Min,
-            Self::Max => Operation::Max,
+            Self::Add => NumberOperation::Add,
+            Self::Sub => NumberOperation::Sub,
+            Self::Mul => NumberOperation::Mul,
+            Self::MulAdd => NumberOperation::Mad,
+            Self::Div => NumberOperation::Div,
+            Self::Rcp => NumberOperation::Rcp,
+            Self::Sqrt => NumberOperation::Sqrt,
+            Self::Floor => NumberOperation::Floor,
+            Self::FromInteger => NumberOperation::Convert,
+            Self::Min => NumberOperation::Min,
+            Self::Max => NumberOperation::Max,
         }
     }
 
     /// What IEEE 754 gives, a NaN in its one form, as [`crate::num::ops`] has it.
-    pub fn exact(self, [a, b, c]: [u32; 3]) -> u32 {
-        self.rounded(&FP32, [a, b, c])
+    pub fn exact(self, operands: [u32; 3]) -> u32 {
+        self.rounded(&FP32, operands)
     }
 
     /// The operation, rounded as `format` says; the steps of [`Self::MulAdd`] too.
-    fn rounded(self, format: &Format, [a, b, c]: [u32; 3]) -> u32 {
+    fn rounded(self, format: &Format, operands: [u32; 3]) -> u32 {
+        let integer = operands[0].cast_signed();
         let outcome = match self {
-            Self::Add => ops::add(format, a, b),
-            Self::Sub => ops::sub(format, a, b),
-            Self::Mul => ops::mul(format, a, b),
-            Self::MulAdd => ops::mad(format, a, b, c),
-            Self::Div => ops::div(format, a, b),
-            Self::Rcp => ops::rcp(format, a),
-            Self::Sqrt => ops::sqrt(format, a),
-            Self::Floor => ops::floor(format, a),
-            Self::FromInteger => {
-                let value = a.cast_signed();
-                from_ratio(format, value < 0, value.unsigned_abs().into(), 1)
-            }
-            Self::Min => ops::min(format, a, b),
-            Self::Max => ops::max(format, a, b),
+            Self::FromInteger => Some(from_ratio(format, integer < 0, integer.unsigned_abs().into(), 1)),
+            _ => self.operation().evaluate(format, operands),
         };
-        outcome.bits
+        outcome.map_or(0, |outcome| outcome.bits)
     }
 }
 

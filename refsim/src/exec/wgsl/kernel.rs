@@ -1,10 +1,10 @@
 //! The pixel kernel: its text, and what a draw tells it in words.
 
-use super::number::{Operation, format_words, source_word};
+use super::number::{format_words, source_word};
 use super::{INTERFACE, target};
 use crate::device::Rules;
 use crate::exec::FragmentFormats;
-use crate::num::{Format, Kind, Overflow, ops};
+use crate::num::{Format, Kind, NumberOperation, Overflow, ops};
 use crate::output::{BlendEquation, BlendFactor, BlendOp, CompareFunction, DepthFormat, OutputRules, OutputState};
 use crate::raster::{COMPONENTS, ComponentMask, POSITION_COMPONENT, TriangleSetup};
 use crate::texture::TargetRounding;
@@ -86,11 +86,11 @@ fn field(name: &str) -> usize {
 }
 
 /// Steps of interpolation: operation, result, operands, format (main text: `raster.wgsl`).
-const ADD: u32 = Operation::Add.word();
-const SUB: u32 = Operation::Sub.word();
-const MUL: u32 = Operation::Mul.word();
-const DIV: u32 = Operation::Div.word();
-const CONVERT: u32 = Operation::Convert.word();
+const ADD: u32 = NumberOperation::Add.word();
+const SUB: u32 = NumberOperation::Sub.word();
+const MUL: u32 = NumberOperation::Mul.word();
+const DIV: u32 = NumberOperation::Div.word();
+const CONVERT: u32 = NumberOperation::Convert.word();
 const SINGLE: u32 = 2;
 const ITERATOR: u32 = 4;
 

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use bitflags::bitflags;
 use serde::{Deserialize, Serialize};
 
-use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, Kind, NumberOperation, Overflow, Rounding, Specials};
 
 /// How a shader computes in single precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -46,152 +46,8 @@ bitflags! {
     }
 }
 
-/// What `n_alu` computes, by number: `operation as u32`. As [`crate::num::ops`] defines it, on raw values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u32)]
-pub enum Operation {
-    /// `a + b`
-    Add,
-    /// `a - b`
-    Sub,
-    /// `a b`
-    Mul,
-    /// `a / b`
-    Div,
-    /// Product and sum, each rounded.
-    Mad,
-    /// Product and sum, rounded once.
-    FusedMad,
-    /// `a < b ? a : b`
-    Min,
-    /// `a >= b ? a : b`
-    Max,
-    /// `-a`
-    Neg,
-    /// `|a|`
-    Abs,
-    /// The integer below.
-    Floor,
-    /// `a - floor a`
-    Frc,
-    /// `1 / a`
-    Rcp,
-    /// `1 / sqrt a`
-    Rsq,
-    /// `2^a`
-    Exp2,
-    /// Logarithm to base 2.
-    Log2,
-    /// Clamped to [0, 1].
-    Saturate,
-    /// `a 2^b`, `b` an `i32`.
-    Scale,
-    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
-    Factor,
-    /// `a >= 0 ? b : c`
-    SelectNonNegative,
-    /// `a > 1/2 ? b : c`
-    SelectAboveHalf,
-    /// Mask (all ones or zero) of `a < b`.
-    Less,
-    /// Mask of `a <= b`.
-    LessEqual,
-    /// Mask of `a == b`.
-    Equal,
-    /// `a` rounded down in the format, as a saturated `i32`.
-    AddressFloor,
-    /// `a` rounded to the nearest even integer in the format, as a saturated `i32`.
-    AddressNearest,
-    /// Mask `a ? b : c`.
-    Select,
-    /// Bits.
-    And,
-    /// Bits.
-    Or,
-    /// `b` and not `a`.
-    AndNot,
-    /// Square root.
-    Sqrt,
-    /// `a` of another format into this one; `b` is [`source_word`] of that format.
-    Convert,
-    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the format.
-    Steps,
-    /// Bit pattern to raw value.
-    Decode,
-    /// Raw value to bit pattern.
-    Encode,
-    /// Sine, radians.
-    Sin,
-    /// Cosine, radians.
-    Cos,
-    /// Word `a` with `b`'s pattern of up to 16 bits at bit `c`, which was zero there.
-    JoinPattern,
-    /// Likewise single precision `b` clamped to [0, 1], to the nearest of 65535 steps.
-    JoinShort,
-    /// Likewise of 255 steps.
-    JoinByte,
-    /// Likewise `128 + 127 b`, `b` from -128/127 to 1; 128 for NaN.
-    JoinSignedByte,
-    /// The number whose pattern is at bit `b` of word `a`.
-    SplitPattern,
-    /// What [`Self::JoinShort`] put at bit `b` of word `a`.
-    SplitShort,
-    /// What [`Self::JoinByte`] put there.
-    SplitByte,
-    /// What [`Self::JoinSignedByte`] put there.
-    SplitSignedByte,
-}
-
-impl Operation {
-    /// All operations, in the order of their numbers.
-    pub const ALL: [Operation; 45] = [
-        Self::Add,
-        Self::Sub,
-        Self::Mul,
-        Self::Div,
-        Self::Mad,
-        Self::FusedMad,
-        Self::Min,
-        Self::Max,
-        Self::Neg,
-        Self::Abs,
-        Self::Floor,
-        Self::Frc,
-        Self::Rcp,
-        Self::Rsq,
-        Self::Exp2,
-        Self::Log2,
-        Self::Saturate,
-        Self::Scale,
-        Self::Factor,
-        Self::SelectNonNegative,
-        Self::SelectAboveHalf,
-        Self::Less,
-        Self::LessEqual,
-        Self::Equal,
-        Self::AddressFloor,
-        Self::AddressNearest,
-        Self::Select,
-        Self::And,
-        Self::Or,
-        Self::AndNot,
-        Self::Sqrt,
-        Self::Convert,
-        Self::Steps,
-        Self::Decode,
-        Self::Encode,
-        Self::Sin,
-        Self::Cos,
-        Self::JoinPattern,
-        Self::JoinShort,
-        Self::JoinByte,
-        Self::JoinSignedByte,
-        Self::SplitPattern,
-        Self::SplitShort,
-        Self::SplitByte,
-        Self::SplitSignedByte,
-    ];
-
+/// How shaders name the operations of the table. Values are raw; comparisons give masks.
+impl NumberOperation {
     /// Its number in the shader.
     pub const fn word(self) -> u32 {
         self as u32
@@ -236,7 +92,7 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, 0]
 }
 
-/// The operand `b` by which [`Operation::Convert`] knows the format that `a` comes from.
+/// The operand `b` by which [`NumberOperation::Convert`] knows the format that `a` comes from.
 pub fn source_word(format: &Format) -> u32 {
     match format.kind {
         Kind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
@@ -251,7 +107,7 @@ pub fn source_word(format: &Format) -> u32 {
 pub fn library(mode: NumberMode, native: NativeOperations) -> String {
     let mut text = String::new();
     // Writing to a string can't fail.
-    for operation in Operation::ALL {
+    for operation in NumberOperation::ALL {
         let _ = writeln!(text, "const {}: u32 = {}u;", operation.constant(), operation.word());
     }
     let mode_text = match mode {

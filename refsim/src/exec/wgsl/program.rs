@@ -6,7 +6,6 @@
 //! `q_executed` are left behind, reads are added to `q_fetched`. Inputs are single precision patterns with NaN canonical.
 //! The module also has the number library, `texture_read`, and what [`NO_OUTPUT`] and [`NO_TRACE`] stand in for.
 
-mod codes;
 mod lower;
 mod microcode;
 mod microcode_flow;

@@ -1,121 +1,72 @@
 //! One operation on many operands, through the same lanes that programs run in.
 
 use super::any::{AnyLane, with_any_lane};
-use super::lane::{LANES, Lane};
-use crate::num::Format;
-
-/// An operation of the lane arithmetic, as [`evaluate`] takes it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "named as in refsim::num::ops, which defines them")]
-pub enum LaneOperation {
-    Add,
-    Sub,
-    Mul,
-    /// Product and sum rounded one after the other.
-    Mad,
-    FusedMad,
-    /// `a b + b c + c a`, rounded once.
-    ExactDot3,
-    /// `a b + b c + c a + b b`, rounded once.
-    ExactDot4,
-    Div,
-    Sqrt,
-    Rcp,
-    Rsq,
-    Exp2,
-    Log2,
-    Min,
-    Max,
-    Floor,
-    Frc,
-    Neg,
-    Abs,
-    /// Times two to this power.
-    Scale(i8),
-    Saturate,
-    /// 1 where `a < b`.
-    Lt,
-    /// 1 where `a <= b`.
-    Le,
-    /// 1 where `a == b`.
-    Eq,
-    /// `a >= 0 ? b : c`
-    Cmp,
-    /// `a > 1/2 ? b : c`
-    Cnd,
-}
+use super::lane::Lane;
+use crate::num::{Format, NumberOperation};
 
 /// The operation on operands given as bit patterns of `format`; missing operands count as zero. Comparisons give the
-/// plain numbers 1 and 0, everything else bit patterns of `format`.
+/// plain numbers 1 and 0, everything else bit patterns of `format`. `None` for operations that the lane arithmetic does
+/// not have.
 ///
 /// This is the batch executor's arithmetic, written apart from [`crate::num::ops`] and equal to it; the full proof
 /// compares the two through this function.
-pub fn evaluate(format: Format, operation: LaneOperation, a: &[u32], b: &[u32], c: &[u32]) -> Vec<u32> {
-    let mut out = Vec::with_capacity(a.len());
+pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     with_any_lane!(&AnyLane::new(format), |lane| {
-        for start in (0..a.len()).step_by(LANES) {
-            let end = a.len().min(start + LANES);
-            let part = |s: &[u32]| {
-                let mut values = [lane.decode(0); LANES];
-                for (value, &bits) in values.iter_mut().zip(s.get(start..end.min(s.len())).unwrap_or_default()) {
-                    *value = lane.decode(bits);
-                }
-                values
-            };
-            let results = apply(lane, operation, &part(a), &part(b), &part(c));
-            out.extend_from_slice(&results[..end - start]);
-        }
-    });
-    out
+        a.iter().enumerate().map(|(i, &a)| apply(lane, operation, [a, bits_at(b, i), bits_at(c, i)])).collect()
+    })
 }
 
-fn apply<L: Lane>(lane: &L, operation: LaneOperation, a: &[L::T], b: &[L::T], c: &[L::T]) -> [u32; LANES] {
-    use LaneOperation as Op;
-    let zero = lane.decode(0);
-    std::array::from_fn(|i| {
-        let (a, b, c) = (a[i], b[i], c[i]);
-        let value = match operation {
-            Op::Add => lane.add(a, b),
-            Op::Sub => lane.sub(a, b),
-            Op::Mul => lane.mul(a, b),
-            Op::Mad => lane.add(lane.mul(a, b), c),
-            Op::FusedMad => lane.fused_mad(a, b, c),
-            Op::ExactDot3 => lane.exact_dot([a, b, c], [b, c, a]),
-            Op::ExactDot4 => lane.exact_dot([a, b, c, b], [b, c, a, b]),
-            Op::Div => lane.div(a, b),
-            Op::Sqrt => lane.sqrt(a),
-            Op::Rcp => lane.rcp(a),
-            Op::Rsq => lane.rsq(a),
-            Op::Exp2 => lane.exp2(a),
-            Op::Log2 => lane.log2(a),
-            Op::Min => lane.min(a, b),
-            Op::Max => lane.max(a, b),
-            Op::Floor => lane.floor(a),
-            Op::Frc => lane.frc(a),
-            Op::Neg => lane.neg(a),
-            Op::Abs => lane.abs(a),
-            Op::Scale(shift) => lane.scale(a, i32::from(shift)),
-            Op::Saturate => lane.saturate(a),
-            Op::Cmp => {
-                if lane.le(zero, a) {
-                    b
-                } else {
-                    c
-                }
-            }
-            Op::Cnd => {
-                if lane.above_half(a) {
-                    b
-                } else {
-                    c
-                }
-            }
-            Op::Lt => return u32::from(lane.lt(a, b)),
-            Op::Le => return u32::from(lane.le(a, b)),
-            Op::Eq => return u32::from(lane.eq(a, b)),
-        };
-        lane.encode(value)
+/// `a b + b c + c a`, and for four terms `+ b b`, rounded once.
+pub fn exact_dot(format: Format, terms: usize, [a, b, c]: [&[u32]; 3]) -> Vec<u32> {
+    fn dot<L: Lane>(lane: &L, terms: usize, operands: [u32; 3]) -> u32 {
+        let [a, b, c] = operands.map(|bits| lane.decode(bits));
+        lane.encode(match terms {
+            4 => lane.exact_dot([a, b, c, b], [b, c, a, b]),
+            _ => lane.exact_dot([a, b, c], [b, c, a]),
+        })
+    }
+    with_any_lane!(&AnyLane::new(format), |lane| {
+        a.iter().enumerate().map(|(i, &a)| dot(lane, terms, [a, bits_at(b, i), bits_at(c, i)])).collect()
     })
+}
+
+fn bits_at(row: &[u32], i: usize) -> u32 {
+    row.get(i).copied().unwrap_or_default()
+}
+
+fn apply<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
+    use NumberOperation as Op;
+    let [a, b, c] = operands.map(|bits| lane.decode(bits));
+    let value = match operation {
+        Op::Add => lane.add(a, b),
+        Op::Sub => lane.sub(a, b),
+        Op::Mul => lane.mul(a, b),
+        Op::Mad => lane.add(lane.mul(a, b), c),
+        Op::FusedMad => lane.fused_mad(a, b, c),
+        Op::Div => lane.div(a, b),
+        Op::Sqrt => lane.sqrt(a),
+        Op::Rcp => lane.rcp(a),
+        Op::Rsq => lane.rsq(a),
+        Op::Exp2 => lane.exp2(a),
+        Op::Log2 => lane.log2(a),
+        Op::Min => lane.min(a, b),
+        Op::Max => lane.max(a, b),
+        Op::Floor => lane.floor(a),
+        Op::Frc => lane.frc(a),
+        Op::Neg => lane.neg(a),
+        Op::Abs => lane.abs(a),
+        Op::Scale => lane.scale(a, operands[1].cast_signed()),
+        Op::Saturate => lane.saturate(a),
+        Op::SelectNonNegative if lane.le(lane.decode(0), a) => b,
+        Op::SelectNonNegative => c,
+        Op::SelectAboveHalf if lane.above_half(a) => b,
+        Op::SelectAboveHalf => c,
+        Op::Less => return Some(lane.lt(a, b).into()),
+        Op::LessEqual => return Some(lane.le(a, b).into()),
+        Op::Equal => return Some(lane.eq(a, b).into()),
+        _ => return None,
+    };
+    Some(lane.encode(value))
 }
 
 /// Bit patterns of `from` converted to `to`, as [`crate::num::ops::convert`] defines it.

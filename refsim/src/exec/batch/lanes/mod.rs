@@ -16,7 +16,7 @@ mod power;
 mod simd;
 
 pub(crate) use any::{AnyLane, with_any_lane};
-pub use evaluate::{LaneOperation, convert, evaluate};
+pub use evaluate::{convert, evaluate, exact_dot};
 pub(crate) use formats::LaneFormats;
 pub(crate) use lane::{LANES, Lane, LaneRow};
 pub use simd::SimdLevel;

@@ -6,8 +6,8 @@ use super::loops::{
 use super::pack::{fraction, join, signed, split, unsigned};
 use super::slots::Slots;
 use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, with_any_lane};
-use crate::exec::batch::schedule::LaneOp;
-use crate::exec::lower::NodeOperation;
+use crate::exec::batch::schedule::{LaneCode, LaneOp};
+use crate::num::NumberOperation as Op;
 
 /// Runs operations in the arithmetic of a format. The one place where a processor's vector width is chosen.
 pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
@@ -23,19 +23,19 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
         match op.code {
-            NodeOperation::Dot(2) => dot::<L, 2>(op, slots, |a, b| lane.exact_dot(a, b)),
-            NodeOperation::Dot(3) => dot::<L, 3>(op, slots, |a, b| lane.exact_dot(a, b)),
-            NodeOperation::Dot(_) => dot::<L, 4>(op, slots, |a, b| lane.exact_dot(a, b)),
-            NodeOperation::Sum(2) => dot::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::Sum(3) => dot::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::Sum(_) => dot::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::Difference => {
+            LaneCode::Dot(2) => dot::<L, 2>(op, slots, |a, b| lane.exact_dot(a, b)),
+            LaneCode::Dot(3) => dot::<L, 3>(op, slots, |a, b| lane.exact_dot(a, b)),
+            LaneCode::Dot(_) => dot::<L, 4>(op, slots, |a, b| lane.exact_dot(a, b)),
+            LaneCode::Sum(2) => dot::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::Sum(3) => dot::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::Sum(_) => dot::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::Difference => {
                 dot::<L, 2>(op, slots, |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))));
             }
-            NodeOperation::SumBy(1) => dot_by::<L, 1>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::SumBy(2) => dot_by::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::SumBy(3) => dot_by::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
-            NodeOperation::SumBy(_) => dot_by::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::SumBy(1) => dot_by::<L, 1>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::SumBy(2) => dot_by::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::SumBy(3) => dot_by::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::SumBy(_) => dot_by::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
             _ => step(lane, op, slots),
         }
     }
@@ -48,95 +48,97 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
     let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
     let uniform = L::load(values[usize::from(op.args[0])]);
     match op.code {
-        NodeOperation::Add => two::<L>(a, b, out, |a, b| l.add(a, b)),
-        NodeOperation::Sub => two::<L>(a, b, out, |a, b| l.sub(a, b)),
-        NodeOperation::Mul => two::<L>(a, b, out, |a, b| l.mul(a, b)),
-        NodeOperation::AddTo => one::<L>(b, out, |b| l.add(uniform, b)),
-        NodeOperation::SubFrom => one::<L>(b, out, |b| l.sub(uniform, b)),
-        NodeOperation::SubOff => one::<L>(b, out, |b| l.sub(b, uniform)),
-        NodeOperation::MadBy => two::<L>(b, c, out, |b, c| l.add(l.mul(uniform, b), c)),
-        NodeOperation::Div => two::<L>(a, b, out, |a, b| l.div(a, b)),
-        NodeOperation::Mad => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
-        NodeOperation::FusedMad => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),
-        NodeOperation::Min => two::<L>(a, b, out, |a, b| l.min(a, b)),
-        NodeOperation::Max => two::<L>(a, b, out, |a, b| l.max(a, b)),
-        NodeOperation::Neg => one::<L>(a, out, |a| l.neg(a)),
-        NodeOperation::Abs => one::<L>(a, out, |a| l.abs(a)),
-        NodeOperation::Floor => one::<L>(a, out, |a| l.floor(a)),
-        NodeOperation::Frc => one::<L>(a, out, |a| l.frc(a)),
-        NodeOperation::Rcp => one::<L>(a, out, |a| l.rcp(a)),
-        NodeOperation::Rsq => one::<L>(a, out, |a| l.rsq(a)),
-        NodeOperation::Exp2 => one::<L>(a, out, |a| l.exp2(a)),
-        NodeOperation::Log2 => one::<L>(a, out, |a| l.log2(a)),
-        NodeOperation::Saturate => one::<L>(a, out, |a| l.saturate(a)),
-        NodeOperation::Scale(shift) => {
+        LaneCode::Plain(Op::Add) => two::<L>(a, b, out, |a, b| l.add(a, b)),
+        LaneCode::Plain(Op::Sub) => two::<L>(a, b, out, |a, b| l.sub(a, b)),
+        LaneCode::Plain(Op::Mul) => two::<L>(a, b, out, |a, b| l.mul(a, b)),
+        LaneCode::AddTo => one::<L>(b, out, |b| l.add(uniform, b)),
+        LaneCode::SubFrom => one::<L>(b, out, |b| l.sub(uniform, b)),
+        LaneCode::SubOff => one::<L>(b, out, |b| l.sub(b, uniform)),
+        LaneCode::MadBy => two::<L>(b, c, out, |b, c| l.add(l.mul(uniform, b), c)),
+        LaneCode::Plain(Op::Div) => two::<L>(a, b, out, |a, b| l.div(a, b)),
+        LaneCode::Plain(Op::Mad) => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
+        LaneCode::Plain(Op::FusedMad) => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),
+        LaneCode::Plain(Op::Min) => two::<L>(a, b, out, |a, b| l.min(a, b)),
+        LaneCode::Plain(Op::Max) => two::<L>(a, b, out, |a, b| l.max(a, b)),
+        LaneCode::Plain(Op::Neg) => one::<L>(a, out, |a| l.neg(a)),
+        LaneCode::Plain(Op::Abs) => one::<L>(a, out, |a| l.abs(a)),
+        LaneCode::Plain(Op::Floor) => one::<L>(a, out, |a| l.floor(a)),
+        LaneCode::Plain(Op::Frc) => one::<L>(a, out, |a| l.frc(a)),
+        LaneCode::Plain(Op::Rcp) => one::<L>(a, out, |a| l.rcp(a)),
+        LaneCode::Plain(Op::Rsq) => one::<L>(a, out, |a| l.rsq(a)),
+        LaneCode::Plain(Op::Exp2) => one::<L>(a, out, |a| l.exp2(a)),
+        LaneCode::Plain(Op::Log2) => one::<L>(a, out, |a| l.log2(a)),
+        LaneCode::Plain(Op::Saturate) => one::<L>(a, out, |a| l.saturate(a)),
+        LaneCode::Immediate(Op::Scale, shift) => {
             let shift = i32::from(shift);
             one::<L>(a, out, |a| l.scale(a, shift));
         }
-        NodeOperation::Factor => two::<L>(a, b, out, |a, b| l.factor(a, b)),
-        NodeOperation::SelectNonNegative => {
+        LaneCode::Plain(Op::Factor) => two::<L>(a, b, out, |a, b| l.factor(a, b)),
+        LaneCode::Plain(Op::SelectNonNegative) => {
             let zero = L::load(0);
             three::<L>(a, b, c, out, |a, b, c| if l.le(zero, a) { b } else { c });
         }
-        NodeOperation::SelectAboveHalf => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
-        NodeOperation::Less => compare::<L>(a, b, out, |a, b| l.lt(a, b)),
-        NodeOperation::LessEqual => compare::<L>(a, b, out, |a, b| l.le(a, b)),
-        NodeOperation::Equal => compare::<L>(a, b, out, |a, b| l.eq(a, b)),
-        NodeOperation::OrLess => or_less(l, a, b, c, out),
-        NodeOperation::DifferenceX => difference(l, a, out, 1),
-        NodeOperation::DifferenceY => difference(l, a, out, 16),
-        NodeOperation::AddressFloor => {
+        LaneCode::Plain(Op::SelectAboveHalf) => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
+        LaneCode::Plain(Op::Less) => compare::<L>(a, b, out, |a, b| l.lt(a, b)),
+        LaneCode::Plain(Op::LessEqual) => compare::<L>(a, b, out, |a, b| l.le(a, b)),
+        LaneCode::Plain(Op::Equal) => compare::<L>(a, b, out, |a, b| l.eq(a, b)),
+        LaneCode::OrLess => or_less(l, a, b, c, out),
+        LaneCode::Neighbors(false) => difference(l, a, out, 1),
+        LaneCode::Neighbors(true) => difference(l, a, out, 16),
+        LaneCode::Plain(Op::AddressFloor) => {
             for i in 0..LANES {
                 out[i] = address(l.to_f64(l.floor(L::load(a[i]))).trunc());
             }
         }
-        NodeOperation::AddressNearest => {
+        LaneCode::Plain(Op::AddressNearest) => {
             for i in 0..LANES {
                 let integer = l.to_f64(L::load(a[i])).round_ties_even();
                 out[i] = address(l.to_f64(l.round_f64(integer)).trunc());
             }
         }
-        NodeOperation::Widen => {
+        LaneCode::Widen => {
             widen(l, a, wide);
             return;
         }
-        NodeOperation::Narrow => {
+        LaneCode::Narrow => {
             narrow(l, wide, out);
         }
-        NodeOperation::JoinPattern(shift) => {
+        LaneCode::Immediate(Op::JoinPattern, shift) => {
             for i in 0..LANES {
                 out[i] = a[i] | (l.encode(L::load(b[i])) & 0xffff) << shift;
             }
         }
-        NodeOperation::JoinShort(shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 65535.0)),
-        NodeOperation::JoinByte(shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 255.0)),
-        NodeOperation::JoinSignedByte(shift) => join::<L>(a, b, out, shift, |x| signed(l.to_f64(x))),
-        NodeOperation::SplitPattern(shift) => split::<L>(a, out, |word| l.decode(word >> shift & 0xffff)),
-        NodeOperation::SplitShort(shift) => {
+        LaneCode::Immediate(Op::JoinShort, shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 65535.0)),
+        LaneCode::Immediate(Op::JoinByte, shift) => join::<L>(a, b, out, shift, |x| unsigned(l.to_f64(x), 255.0)),
+        LaneCode::Immediate(Op::JoinSignedByte, shift) => join::<L>(a, b, out, shift, |x| signed(l.to_f64(x))),
+        LaneCode::Immediate(Op::SplitPattern, shift) => split::<L>(a, out, |word| l.decode(word >> shift & 0xffff)),
+        LaneCode::Immediate(Op::SplitShort, shift) => {
             split::<L>(a, out, |word| l.round_f64(fraction(word >> shift & 0xffff, 65535.0)))
         }
-        NodeOperation::SplitByte(shift) => {
+        LaneCode::Immediate(Op::SplitByte, shift) => {
             split::<L>(a, out, |word| l.round_f64(fraction(word >> shift & 0xff, 255.0)))
         }
-        NodeOperation::SplitSignedByte(shift) => split::<L>(a, out, |word| {
+        LaneCode::Immediate(Op::SplitSignedByte, shift) => split::<L>(a, out, |word| {
             let k = word >> shift & 0xff;
             let magnitude = fraction(k.abs_diff(128), 127.0);
             l.round_f64(if k < 128 { -magnitude } else { magnitude })
         }),
-        NodeOperation::ToBits => {
+        LaneCode::Plain(Op::Encode) => {
             for i in 0..LANES {
                 out[i] = l.encode(L::load(a[i]));
             }
         }
-        NodeOperation::FromBits => split::<L>(a, out, |word| l.decode(word)),
-        NodeOperation::Select => {
+        LaneCode::Plain(Op::Decode) => split::<L>(a, out, |word| l.decode(word)),
+        LaneCode::Plain(Op::Select) => {
             select(a, b, c, out);
         }
-        NodeOperation::And => bitwise(a, b, out, |a, b| a & b),
-        NodeOperation::Or => bitwise(a, b, out, |a, b| a | b),
-        NodeOperation::AndNot => bitwise(a, b, out, |a, b| !a & b),
-        // Carried out by the caller.
-        NodeOperation::Dot(_) | NodeOperation::Sum(_) | NodeOperation::SumBy(_) | NodeOperation::Difference => {}
+        LaneCode::Plain(Op::And) => bitwise(a, b, out, |a, b| a & b),
+        LaneCode::Plain(Op::Or) => bitwise(a, b, out, |a, b| a | b),
+        LaneCode::Plain(Op::AndNot) => bitwise(a, b, out, |a, b| !a & b),
+        LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
+        // Carried out by the caller, or by steps of their own.
+        LaneCode::Dot(_) | LaneCode::Sum(_) | LaneCode::SumBy(_) | LaneCode::Difference => {}
+        LaneCode::Plain(_) | LaneCode::Immediate(..) => {}
     }
     slots.commit(op.to);
 }

@@ -8,7 +8,7 @@ pub(crate) fn join<L: Lane>(
     words: &LaneRow,
     values: &LaneRow,
     out: &mut LaneRow,
-    shift: u8,
+    shift: i8,
     part: impl Fn(L::T) -> u32,
 ) {
     for i in 0..LANES {

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::code::{LaneOp, OPERANDS};
+use super::code::{LaneCode, LaneOp, OPERANDS};
 use super::fuse::{Fused, Fusion};
-use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, NodeOperation, Slot};
+use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, Slot};
 
 /// A texture read with its operands in slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -261,8 +261,7 @@ impl Scheduler<'_> {
     }
 
     fn lane_op(&mut self, arith: Arith, op: LaneOp) {
-        let neutral =
-            matches!(op.code, NodeOperation::Select | NodeOperation::And | NodeOperation::Or | NodeOperation::AndNot);
+        let neutral = matches!(op.code, LaneCode::Plain(operation) if operation.is_of_masks());
         match self.block.steps.last_mut() {
             Some(BatchStep::Lanes(last, ops)) if *last == arith || neutral => ops.push(op),
             _ => self.block.steps.push(BatchStep::Lanes(arith, vec![op])),
@@ -279,8 +278,8 @@ impl Scheduler<'_> {
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
-                self.lane_op(from, LaneOp { code: NodeOperation::Widen, to, args: [a; OPERANDS] });
-                self.lane_op(target, LaneOp { code: NodeOperation::Narrow, to, args: [a; OPERANDS] });
+                self.lane_op(from, LaneOp { code: LaneCode::Widen, to, args: [a; OPERANDS] });
+                self.lane_op(target, LaneOp { code: LaneCode::Narrow, to, args: [a; OPERANDS] });
             }
             NodeKind::Steps(steps, a) => {
                 let from = self.at(a);
@@ -288,7 +287,7 @@ impl Scheduler<'_> {
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(BatchStep::Unorm { steps, from });
-                self.lane_op(Arith::Main, LaneOp { code: NodeOperation::Narrow, to, args: [from; OPERANDS] });
+                self.lane_op(Arith::Main, LaneOp { code: LaneCode::Narrow, to, args: [from; OPERANDS] });
             }
             NodeKind::Circle(arith, sine, a) => {
                 let from = self.at(a);
@@ -322,6 +321,7 @@ impl Scheduler<'_> {
             }
             // Leaves have their places, texels got theirs with the read.
             NodeKind::Compute(..)
+            | NodeKind::Difference(..)
             | NodeKind::Dot(..)
             | NodeKind::Texel(..)
             | NodeKind::Constant(_)

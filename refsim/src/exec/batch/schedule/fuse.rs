@@ -3,20 +3,21 @@
 
 use std::collections::BTreeMap;
 
-use super::code::OPERANDS;
-use crate::exec::lower::{Arith, Graph, NodeId, NodeKind, NodeOperation};
+use super::code::{LaneCode, OPERANDS};
+use crate::exec::lower::{Arith, Graph, NodeId, NodeKind};
+use crate::num::NumberOperation;
 
 /// An operation as it is carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fused {
     pub(crate) arith: Arith,
-    pub(crate) code: NodeOperation,
+    pub(crate) code: LaneCode,
     /// As many as the code's arity says.
     pub(crate) args: [NodeId; OPERANDS],
 }
 
 impl Fused {
-    fn new(arith: Arith, code: NodeOperation, operands: &[NodeId]) -> Self {
+    fn new(arith: Arith, code: LaneCode, operands: &[NodeId]) -> Self {
         let mut args = [operands[0]; OPERANDS];
         args[..operands.len()].copy_from_slice(operands);
         Self { arith, code, args }
@@ -30,10 +31,8 @@ impl Fused {
     /// Whether the operand is read as a number that all lanes share, and not as a row.
     pub(crate) fn is_shared(&self, operand: usize) -> bool {
         match self.code {
-            NodeOperation::SumBy(_) => operand.is_multiple_of(2),
-            NodeOperation::AddTo | NodeOperation::SubFrom | NodeOperation::SubOff | NodeOperation::MadBy => {
-                operand == 0
-            }
+            LaneCode::SumBy(_) => operand.is_multiple_of(2),
+            LaneCode::AddTo | LaneCode::SubFrom | LaneCode::SubOff | LaneCode::MadBy => operand == 0,
             _ => false,
         }
     }
@@ -97,10 +96,14 @@ impl<'g> Fusion<'g> {
 
     fn decide(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let plain = match self.graph.kind(node) {
-            NodeKind::Compute(arith, code, args) => Fused::new(arith, code, &args[..code.arity()]),
+            NodeKind::Compute(arith, operation, args) => {
+                let code = self.code(operation, &args);
+                Fused::new(arith, code, &args[..code.arity()])
+            }
+            NodeKind::Difference(arith, down, a) => Fused::new(arith, LaneCode::Neighbors(down), &[a]),
             NodeKind::Dot(arith, terms, a, b) => {
                 let pairs: Vec<NodeId> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
-                Fused::new(arith, NodeOperation::Dot(terms), &pairs)
+                Fused::new(arith, LaneCode::Dot(terms), &pairs)
             }
             _ => return,
         };
@@ -108,30 +111,42 @@ impl<'g> Fusion<'g> {
         self.fused.insert(node, fused);
     }
 
+    /// An operation of the table with its immediate, if it has one.
+    fn code(&self, operation: NumberOperation, args: &[NodeId; 3]) -> LaneCode {
+        match self.graph.kind(args[operation.operands() - 1]) {
+            NodeKind::Constant(word) if operation.has_immediate() => LaneCode::Immediate(operation, word as i8),
+            _ => LaneCode::Plain(operation),
+        }
+    }
+
     /// The operation with one of its operands made part of it.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         match plain.code {
-            NodeOperation::Mad => {
+            LaneCode::Plain(NumberOperation::Mad) => {
                 if let Some(products) = self.products(k, args[2], given) {
                     return sum(k, &products, &[args[0], args[1]]);
                 }
                 // a b - c d
-                let negated = self.part(k, args[2], given).filter(|part| part.code == NodeOperation::Neg)?;
-                let product = self.part(k, negated.args[0], given).filter(|part| part.code == NodeOperation::Mul)?;
-                Some(Fused::new(k, NodeOperation::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
+                let negated =
+                    self.part(k, args[2], given).filter(|part| part.code == LaneCode::Plain(NumberOperation::Neg))?;
+                let product = self
+                    .part(k, negated.args[0], given)
+                    .filter(|part| part.code == LaneCode::Plain(NumberOperation::Mul))?;
+                Some(Fused::new(k, LaneCode::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
             }
-            NodeOperation::Add => {
+            LaneCode::Plain(NumberOperation::Add) => {
                 let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
                 if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
             }
-            NodeOperation::Or => {
-                let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == NodeOperation::Less);
+            LaneCode::Plain(NumberOperation::Or) => {
+                let less =
+                    |n: NodeId| self.alone(n, given).filter(|part| part.code == LaneCode::Plain(NumberOperation::Less));
                 let (mask, part) = match less(args[1]) {
                     Some(part) => (args[0], part),
                     None => (args[1], less(args[0])?),
                 };
-                Some(Fused::new(part.arith, NodeOperation::OrLess, &[mask, part.args[0], part.args[1]]))
+                Some(Fused::new(part.arith, LaneCode::OrLess, &[mask, part.args[0], part.args[1]]))
             }
             _ => None,
         }
@@ -151,15 +166,14 @@ impl<'g> Fusion<'g> {
     /// The factors of the products behind an operand that nothing else reads.
     fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
         let part = self.part(arith, node, given)?;
-        matches!(part.code, NodeOperation::Mul | NodeOperation::Sum(_)).then(|| part.operands().to_vec())
+        matches!(part.code, LaneCode::Plain(NumberOperation::Mul) | LaneCode::Sum(_)).then(|| part.operands().to_vec())
     }
 }
 
 /// Products and one more; `None` if there are too many.
 fn sum(arith: Arith, products: &[NodeId], last: &[NodeId]) -> Option<Fused> {
     let all = [products, last].concat();
-    (last.len() == 2 && all.len() <= OPERANDS)
-        .then(|| Fused::new(arith, NodeOperation::Sum((all.len() / 2) as u8), &all))
+    (last.len() == 2 && all.len() <= OPERANDS).then(|| Fused::new(arith, LaneCode::Sum((all.len() / 2) as u8), &all))
 }
 
 /// The operation with its shared operands read as numbers, where there is one that does.
@@ -167,7 +181,7 @@ fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
     let of = |code, operands: &[NodeId]| Fused::new(k, code, operands);
     match fused.code {
-        NodeOperation::Mul | NodeOperation::Sum(_) => {
+        LaneCode::Plain(NumberOperation::Mul) | LaneCode::Sum(_) => {
             let mut sorted = *fused;
             for pair in sorted.args.chunks_exact_mut(2) {
                 if !shared(pair[0]) {
@@ -176,14 +190,14 @@ fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
             }
             let terms = fused.code.arity() / 2;
             let all = (0..terms).all(|i| shared(sorted.args[2 * i]));
-            if all { Fused { code: NodeOperation::SumBy(terms as u8), ..sorted } } else { *fused }
+            if all { Fused { code: LaneCode::SumBy(terms as u8), ..sorted } } else { *fused }
         }
-        NodeOperation::Add if shared(args[0]) => of(NodeOperation::AddTo, &args[..2]),
-        NodeOperation::Add if shared(args[1]) => of(NodeOperation::AddTo, &[args[1], args[0]]),
-        NodeOperation::Sub if shared(args[0]) => of(NodeOperation::SubFrom, &args[..2]),
-        NodeOperation::Sub if shared(args[1]) => of(NodeOperation::SubOff, &[args[1], args[0]]),
-        NodeOperation::Mad if shared(args[0]) => of(NodeOperation::MadBy, &args[..3]),
-        NodeOperation::Mad if shared(args[1]) => of(NodeOperation::MadBy, &[args[1], args[0], args[2]]),
+        LaneCode::Plain(NumberOperation::Add) if shared(args[0]) => of(LaneCode::AddTo, &args[..2]),
+        LaneCode::Plain(NumberOperation::Add) if shared(args[1]) => of(LaneCode::AddTo, &[args[1], args[0]]),
+        LaneCode::Plain(NumberOperation::Sub) if shared(args[0]) => of(LaneCode::SubFrom, &args[..2]),
+        LaneCode::Plain(NumberOperation::Sub) if shared(args[1]) => of(LaneCode::SubOff, &[args[1], args[0]]),
+        LaneCode::Plain(NumberOperation::Mad) if shared(args[0]) => of(LaneCode::MadBy, &args[..3]),
+        LaneCode::Plain(NumberOperation::Mad) if shared(args[1]) => of(LaneCode::MadBy, &[args[1], args[0], args[2]]),
         _ => *fused,
     }
 }

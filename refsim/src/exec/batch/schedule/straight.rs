@@ -10,9 +10,7 @@ use std::collections::BTreeMap;
 
 use super::block::{ResultSlots, StepBlock, schedule};
 use crate::device::Rules;
-use crate::exec::lower::{
-    Detail, Ends, Formats, Graph, NodeId, NodeKind, NodeOperation, Slot, Translator, translate_straight,
-};
+use crate::exec::lower::{Detail, Ends, Formats, Graph, NodeId, NodeKind, Slot, Translator, translate_straight};
 use crate::exec::{PixelBindings, ResolvedConstants};
 use crate::isa::Program;
 use crate::raster::ComponentMask;
@@ -111,7 +109,7 @@ impl StraightProgram {
 /// Whether a program takes differences across quads, for itself or to choose a texture's level of detail.
 fn looks_at_neighbours(graph: &Graph, bindings: &PixelBindings<'_>) -> bool {
     (0..graph.len() as u32).any(|i| match graph.kind(NodeId(i)) {
-        NodeKind::Compute(_, NodeOperation::DifferenceX | NodeOperation::DifferenceY, _) => true,
+        NodeKind::Difference(..) => true,
         NodeKind::Fetch(sampler, _, Detail::Implicit | Detail::Biased(_)) => {
             let binding = bindings.samplers.get(usize::from(sampler)).and_then(Option::as_ref);
             binding.is_some_and(|b| b.needs_detail())

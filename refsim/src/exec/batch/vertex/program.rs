@@ -15,12 +15,12 @@ use crate::exec::batch::run::{
 use crate::exec::batch::schedule::{FlowPlan, StepBlock, schedule};
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{
-    Arith, CONSTANT_INPUTS, Effect, Formats, NodeId, NodeOperation, RegisterComponent, Slot, Translator, has_flow,
+    Arith, CONSTANT_INPUTS, Effect, Formats, NodeId, RegisterComponent, Slot, Translator, has_flow,
     translate_instruction,
 };
 use crate::exec::{Constants, ResolvedConstants};
 use crate::isa::{Program, RegisterFile};
-use crate::num::Format;
+use crate::num::{Format, NumberOperation};
 use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
 
 /// Vertices that one worker takes at a time; no more than that, and nobody is woken up for them.
@@ -344,7 +344,7 @@ fn straight(
         .map(|place| {
             let value = t.registers.get(&place).copied().unwrap_or(zero);
             let value = match place.0 {
-                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, NodeOperation::Saturate, value),
+                RegisterFile::DiffuseOut => t.make.unary(Arith::Main, NumberOperation::Saturate, value),
                 _ => value,
             };
             t.make.convert(Arith::Main, Arith::Single, value)

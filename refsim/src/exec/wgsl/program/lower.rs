@@ -4,11 +4,12 @@ use crate::device::Rules;
 use crate::exec::budget::loop_counter;
 use crate::exec::lower::{
     ACTIVE, Arith, DECIDED, Effect, Ends, Formats, Graph, KILLED, MaskedInstruction, MaskedProgram, NodeId, NodeKind,
-    NodeOperation, RegisterComponent, Slot, TRUE, Translator, has_flow, translate_instruction, translate_straight,
+    RegisterComponent, Slot, TRUE, Translator, has_flow, translate_instruction, translate_straight,
 };
 use crate::exec::usage::registers_delivered;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
+use crate::num::NumberOperation;
 use std::collections::BTreeMap;
 
 /// What becomes of values.
@@ -240,7 +241,7 @@ fn output_sinks(
     for (word, place) in (0u16..).zip(places) {
         let Some(mut node) = held(t, place) else { continue };
         if place.0 == RegisterFile::DiffuseOut {
-            node = t.make.unary(Arith::Main, NodeOperation::Saturate, node);
+            node = t.make.unary(Arith::Main, NumberOperation::Saturate, node);
         }
         let single = t.make.convert(Arith::Main, Arith::Single, node);
         sinks.push(Sink::new(Use::Output(word), [single]));
@@ -295,7 +296,7 @@ fn merges(
     for (&root, &to) in part.roots.iter().zip(&part.to) {
         let old = t.make.graph.node(NodeKind::Held(to));
         match t.make.graph.kind(root) {
-            NodeKind::Compute(_, NodeOperation::Select, [mask, value, kept]) if kept == old => {
+            NodeKind::Compute(_, NumberOperation::Select, [mask, value, kept]) if kept == old => {
                 values.push(value);
                 masks.push(mask);
                 sinks.push(Sink::new(Use::Merge(to), [value, mask]));

@@ -1,11 +1,11 @@
 //! Programs as words for the machine of `vm.wgsl`, which says what they mean.
 
 use super::ProgramError;
-use super::codes::{immediate, operation};
 use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Use};
 use super::operations as op;
-use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, NodeOperation, Slot};
-use crate::exec::wgsl::number::{Operation, source_word};
+use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, Slot};
+use crate::exec::wgsl::number::source_word;
+use crate::num::NumberOperation;
 use std::collections::BTreeMap;
 
 /// Operands from here on are constants, then input components.
@@ -249,13 +249,18 @@ impl Assembler<'_> {
                 self.words.push(op::DOT | k.number() << 8 | u32::from(terms) << 16);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
+            NodeKind::Difference(k, down, a) => {
+                let (a, quad) = (places.of(a), if down { 2 } else { 1 });
+                let to = self.result(node, places);
+                self.emit(op::ALU | k.number() << 8 | quad << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
+            }
             NodeKind::Convert(from, into, a) => {
                 let source = self.constant(source_word(&self.formats.format(from)));
-                self.alu(node, into, Operation::Convert, [places.of(a), source, source], places);
+                self.alu(node, into, NumberOperation::Convert, [places.of(a), source, source], places);
             }
             NodeKind::Steps(steps, a) => {
                 let steps = self.constant(steps);
-                self.alu(node, Arith::Main, Operation::Steps, [places.of(a), steps, steps], places);
+                self.alu(node, Arith::Main, NumberOperation::Steps, [places.of(a), steps, steps], places);
             }
             NodeKind::Relative(base, component, a) => {
                 let a = places.of(a);
@@ -265,41 +270,32 @@ impl Assembler<'_> {
             NodeKind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
             NodeKind::Circle(k, sine, a) => {
                 let a = places.of(a);
-                self.alu(node, k, if sine { Operation::Sin } else { Operation::Cos }, [a; 3], places);
+                self.alu(node, k, if sine { NumberOperation::Sin } else { NumberOperation::Cos }, [a; 3], places);
             }
             NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
         }
     }
 
-    fn alu(&mut self, node: NodeId, k: Arith, operation: Operation, args: [u16; 3], places: &mut Places) {
+    fn alu(&mut self, node: NodeId, k: Arith, operation: NumberOperation, args: [u16; 3], places: &mut Places) {
         let to = self.result(node, places);
         self.emit(op::ALU | k.number() << 8 | operation.word() << 16, to, args);
     }
 
-    fn compute(&mut self, node: NodeId, k: Arith, code: NodeOperation, args: [u16; 3], places: &mut Places) {
-        let a = args[0];
+    fn compute(&mut self, node: NodeId, k: Arith, code: NumberOperation, args: [u16; 3], places: &mut Places) {
         match code {
-            NodeOperation::And | NodeOperation::Or | NodeOperation::AndNot | NodeOperation::Select => {
+            NumberOperation::And | NumberOperation::Or | NumberOperation::AndNot | NumberOperation::Select => {
                 let variant = match code {
-                    NodeOperation::And => op::AND,
-                    NodeOperation::Or => op::OR,
-                    NodeOperation::AndNot => op::AND_NOT,
+                    NumberOperation::And => op::AND,
+                    NumberOperation::Or => op::OR,
+                    NumberOperation::AndNot => op::AND_NOT,
                     _ => op::SELECT,
                 };
                 let to = self.result(node, places);
                 self.bitwise(variant, to, args);
             }
-            NodeOperation::DifferenceX | NodeOperation::DifferenceY => {
-                let quad = if code == NodeOperation::DifferenceX { 1 } else { 2 };
-                let to = self.result(node, places);
-                self.emit(op::ALU | k.number() << 8 | quad << 12 | Operation::Sub.word() << 16, to, [a; 3]);
-            }
             _ => {
-                if let Some(operation) = operation(code) {
-                    let rest = immediate(code).map_or(a, |word| self.constant(word));
-                    let args: [u16; 3] = std::array::from_fn(|i| if i < code.arity() { args[i] } else { rest });
-                    self.alu(node, k, operation, args, places);
-                }
+                let args = std::array::from_fn(|i| if i < code.operands() { args[i] } else { args[0] });
+                self.alu(node, k, code, args, places);
             }
         }
     }

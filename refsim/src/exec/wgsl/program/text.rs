@@ -1,10 +1,9 @@
 //! Programs without flow control written out as WGSL: a statement a value.
 
-use super::codes::{immediate, operation};
 use super::lower::{Body, Lowered, Sink, Use};
-use crate::exec::lower::{Arith, Detail, NodeId, NodeKind, NodeOperation};
-use crate::exec::wgsl::number::{NativeOperations, NumberMode, Operation, format_words, source_word};
-use crate::num::Format;
+use crate::exec::lower::{Arith, Detail, NodeId, NodeKind};
+use crate::exec::wgsl::number::{NativeOperations, NumberMode, format_words, source_word};
+use crate::num::{Format, NumberOperation};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -96,7 +95,7 @@ impl Writer<'_> {
         !self.native.is_empty() && self.program.formats.format(k) == Format::FP32
     }
 
-    fn soft(&mut self, operation: Operation, k: Arith, args: [&str; 3]) -> String {
+    fn soft(&mut self, operation: NumberOperation, k: Arith, args: [&str; 3]) -> String {
         self.soft_calls += 1;
         format!("p_alu({}, {}, {})", operation.constant(), name(k), args.join(", "))
     }
@@ -105,12 +104,13 @@ impl Writer<'_> {
         let value = match self.program.graph.kind(node) {
             NodeKind::Constant(_) | NodeKind::Held(_) => return,
             NodeKind::Circle(k, sine, a) => {
-                let operation = if sine { Operation::Sin } else { Operation::Cos };
+                let operation = if sine { NumberOperation::Sin } else { NumberOperation::Cos };
                 self.soft(operation, k, [&v(a), &v(a), &v(a)])
             }
             NodeKind::Input(component) => format!("q_input[{component}]"),
             NodeKind::Texel(fetch, component) => format!("t{}[{component}]", fetch.0),
-            NodeKind::Compute(k, code, args) => self.compute(k, code, args.map(v)),
+            NodeKind::Compute(k, code, args) => self.compute(k, code, args),
+            NodeKind::Difference(k, down, a) => self.difference(k, down, &v(a)),
             NodeKind::Dot(k, terms, a, b) => {
                 self.soft_calls += 1;
                 let [a, b] = [a, b].map(|x| {
@@ -122,11 +122,11 @@ impl Writer<'_> {
             }
             NodeKind::Convert(from, into, a) => {
                 let source = format!("vec4<u32>({}u)", source_word(&self.program.formats.format(from)));
-                self.soft(Operation::Convert, into, [&v(a), &source, &source])
+                self.soft(NumberOperation::Convert, into, [&v(a), &source, &source])
             }
             NodeKind::Steps(steps, a) => {
                 let steps = format!("vec4<u32>({steps}u)");
-                self.soft(Operation::Steps, Arith::Main, [&v(a), &steps, &steps])
+                self.soft(NumberOperation::Steps, Arith::Main, [&v(a), &steps, &steps])
             }
             NodeKind::Relative(base, component, a) => {
                 let count = self.program.table.len();
@@ -153,38 +153,33 @@ impl Writer<'_> {
         format!("texture_read({sampler}u, {coordinates}, {number}u, {bias}, array<vec4<u32>, 8>({gradients}), q_run)")
     }
 
-    fn compute(&mut self, k: Arith, code: NodeOperation, [a, b, c]: [String; 3]) -> String {
+    fn compute(&mut self, k: Arith, code: NumberOperation, args: [NodeId; 3]) -> String {
+        let [a, b, c] = args.map(v);
         match code {
-            NodeOperation::And => return format!("{a} & {b}"),
-            NodeOperation::Or => return format!("{a} | {b}"),
-            NodeOperation::AndNot => return format!("{b} & ~{a}"),
-            NodeOperation::Select => return format!("p_select({a}, {b}, {c})"),
+            NumberOperation::And => return format!("{a} & {b}"),
+            NumberOperation::Or => return format!("{a} | {b}"),
+            NumberOperation::AndNot => return format!("{b} & ~{a}"),
+            NumberOperation::Select => return format!("p_select({a}, {b}, {c})"),
             _ => {}
         }
-        if let Some(native) = self.own(k, code, [&a, &b, &c]) {
+        if let Some(native) = self.own(k, code, args) {
             return native;
         }
-        match code {
-            NodeOperation::DifferenceX => {
-                self.soft(Operation::Sub, k, [&format!("{a}.yyww"), &format!("{a}.xxzz"), &a])
-            }
-            NodeOperation::DifferenceY => {
-                self.soft(Operation::Sub, k, [&format!("{a}.zwzw"), &format!("{a}.xyxy"), &a])
-            }
-            _ => match operation(code) {
-                Some(operation) => {
-                    let rest = immediate(code).map_or_else(|| a.clone(), |word| format!("vec4<u32>({word}u)"));
-                    let args = [&a, &b, &c];
-                    let args = std::array::from_fn(|i| if i < code.arity() { args[i].as_str() } else { &rest });
-                    self.soft(operation, k, args)
-                }
-                None => a,
-            },
+        let args = [&a, &b, &c];
+        self.soft(code, k, std::array::from_fn(|i| if i < code.operands() { args[i].as_str() } else { &a }))
+    }
+
+    fn difference(&mut self, k: Arith, down: bool, a: &str) -> String {
+        let [upper, lower] = if down { [".xyxy", ".zwzw"] } else { [".xxzz", ".yyww"] }.map(|of| format!("{a}{of}"));
+        if self.is_native(k) && self.native.contains(NativeOperations::ADD) {
+            return format!("p_sub({lower}, {upper})");
         }
+        self.soft(NumberOperation::Sub, k, [&lower, &upper, a])
     }
 
     /// An operation in the device's own single precision, if it is exact there.
-    fn own(&self, k: Arith, code: NodeOperation, [a, b, c]: [&str; 3]) -> Option<String> {
+    fn own(&self, k: Arith, code: NumberOperation, args: [NodeId; 3]) -> Option<String> {
+        let [a, b, c] = args.map(v);
         if !self.is_native(k) {
             return None;
         }
@@ -192,30 +187,29 @@ impl Writer<'_> {
         let (add, multiply) = (has(NativeOperations::ADD), has(NativeOperations::MUL));
         let floor = has(NativeOperations::FLOOR);
         Some(match code {
-            NodeOperation::Add if add => format!("p_add({a}, {b})"),
-            NodeOperation::Sub if add => format!("p_sub({a}, {b})"),
-            NodeOperation::Mul if multiply => format!("p_mul({a}, {b})"),
-            NodeOperation::Mad if add && multiply => format!("p_add(p_mul({a}, {b}), {c})"),
-            NodeOperation::Div if has(NativeOperations::DIV) => format!("p_div({a}, {b})"),
-            NodeOperation::Rcp if has(NativeOperations::DIV) => format!("p_div(vec4<u32>(0x3f800000u), {a})"),
-            NodeOperation::Floor if floor => format!("p_floor({a})"),
-            NodeOperation::Frc if floor && add => format!("p_sub({a}, p_floor({a}))"),
-            NodeOperation::Scale(shift) if multiply => {
-                format!("p_mul({a}, vec4<u32>({}u))", (127 + i32::from(shift)) << 23)
-            }
-            NodeOperation::DifferenceX if add => format!("p_sub({a}.yyww, {a}.xxzz)"),
-            NodeOperation::DifferenceY if add => format!("p_sub({a}.zwzw, {a}.xyxy)"),
-            NodeOperation::Min => format!("p_min({a}, {b})"),
-            NodeOperation::Max => format!("p_max({a}, {b})"),
-            NodeOperation::Neg => format!("p_neg({a})"),
-            NodeOperation::Abs => format!("p_abs({a})"),
-            NodeOperation::Saturate => format!("p_saturate({a})"),
-            NodeOperation::Factor => format!("p_factor({a}, {b})"),
-            NodeOperation::SelectNonNegative => format!("p_non_negative({a}, {b}, {c})"),
-            NodeOperation::SelectAboveHalf => format!("p_above_half({a}, {b}, {c})"),
-            NodeOperation::Less => format!("p_less({a}, {b})"),
-            NodeOperation::LessEqual => format!("p_less_equal({a}, {b})"),
-            NodeOperation::Equal => format!("p_equal({a}, {b})"),
+            NumberOperation::Add if add => format!("p_add({a}, {b})"),
+            NumberOperation::Sub if add => format!("p_sub({a}, {b})"),
+            NumberOperation::Mul if multiply => format!("p_mul({a}, {b})"),
+            NumberOperation::Mad if add && multiply => format!("p_add(p_mul({a}, {b}), {c})"),
+            NumberOperation::Div if has(NativeOperations::DIV) => format!("p_div({a}, {b})"),
+            NumberOperation::Rcp if has(NativeOperations::DIV) => format!("p_div(vec4<u32>(0x3f800000u), {a})"),
+            NumberOperation::Floor if floor => format!("p_floor({a})"),
+            NumberOperation::Frc if floor && add => format!("p_sub({a}, p_floor({a}))"),
+            NumberOperation::Scale if multiply => match self.program.graph.kind(args[1]) {
+                NodeKind::Constant(power) => format!("p_mul({a}, vec4<u32>({}u))", (127 + power.cast_signed()) << 23),
+                _ => return None,
+            },
+            NumberOperation::Min => format!("p_min({a}, {b})"),
+            NumberOperation::Max => format!("p_max({a}, {b})"),
+            NumberOperation::Neg => format!("p_neg({a})"),
+            NumberOperation::Abs => format!("p_abs({a})"),
+            NumberOperation::Saturate => format!("p_saturate({a})"),
+            NumberOperation::Factor => format!("p_factor({a}, {b})"),
+            NumberOperation::SelectNonNegative => format!("p_non_negative({a}, {b}, {c})"),
+            NumberOperation::SelectAboveHalf => format!("p_above_half({a}, {b}, {c})"),
+            NumberOperation::Less => format!("p_less({a}, {b})"),
+            NumberOperation::LessEqual => format!("p_less_equal({a}, {b})"),
+            NumberOperation::Equal => format!("p_equal({a}, {b})"),
             _ => return None,
         })
     }
