@@ -10,9 +10,8 @@ use toml::Spanned;
 
 use super::{
     CaseError,
-    schema::Constant,
-    setup::{Binder, register},
-    value::Number,
+    binder::{Binder, register},
+    value::{Constant, Number},
 };
 
 /// Where a constant goes.

@@ -9,14 +9,14 @@ use refsim::{
         TextureId, VertexSource, VertexStreams,
     },
     output::{DepthSurface, MOST_TARGETS, WriteMask},
-    raster::{ClipSpace, Cull, PixelCenter, Vertex},
+    raster::{ClipSpace, PixelCenter, Vertex},
     texture::{Image, SamplerState},
 };
 
 use super::{
     CaseError, Setup,
-    schema::{self, Convention},
-    setup::Vertices,
+    schema::Convention,
+    vertices::Vertices,
 };
 
 /// A card with everything that a case puts into it.
@@ -190,11 +190,7 @@ fn draw_call<'a>(
     let call = DrawCall {
         center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
         clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
-        cull: match setup.geometry.cull {
-            schema::Cull::None => Cull::None,
-            schema::Cull::Clockwise => Cull::Clockwise,
-            schema::Cull::CounterClockwise => Cull::CounterClockwise,
-        },
+        cull: setup.geometry.cull,
         alpha_test: setup.alpha,
         depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
         blend: setup.blend,

@@ -8,8 +8,8 @@ use toml::Spanned;
 
 use super::{
     CaseError, CaseWarning,
-    schema::{self, Projected},
-    setup::Binder,
+    binder::Binder,
+    schema,
     value::Number,
 };
 
@@ -44,7 +44,7 @@ pub(super) fn bump(
 /// Sets the projection of the stage that reads a texture.
 pub(super) fn project(
     binder: &Binder<'_>,
-    projected: &Spanned<Projected>,
+    projected: &Spanned<Projection>,
     slot: u32,
     pixel: &Program,
     projections: &mut [Projection; BUMP_STAGES],
@@ -58,10 +58,7 @@ pub(super) fn project(
         let message = format!("expected a stage from 0 to {}, found slot {slot}", BUMP_STAGES - 1);
         return Err(binder.place.wrong(projected.span(), message, "only stages can be projected"));
     };
-    *stage = match projected.get_ref() {
-        Projected::Z => Projection::Z,
-        Projected::W => Projection::W,
-    };
+    *stage = *projected.get_ref();
     Ok(())
 }
 

@@ -2,11 +2,14 @@
 //! a room need each other in one direction; names and lines of documentation keep their bounds.
 
 mod circles;
+mod names;
 mod source;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+
+use circles::room;
+use source::{Crate, root};
 
 /// A crate's source folder, and for each room of it the rooms that it may name.
 type Law = (&'static str, &'static [(&'static str, &'static [&'static str])]);
@@ -73,83 +76,19 @@ const CROSSBAR: Law = (
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn rust_files(folder: &Path, into: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("the source folders can be read") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            rust_files(&path, into);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            into.push(path);
-        }
-    }
-}
-
-/// The first component below `source`, without `.rs`.
-fn room_of(path: &Path, source: &Path) -> String {
-    let relative = path.strip_prefix(source).expect("below the source folder");
-    let first = relative.components().next().expect("a component").as_os_str().to_string_lossy().into_owned();
-    first.trim_end_matches(".rs").to_owned()
-}
-
-/// The names that follow `prefix` in code (comments and doc links left out), `{a, b}` groups included.
-fn named_after(text: &str, prefix: &str) -> BTreeSet<String> {
-    let code: String = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-    let mut names = BTreeSet::new();
-    for (at, _) in code.match_indices(prefix) {
-        let preceded = code[..at].chars().next_back().is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$');
-        if preceded && !code[..at].ends_with('$') {
-            continue;
-        }
-        let rest = &code[at + prefix.len()..];
-        if let Some(group) = rest.strip_prefix('{') {
-            let mut depth = 0;
-            let mut start = true;
-            for (i, c) in group.char_indices() {
-                match c {
-                    '{' => depth += 1,
-                    '}' if depth == 0 => break,
-                    '}' => depth -= 1,
-                    ',' if depth == 0 => start = true,
-                    c if start && c.is_alphanumeric() => {
-                        names.insert(identifier(&group[i..]));
-                        start = false;
-                    }
-                    _ => {}
-                }
-            }
-        } else {
-            names.insert(identifier(rest));
-        }
-    }
-    names
-}
-
-fn identifier(text: &str) -> String {
-    text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-}
-
-fn violations((source, law): Law, crate_name: &str) -> Vec<String> {
-    let source = root().join(source);
-    let mut files = Vec::new();
-    rust_files(&source, &mut files);
+fn violations((folder, law): Law) -> Vec<String> {
+    let source = Crate::read(folder);
     let rooms: BTreeSet<&str> = law.iter().map(|(room, _)| *room).collect();
     let mut found = Vec::new();
-    for file in files {
-        let room = room_of(&file, &source);
+    for (module, it) in &source.modules {
+        let room = room(&it.file);
         let Some((_, allowed)) = law.iter().find(|(r, _)| *r == room) else {
-            found.push(format!("{}: room `{room}` is not in the law's table", file.display()));
+            found.push(format!("{}: room `{room}` is not in the law's table", it.file.display()));
             continue;
         };
-        let text = fs::read_to_string(&file).expect("a source file");
-        let mut used = named_after(&text, "crate::");
-        used.extend(named_after(&text, &format!("{crate_name}::")));
-        for name in used {
-            if rooms.contains(name.as_str()) && name != room && !allowed.contains(&name.as_str()) {
-                found.push(format!("{}: `{room}` uses `{name}`", file.display()));
+        for name in source.after(module, "crate") {
+            if rooms.contains(name) && name != room && !allowed.contains(&name) {
+                found.push(format!("{}: `{room}` uses `{name}`", it.file.display()));
             }
         }
     }
@@ -158,21 +97,17 @@ fn violations((source, law): Law, crate_name: &str) -> Vec<String> {
 
 #[test]
 fn rooms_use_only_what_stands_to_their_left() {
-    let mut found = violations(REFSIM, "refsim");
-    found.extend(violations(CROSSBAR, "crossbar"));
+    let found = [violations(REFSIM), violations(CROSSBAR)].concat();
     assert!(found.is_empty(), "the import law is broken:\n{}", found.join("\n"));
 }
 
 #[test]
 fn the_shared_ground_knows_nothing_of_cards() {
-    let source = root().join("src");
-    let mut files = Vec::new();
-    rust_files(&source, &mut files);
-    for file in files {
-        let room = room_of(&file, &source);
-        let text = fs::read_to_string(&file).expect("a source file");
-        let speaks = !named_after(&text, "refsim::").is_empty();
-        assert!(!speaks || SPEAKS_REFSIM.contains(&room.as_str()), "{}: `{room}` speaks refsim", file.display());
+    let source = Crate::read("src");
+    for (module, it) in &source.modules {
+        let speaks = source.after(module, "refsim").next().is_some();
+        let room = room(&it.file);
+        assert!(!speaks || SPEAKS_REFSIM.contains(&room.as_str()), "{}: `{room}` speaks refsim", it.file.display());
     }
 }
 
@@ -204,10 +139,9 @@ fn no_result_depends_on_dispatched_products() {
 }
 
 #[test]
-fn the_scanner_sees_groups_and_passes_over_comments() {
-    let names = named_after(
-        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nlet x = crate::asm::f();",
-        "crate::",
-    );
-    assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one in line");
+fn the_scanner_sees_groups_and_macros_and_passes_over_comments() {
+    let text = "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nfn f() { let x = vec![crate::asm::f()]; }";
+    let source = Crate::of_texts([("lib.rs".into(), text.to_owned())]);
+    let names: BTreeSet<&str> = source.after(&[], "crate").collect();
+    assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one from the macro");
 }

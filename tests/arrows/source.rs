@@ -23,6 +23,8 @@ struct Named {
 #[derive(Default)]
 pub(crate) struct Module {
     pub(crate) file: PathBuf,
+    /// Whether it is for tests only.
+    pub(crate) is_test: bool,
     named: Vec<Named>,
     /// Names of all items.
     items: BTreeSet<String>,
@@ -125,6 +127,12 @@ impl Crate {
         let mut sources = globs.filter_map(|glob| self.absolute(module, &glob.path, depth));
         let inside = sources.find(|glob| self.modules.get(glob).is_some_and(|glob| glob.items.contains(name)));
         inside.map_or(Some(&it.file), |glob| self.defining_file(&[&glob[..], rest].concat(), depth))
+    }
+
+    /// What a module names right after a prefix: after `crate`, the rooms that it uses.
+    pub(crate) fn after<'a>(&'a self, module: &[String], prefix: &'a str) -> impl Iterator<Item = &'a str> {
+        let named = self.modules[module].named.iter();
+        named.filter(move |named| named.path[0] == prefix).filter_map(|named| named.path.get(1).map(String::as_str))
     }
 
     /// The other files whose items a module names, with the names. A re-export counts only where its name is used.
@@ -241,11 +249,12 @@ impl<'ast> Visit<'ast> for Reader<'_> {
             attribute.path().is_ident("cfg")
                 && attribute.parse_args::<syn::Path>().is_ok_and(|only| only.is_ident("test"))
         });
-        if inner.content.is_none() || is_test {
+        if inner.content.is_none() {
             return;
         }
         let path = [&self.path[..], &[inner.ident.to_string()]].concat();
-        let module = Module { file: self.module.file.clone(), ..Module::default() };
+        let is_test = is_test || self.module.is_test;
+        let module = Module { file: self.module.file.clone(), is_test, ..Module::default() };
         let mut reader = Reader { modules: self.modules, path, module };
         visit::visit_item_mod(&mut reader, inner);
         reader.end();
@@ -254,6 +263,8 @@ impl<'ast> Visit<'ast> for Reader<'_> {
     fn visit_item_use(&mut self, import: &'ast syn::ItemUse) {
         self.leaves(&import.tree, Vec::new(), !matches!(import.vis, syn::Visibility::Inherited));
     }
+
+    fn visit_vis_restricted(&mut self, _: &'ast syn::VisRestricted) {}
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
         self.path(path.segments.iter().map(|segment| segment.ident.to_string()).collect());

@@ -31,7 +31,7 @@ mod vertex;
 pub use facts::{Checked, Facts};
 pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
 pub use report::{CheckReport, Violation, Warning};
-pub use rule::RuleId;
+pub use rule::{RuleId, WarningId};
 pub use slots::SlotCount;
 
 use crate::device::Profile;

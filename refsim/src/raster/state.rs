@@ -1,5 +1,7 @@
 //! The state of the rasteriser: viewport, conventions, culling, and what a device says about precision.
 
+use serde::Deserialize;
+
 use super::RasterError;
 use crate::device::Rules;
 use crate::num::Format;
@@ -91,7 +93,8 @@ pub enum ClipSpace {
 }
 
 /// Which triangles are left out, by their winding as seen with +y up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Cull {
     /// None.
     #[default]

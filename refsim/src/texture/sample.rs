@@ -1,5 +1,7 @@
 //! Samplers: from coordinates to a filtered value in the register format.
 
+use serde::Deserialize;
+
 use super::address::{AddressMode, cube_coordinates, linear_taps, nearest_index};
 use super::lod::Lod;
 use super::texel::ChannelValue;
@@ -9,7 +11,8 @@ use crate::device::Rules;
 use crate::num::{self, Format};
 
 /// How texels of one level are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// The texel that holds the point.
     #[default]
@@ -19,7 +22,8 @@ pub enum Filter {
 }
 
 /// How levels are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum MipFilter {
     /// Only the largest level allowed.
     #[default]

@@ -46,7 +46,7 @@ fn a_block_is_as_long_as_the_instructions_allow() {
     // 255 texels and three instructions more are 1023; 256 are too many.
     verdict(BLOCK + 1).unwrap();
     let report = verdict(BLOCK + 2).unwrap_err();
-    assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::V04]);
+    assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::TooManyInstructions]);
     assert!(report.violations[0].message.contains("1027"), "{report}");
     let work = ProgramWork::new(&program, FlowConstants::default());
     assert_eq!((work.texture_slots(), work.arithmetic_slots()), (2 * BLOCK as u64, 2 * BLOCK as u64 + 3));
