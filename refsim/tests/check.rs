@@ -56,7 +56,9 @@ fn ideal_devices_end_where_the_register_files_do() {
     let text = |r: u32, c: u32| format!("ps_2_a\ndef c{c}, 0.5, 0.25, 0.125, 1\nmov r{r}, c{c}\nmov oC0, r{r}");
     assert_eq!(rules(&text(31, 255)), []);
     assert!(rules(&text(32, 0)).iter().all(|rule| *rule == RuleId::NoSuchRegister) && !rules(&text(32, 0)).is_empty());
-    assert!(rules(&text(0, 256)).iter().all(|rule| *rule == RuleId::NoSuchRegister) && !rules(&text(0, 256)).is_empty());
+    assert!(
+        rules(&text(0, 256)).iter().all(|rule| *rule == RuleId::NoSuchRegister) && !rules(&text(0, 256)).is_empty()
+    );
     let last = running::run(&text(31, 255), &profile, &[]);
     assert_eq!(last.results[0].colors[0].map(f32::from_bits), [0.5, 0.25, 0.125, 1.0]);
 }
@@ -156,8 +158,16 @@ fn every_violation_is_reported_in_one_go() {
     let program = asm::assemble(text).unwrap();
     let report = check::check(program, &Profile::named("r200").unwrap()).unwrap_err();
     let broken: BTreeSet<RuleId> = report.violations.iter().map(|v| v.rule).collect();
-    for rule in [RuleId::UnsupportedInstruction, RuleId::RepeatedPhase, RuleId::NoSuchRegister, RuleId::UnwrittenRead, RuleId::UnwrittenResult, RuleId::InvalidDestination, RuleId::ColorReadInPhase1, RuleId::ArithmeticReadsCoordinates]
-    {
+    for rule in [
+        RuleId::UnsupportedInstruction,
+        RuleId::RepeatedPhase,
+        RuleId::NoSuchRegister,
+        RuleId::UnwrittenRead,
+        RuleId::UnwrittenResult,
+        RuleId::InvalidDestination,
+        RuleId::ColorReadInPhase1,
+        RuleId::ArithmeticReadsCoordinates,
+    ] {
         assert!(broken.contains(&rule), "{rule} is missing from {broken:?}");
     }
     assert!(report.violations.is_sorted_by_key(|v| v.span.start));

@@ -5,18 +5,14 @@ use std::path::{Path, PathBuf};
 use refsim::{device::Profile, num::Format};
 use toml::Spanned;
 
-use super::{
-    CaseError,
-    error::CaseText,
-    value::Number,
-};
+use super::{CaseError, error::CaseText, value::Number};
 
 /// What to put in place of what a case says about its device: to run one case on two cards, in two formats, or with two
 /// answers to an open question.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Instead of `device`, or of `shader_model` and `format`. Switches of the case that this device does not have are left
-    /// out.
+    /// Instead of `device`, or of `shader_model` and `format`. Switches of the case that this device does not have are
+    /// left out.
     pub device: Option<Profile>,
     /// Instead of the format of the pixel registers.
     pub format: Option<Format>,

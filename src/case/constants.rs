@@ -23,8 +23,8 @@ enum Home {
 }
 
 impl Binder<'_> {
-    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names that they
-    /// write, and those that they declare.
+    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names
+    /// that they write, and those that they declare.
     pub(super) fn constants(
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,

@@ -13,11 +13,7 @@ use refsim::{
     texture::{Image, SamplerState},
 };
 
-use super::{
-    CaseError, Setup,
-    schema::Convention,
-    vertices::Vertices,
-};
+use super::{CaseError, Setup, schema::Convention, vertices::Vertices};
 
 /// A card with everything that a case puts into it.
 #[derive(Debug)]

@@ -2,7 +2,8 @@
 //!
 //! A case passes through three hands. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
 //! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
-//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and the place in it. docs/cases.md describes the format.
+//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and
+//! the place in it. docs/cases.md describes the format.
 
 mod binder;
 mod constants;
@@ -27,7 +28,7 @@ pub use error::{CaseError, CaseWarning};
 pub use loaded::Loaded;
 pub use log::{log, log_observed};
 pub use probe::{Found, ProbeResult};
-pub use run::{Outcome, Picture, ShaderSlots, run};
+pub use run::{CaseOutcome, PictureFile, ShaderSlots, run};
 pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use trace::{PixelTrace, trace};

@@ -18,9 +18,9 @@ use crate::{
 
 /// What a case did.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// Every target, and the depth buffer, as a picture.
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<PictureFile>,
     /// The answers to the probes, in their order.
     pub probes: Vec<ProbeResult>,
     /// What happened, as counts.
@@ -31,7 +31,7 @@ pub struct Outcome {
 
 /// A file's name and contents.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub struct PictureFile {
     /// `target0.png` for example.
     pub name: String,
     /// The file.
@@ -51,7 +51,7 @@ pub struct ShaderSlots {
     pub cycles: Option<u64>,
 }
 
-impl Outcome {
+impl CaseOutcome {
     /// Whether every probe found what it expected.
     pub fn passed(&self) -> bool {
         self.probes.iter().all(|result| result.passed)
@@ -62,7 +62,7 @@ impl Outcome {
 ///
 /// # Errors
 /// If the device cannot do what the case asks, or a picture cannot be encoded.
-pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, CaseError> {
+pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;
     let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);
@@ -79,10 +79,10 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, Case
             .map(|&stored| f32::from_bits(surface.format().to_format(stored, Format::FP32)))
             .collect();
         let bytes = exr(width as usize, height as usize, &[("depth", Channel::Float(&values))])?;
-        pictures.push(Picture { name: "depth.exr".to_owned(), bytes });
+        pictures.push(PictureFile { name: "depth.exr".to_owned(), bytes });
     }
     let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
-    Ok(Outcome {
+    Ok(CaseOutcome {
         pictures,
         probes: setup.probes.iter().map(answer).collect(),
         events,
@@ -96,8 +96,8 @@ fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
 }
 
-/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all the
-/// time, memory for nothing.
+/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all
+/// the time, memory for nothing.
 fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
     let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);
@@ -105,7 +105,7 @@ fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> 
 }
 
 /// A target as PNG where its channels are unsigned fractions, else as EXR with the values as singles.
-fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<Picture, ReportError> {
+fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<PictureFile, ReportError> {
     let (width, height) = (target.width() as usize, target.height() as usize);
     let record = target.format().record();
     let texels = (0..target.height())
@@ -120,7 +120,7 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
             let samples: Vec<u8> = texels.flat_map(|texel| texel.0.map(|c| scaled(c, 255) as u8)).collect();
             picture::rgba8(width, height, &samples)?
         };
-        return Ok(Picture { name: format!("{stem}.png"), bytes });
+        return Ok(PictureFile { name: format!("{stem}.png"), bytes });
     }
     let values: Vec<[f32; 4]> = texels.map(|texel| texel.to_format(Format::FP32).map(f32::from_bits)).collect();
     let plane = |channel: usize| values.iter().map(|value| value[channel]).collect::<Vec<f32>>();
@@ -132,7 +132,7 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
         ("B", Channel::Float(blue)),
         ("A", Channel::Float(alpha)),
     ];
-    Ok(Picture { name: format!("{stem}.exr"), bytes: exr(width, height, &channels)? })
+    Ok(PictureFile { name: format!("{stem}.exr"), bytes: exr(width, height, &channels)? })
 }
 
 /// An unsigned fraction in steps of `1 / most`, to the nearest.

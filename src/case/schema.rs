@@ -32,9 +32,9 @@ pub struct Case {
     /// Instructions that a program may execute per pixel or vertex, in place of the device's figures.
     pub step_budget: Option<Spanned<u32>>,
     /// The pixel program.
-    pub pixel: Spanned<Shader>,
+    pub pixel: Spanned<ShaderSource>,
     /// The vertex program, if there is one.
-    pub vertex: Option<Spanned<Shader>>,
+    pub vertex: Option<Spanned<ShaderSource>>,
     /// The pixel program's constants: `c0` to lists of numbers, `i0` to lists of integers, `b0` to truth values.
     #[serde(default)]
     pub constants: BTreeMap<String, Spanned<Constant>>,
@@ -50,7 +50,7 @@ pub struct Case {
     /// What is drawn.
     pub geometry: Spanned<Geometry>,
     /// What is drawn on.
-    pub target: Target,
+    pub target: TargetTable,
     /// The depth buffer, if there is one.
     pub depth: Option<Depth>,
     /// The alpha test, if there is one.
@@ -65,7 +65,7 @@ pub struct Case {
 /// A program: in a file or in the case itself.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Shader {
+pub struct ShaderSource {
     /// A file, from the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
     /// The program itself.
@@ -180,7 +180,7 @@ pub enum Convention {
 /// What is drawn on.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Target {
+pub struct TargetTable {
     /// Width and height in pixels.
     pub size: Spanned<Exactly<u32, 2>>,
     /// The texel format, or up to four for several targets.

@@ -1,9 +1,6 @@
 //! From the words of a case to a device, programs, images and state.
 
-use std::{
-    collections::BTreeMap,
-    path::Path,
-};
+use std::{collections::BTreeMap, path::Path};
 
 use refsim::{
     check::Checked,
@@ -210,7 +207,7 @@ impl Binder<'_> {
     /// Reads, assembles and judges a program.
     fn program(
         &self,
-        shader: &Spanned<schema::Shader>,
+        shader: &Spanned<schema::ShaderSource>,
         table: &str,
         stage: Stage,
         profile: &Profile,

@@ -6,12 +6,7 @@ use refsim::{
 };
 use toml::Spanned;
 
-use super::{
-    CaseError, CaseWarning,
-    binder::Binder,
-    schema,
-    value::Number,
-};
+use super::{CaseError, CaseWarning, binder::Binder, schema, value::Number};
 
 /// Bump state by stage, as Direct3D has it before anything is set: zeros.
 pub(super) fn bump(
@@ -65,7 +60,7 @@ pub(super) fn project(
 /// Warns of the stages whose bump state the program reads and the case does not set.
 pub(super) fn unset(
     binder: &Binder<'_>,
-    shader: &Spanned<schema::Shader>,
+    shader: &Spanned<schema::ShaderSource>,
     pixel: &Program,
     stages: &[Option<BumpStage>; BUMP_STAGES],
 ) -> Vec<CaseWarning> {

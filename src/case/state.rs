@@ -6,12 +6,7 @@ use refsim::{
 };
 use toml::Spanned;
 
-use super::{
-    CaseError,
-    binder::Binder,
-    schema,
-    value::Number,
-};
+use super::{CaseError, binder::Binder, schema, value::Number};
 
 /// 1.0 as an IEEE single.
 const ONE: u32 = 0x3f80_0000;
@@ -41,7 +36,7 @@ pub enum Expected {
 }
 
 /// The formats of the colour targets.
-pub(super) fn targets(binder: &Binder<'_>, target: &schema::Target) -> Result<Vec<TexelFormat>, CaseError> {
+pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
     if names.is_empty() || names.len() > refsim::output::MOST_TARGETS {
         let message = format!("expected 1 to {} target formats, found {}", refsim::output::MOST_TARGETS, names.len());

@@ -6,10 +6,7 @@ use image::{ImageFormat, ImageReader};
 use refsim::{
     event::SAMPLERS,
     num::{self, Format},
-    texture::{
-        AddressMode, ChannelClass, Image, SamplerState, TargetRounding, TexelFormat, TextureError,
-        TextureKind,
-    },
+    texture::{AddressMode, ChannelClass, Image, SamplerState, TargetRounding, TexelFormat, TextureError, TextureKind},
 };
 use toml::Spanned;
 

@@ -33,7 +33,7 @@ pub struct Geometry {
     /// Flat shading: whose colours a primitive has, as the convention says.
     pub flat: Option<Provoking>,
     /// Whose rules hold for pixel centres and clip space.
-    pub convention: schema::Convention,
+    pub convention: Convention,
 }
 
 /// Vertices before or after the vertex program.

@@ -1,5 +1,5 @@
-//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files of
-//! a room need each other in one direction; names and lines of documentation keep their bounds.
+//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files
+//! of a room need each other in one direction; names and lines of documentation keep their bounds.
 
 mod circles;
 mod names;
@@ -140,7 +140,8 @@ fn no_result_depends_on_dispatched_products() {
 
 #[test]
 fn the_scanner_sees_groups_and_macros_and_passes_over_comments() {
-    let text = "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nfn f() { let x = vec![crate::asm::f()]; }";
+    let text =
+        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nfn f() { let x = vec![crate::asm::f()]; }";
     let source = Crate::of_texts([("lib.rs".into(), text.to_owned())]);
     let names: BTreeSet<&str> = source.after(&[], "crate").collect();
     assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one from the macro");

@@ -1,7 +1,7 @@
 //! Values of definitions: decimals to bits and back.
 
-use super::limits::MAX_NUMBER;
 use super::error::{ErrorKind, SyntaxError, quote};
+use super::limits::MAX_NUMBER;
 use crate::isa::Span;
 use crate::num::Format;
 use crate::num::decimal::{from_decimal, to_decimal};

@@ -92,7 +92,8 @@ impl<'a> Context<'a> {
         self.program.instructions.iter().enumerate().filter(move |(i, _)| sound[*i])
     }
 
-    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1 elsewhere.
+    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1
+    /// elsewhere.
     pub(super) fn phase(&self, index: usize) -> u8 {
         match (self.version, self.phase_marker) {
             (Version::Ps1_4, Some(marker)) if index < marker => 1,

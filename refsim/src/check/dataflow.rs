@@ -1,8 +1,8 @@
 //! V11, V12, V48, V49, V57: what is read must have been written.
 //!
 //! Straight code is followed exactly. Where paths meet, a component counts as written if one of them writes it; on
-//! entering a loop everything that the loop writes counts as written, on entering a subroutine everything that the program
-//! writes: no legal program is turned away.
+//! entering a loop everything that the loop writes counts as written, on entering a subroutine everything that the
+//! program writes: no legal program is turned away.
 
 use std::collections::BTreeMap;
 

@@ -2,9 +2,9 @@
 
 use std::ops::Deref;
 
+use super::Warning;
 use super::context::{Context, is_texture};
 use super::slots::{self, SlotCount};
-use super::Warning;
 use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
 
 /// Facts about a legal program.

@@ -8,7 +8,7 @@ use super::{RuleId, Violation};
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
 /// A block that is open.
-struct Block {
+struct OpenBlock {
     opcode: Opcode,
     start: usize,
     /// Where the jump of the opening instruction, or of `else`, is to be filled in.
@@ -19,7 +19,7 @@ struct Block {
     has_else: bool,
 }
 
-impl Block {
+impl OpenBlock {
     fn is_loop(&self) -> bool {
         matches!(self.opcode, Opcode::Rep | Opcode::Loop)
     }
@@ -35,7 +35,7 @@ struct Call {
 }
 
 struct Walk {
-    blocks: Vec<Block>,
+    blocks: Vec<OpenBlock>,
     labels: BTreeMap<u16, usize>,
     calls: Vec<Call>,
     /// The label of the subroutine that the walk is in.
@@ -167,10 +167,10 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
 fn open(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     let opcode = instruction.opcode;
     let dynamic = opcode == Opcode::IfC || opcode == Opcode::If && by_predicate(instruction.sources.first());
-    walk.blocks.push(Block { opcode, start: index, patch: index, breaks: Vec::new(), dynamic, has_else: false });
-    let of = |f: &dyn Fn(&Block) -> bool| walk.blocks.iter().filter(|b| f(b)).count() as u32;
+    walk.blocks.push(OpenBlock { opcode, start: index, patch: index, breaks: Vec::new(), dynamic, has_else: false });
+    let of = |f: &dyn Fn(&OpenBlock) -> bool| walk.blocks.iter().filter(|b| f(b)).count() as u32;
     let (limit, found, what) = if matches!(opcode, Opcode::Rep | Opcode::Loop) {
-        (Limit::LoopDepth, of(&Block::is_loop), "loops are")
+        (Limit::LoopDepth, of(&OpenBlock::is_loop), "loops are")
     } else if dynamic {
         dynamic_depth(context, walk, instruction, 0);
         return;
@@ -219,8 +219,12 @@ fn end(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &I
 fn label(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     if !walk.ended {
         context.add(
-            Violation::new(RuleId::Subroutines, instruction.span, "`label` follows a section that does not end with `ret`")
-                .help("end the main program and every subroutine with ret"),
+            Violation::new(
+                RuleId::Subroutines,
+                instruction.span,
+                "`label` follows a section that does not end with `ret`",
+            )
+            .help("end the main program and every subroutine with ret"),
         );
     }
     close(context, walk);
@@ -237,7 +241,8 @@ fn close(context: &mut Context<'_>, walk: &mut Walk) {
     for block in walk.blocks.drain(..) {
         let span = context.program.instructions[block.start].span;
         let name = block.opcode.info().mnemonic;
-        context.add(Violation::new(RuleId::UnclosedBlock, span, format!("`{name}` is never closed")).label("opened here"));
+        context
+            .add(Violation::new(RuleId::UnclosedBlock, span, format!("`{name}` is never closed")).label("opened here"));
     }
 }
 
@@ -297,8 +302,12 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
         if within || section.is_some_and(|s| parted.get(&s).copied().unwrap_or(false)) {
             let name = program.instructions[at].opcode.info().mnemonic;
             context.add(
-                Violation::new(RuleId::DivergentGradient, span(at), format!("`{name}` needs its neighbours, which may have parted"))
-                    .help("move it out of the flow that a computed value decides, or read with texldd"),
+                Violation::new(
+                    RuleId::DivergentGradient,
+                    span(at),
+                    format!("`{name}` needs its neighbours, which may have parted"),
+                )
+                .help("move it out of the flow that a computed value decides, or read with texldd"),
             );
         }
     }
@@ -314,7 +323,15 @@ fn static_count(context: &mut Context<'_>) {
         let found = spans.len() as u32;
         let message =
             format!("program has {found} flow control instructions, {} allows {}", allowed.owner, allowed.value);
-        context.exceed(RuleId::NestingDepth, *span, found, &allowed, message, "one too many".to_owned(), "unroll or select");
+        context.exceed(
+            RuleId::NestingDepth,
+            *span,
+            found,
+            &allowed,
+            message,
+            "one too many".to_owned(),
+            "unroll or select",
+        );
     }
 }
 

@@ -46,7 +46,11 @@ pub(super) fn check(context: &mut Context<'_>) {
 fn missing(context: &mut Context<'_>, instruction: &Instruction) {
     let name = Spelling::of(instruction.opcode).map_or(instruction.opcode.info().mnemonic, |s| s.name);
     let version = context.version;
-    let found = Violation::new(RuleId::UnsupportedInstruction, instruction.span, format!("`{name}` is not an instruction of {version}"));
+    let found = Violation::new(
+        RuleId::UnsupportedInstruction,
+        instruction.span,
+        format!("`{name}` is not an instruction of {version}"),
+    );
     context.add(found.label("this one").help("write it with the instructions that the extension has"));
 }
 
@@ -134,8 +138,10 @@ fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
         _ => return,
     };
     let message = format!("`{}` has no suffix {wrong}", spelling.name);
-    context
-        .add(Violation::new(RuleId::InvalidSuffix, instruction.span, message).help("see the extension's table of instructions"));
+    context.add(
+        Violation::new(RuleId::InvalidSuffix, instruction.span, message)
+            .help("see the extension's table of instructions"),
+    );
 }
 
 /// V61: packed words are of full precision.
@@ -192,12 +198,16 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     if let (Some(full), Some(half)) = (full, half) {
         let later = if full.span.start > half.span.start { full } else { half };
         let message = "program writes both o[COLR] and o[COLH]";
-        context.add(Violation::new(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision"));
+        context.add(
+            Violation::new(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision"),
+        );
     }
     let depths = all.iter().filter_map(|i| i.destination).filter(|d| d.register.file == RegisterFile::DepthOut);
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
         let message = "depth is the z component, which the mask leaves out";
-        context.add(Violation::new(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z"));
+        context.add(
+            Violation::new(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z"),
+        );
     }
     if full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none() {
         let span = context.program.version_span;
@@ -216,7 +226,8 @@ fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
             let message =
                 format!("image unit {} is read as {} and as {}", unit.register.index, first.name(), target.name());
             context.add(
-                Violation::new(RuleId::ImageUnitTarget, instruction.span, message).help("bind the second texture to another unit"),
+                Violation::new(RuleId::ImageUnitTarget, instruction.span, message)
+                    .help("bind the second texture to another unit"),
             );
         }
     }
@@ -251,8 +262,8 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
     context.add(violation.help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)"));
 }
 
-/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its destination
-/// was touched, since the last began.
+/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its
+/// destination was touched, since the last began.
 fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let Some(allowed) = context.limit(Limit::DependentReads) else { return };
     let mut touched: BTreeSet<Register> = BTreeSet::new();

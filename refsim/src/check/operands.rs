@@ -113,7 +113,9 @@ fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destin
         Version::Ps1_4 => (RuleId::InvalidDestination, file == F::Temp, "r#"),
         _ if opcode == Opcode::Setp => (RuleId::PredicateUse, file == F::Predicate, "p0"),
         _ if opcode == Opcode::Mova => (RuleId::UnsetAddress, file == F::Address, "a0"),
-        v if v.is_ps_2() && matches!(file, F::ColorOut | F::DepthOut) => (RuleId::OutputWrite, opcode == Opcode::Mov, "r#"),
+        v if v.is_ps_2() && matches!(file, F::ColorOut | F::DepthOut) => {
+            (RuleId::OutputWrite, opcode == Opcode::Mov, "r#")
+        }
         v if v.is_ps_2() => (RuleId::InvalidDestination, file == F::Temp, "r#, oC# or oDepth"),
         Version::Vs1_1 if file == F::Address => (RuleId::UnsetAddress, opcode == Opcode::Mov, "mov to write a0"),
         Version::Vs2_0 if file == F::Address => (RuleId::UnsetAddress, false, "mova to write a0"),
@@ -154,7 +156,9 @@ fn mask(context: &mut Context<'_>, instruction: &Instruction, destination: &Dest
         v if v.is_ps_1_1_to_1_3() => {
             (RuleId::InvalidMask, matches!(mask, Mask::RGB | Mask::ALPHA | Mask::ALL), ".rgb, .a or .rgba")
         }
-        Version::Vs1_1 if opcode == Opcode::Frc => (RuleId::InvalidMask, matches!(mask.0, 0b0010 | 0b0011), ".y or .xy"),
+        Version::Vs1_1 if opcode == Opcode::Frc => {
+            (RuleId::InvalidMask, matches!(mask.0, 0b0010 | 0b0011), ".y or .xy")
+        }
         _ => (RuleId::InvalidMask, true, ""),
     };
     if !allowed {
@@ -217,11 +221,14 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
     let (rule, allowed, expected): (RuleId, bool, &str) = match (version, opcode) {
         (Version::Ps1_4, op) if is_texture(op) => {
             let second = context.phase(index) == 2;
-            let rule = if file == F::Temp && op == Opcode::TexLd { RuleId::AddressPhase } else { RuleId::TextureSource };
+            let rule =
+                if file == F::Temp && op == Opcode::TexLd { RuleId::AddressPhase } else { RuleId::TextureSource };
             let expected = if second { "t# or r#" } else { "t# (in phase 1)" };
             (rule, file == F::Texture || second && file == F::Temp, expected)
         }
-        (Version::Ps1_4, _) if file == F::Texture => (RuleId::ArithmeticReadsCoordinates, false, "r#, c# or v#: load it with texcrd"),
+        (Version::Ps1_4, _) if file == F::Texture => {
+            (RuleId::ArithmeticReadsCoordinates, false, "r#, c# or v#: load it with texcrd")
+        }
         (Version::Ps1_4, _) => (RuleId::Operands, is_numeric(file), "r#, c# or v#"),
         (v, op) if v.is_ps_1_1_to_1_3() && is_texture(op) => {
             if k == 1 {
@@ -231,7 +238,9 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
             }
         }
         (_, op) if is_texture(op) && k == 1 => (RuleId::TextureReadOperands, file == F::Sampler, "s#"),
-        (_, op) if is_texture(op) && k == 0 => (RuleId::TextureReadOperands, matches!(file, F::Temp | F::Texture), "t# or r#"),
+        (_, op) if is_texture(op) && k == 0 => {
+            (RuleId::TextureReadOperands, matches!(file, F::Temp | F::Texture), "t# or r#")
+        }
         (_, Opcode::SinCos) if k > 0 => (RuleId::SinCosOperands, file == F::Constant, "c#"),
         (_, Opcode::Sgn) if k > 0 => (RuleId::MacroOperands, file == F::Temp, "r# (a scratch register)"),
         (_, op) if is_arithmetic(op) || is_texture(op) => (RuleId::Operands, is_numeric(file), "a register of numbers"),
@@ -289,12 +298,16 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
     let texture = is_texture(instruction.opcode);
     let simple = matches!(modifier, M::None | M::Negate);
     let (rule, allowed, expected): (RuleId, bool, &str) = match version {
-        Version::Ps1_4 if texture => {
-            (RuleId::InvalidSourceModifier, matches!(modifier, M::None | M::Dz | M::Dw), "none but _dz and _dw on texture instructions")
-        }
-        v if v.is_ps_1_1_to_1_3() && texture => {
-            (RuleId::InvalidSourceModifier, matches!(modifier, M::None | M::Bx2), "none but _bx2 on texture instructions")
-        }
+        Version::Ps1_4 if texture => (
+            RuleId::InvalidSourceModifier,
+            matches!(modifier, M::None | M::Dz | M::Dw),
+            "none but _dz and _dw on texture instructions",
+        ),
+        v if v.is_ps_1_1_to_1_3() && texture => (
+            RuleId::InvalidSourceModifier,
+            matches!(modifier, M::None | M::Bx2),
+            "none but _bx2 on texture instructions",
+        ),
         Version::Ps1_4 if source.register.file == RegisterFile::Constant => {
             (RuleId::InvalidSourceModifier, modifier == M::None, "none on constants")
         }
@@ -304,7 +317,9 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
             let all = if v == Version::Ps1_4 { "-, 1-, _bias, _bx2 and _x2" } else { "-, 1-, _bias and _bx2" };
             (RuleId::InvalidSourceModifier, simple || expands || doubles, all)
         }
-        v if v.is_ps_2() && texture => (RuleId::TextureReadOperands, modifier == M::None, "none on texture instructions"),
+        v if v.is_ps_2() && texture => {
+            (RuleId::TextureReadOperands, modifier == M::None, "none on texture instructions")
+        }
         v if v.is_ps_2() => (RuleId::OnlyNegation, simple, "- alone"),
         _ => (RuleId::InvalidSourceModifier, simple, "- alone"),
     };

@@ -168,7 +168,11 @@ fn expansion(context: &mut Context<'_>) {
         let source = instruction.sources.first().filter(|_| is_texture(opcode) && !allowed);
         if let Some(source) = source.filter(|s| s.modifier == Modifier::Bx2) {
             let (name, version) = (opcode.info().mnemonic, context.version);
-            context.breach(RuleId::ExpandModifier, source.span, format!("`{name}` of {version} can not expand with `_bx2`"));
+            context.breach(
+                RuleId::ExpandModifier,
+                source.span,
+                format!("`{name}` of {version} can not expand with `_bx2`"),
+            );
         }
     }
 }

@@ -24,8 +24,12 @@ fn colors(context: &mut Context<'_>) {
         for source in &instruction.sources {
             if source.register.file == RegisterFile::Input && context.phase(index) == 1 {
                 context.add(
-                    Violation::new(RuleId::ColorReadInPhase1, source.span, format!("`{}` is read in phase 1", source.register))
-                        .help("colours arrive in phase 2: move the instruction behind `phase`"),
+                    Violation::new(
+                        RuleId::ColorReadInPhase1,
+                        source.span,
+                        format!("`{}` is read in phase 1", source.register),
+                    )
+                    .help("colours arrive in phase 2: move the instruction behind `phase`"),
                 );
             }
         }
@@ -196,7 +200,15 @@ fn stages(context: &mut Context<'_>) {
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);
             let advice = "texld samples the stage of its destination's number: load a lower register";
-            context.exceed(RuleId::NoSuchRegister, instruction.span, stage, &allowed, message, "this stage".to_owned(), advice);
+            context.exceed(
+                RuleId::NoSuchRegister,
+                instruction.span,
+                stage,
+                &allowed,
+                message,
+                "this stage".to_owned(),
+                advice,
+            );
         }
     }
 }

@@ -71,7 +71,11 @@ fn sincos(context: &mut Context<'_>, instruction: &Instruction) {
     if let Some(destination) = instruction.destination
         && !matches!(destination.mask.0, 0b0001..=0b0011)
     {
-        context.breach(RuleId::SinCosOperands, destination.span, "`sincos` writes other components than .x (cos) and .y (sin)");
+        context.breach(
+            RuleId::SinCosOperands,
+            destination.span,
+            "`sincos` writes other components than .x (cos) and .y (sin)",
+        );
     }
     let [angle, first, second] = instruction.sources.as_slice() else { return };
     if !one_component(angle) {
@@ -230,6 +234,14 @@ fn dependent_reads(context: &mut Context<'_>) {
             allowed.owner, allowed.value
         );
         let label = "the first read that is too deep".to_owned();
-        context.exceed(RuleId::DependentReads, span, level, &allowed, message, label, "read earlier, or use a further pass");
+        context.exceed(
+            RuleId::DependentReads,
+            span,
+            level,
+            &allowed,
+            message,
+            label,
+            "read earlier, or use a further pass",
+        );
     }
 }

@@ -37,8 +37,8 @@ macro_rules! rules {
 }
 
 rules! {
-    /// A rule of the checker, named after its breach or what it is about. V01 to V46 are Direct3D's and the cards'; from V47
-    /// on they are what the executors need besides to run a program without surprises, from V60 on OpenGL's.
+    /// A rule of the checker, named after its breach or what it is about. V01 to V46 are Direct3D's and the cards';
+    /// from V47 on they are what the executors need besides to run a program without surprises, from V60 on OpenGL's.
     /// docs/devices.md has them with examples.
     RuleId:
     UnsupportedVersion V01 "the device runs the program's version";

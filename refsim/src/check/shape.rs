@@ -40,8 +40,12 @@ fn constants(context: &mut Context<'_>) {
         let register = def.register;
         if def.position > 0 {
             context.add(
-                Violation::new(RuleId::MisplacedDefinition, def.span, format!("`{register}` is defined after an instruction"))
-                    .help("move every def in front of the first instruction"),
+                Violation::new(
+                    RuleId::MisplacedDefinition,
+                    def.span,
+                    format!("`{register}` is defined after an instruction"),
+                )
+                .help("move every def in front of the first instruction"),
             );
         }
         let wanted = match def.value {

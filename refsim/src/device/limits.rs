@@ -183,8 +183,8 @@ figures! {
         trilinear_clocks,
         /// 1 if a pipeline that reads a texture cannot do arithmetic in that clock, 0 if both go on side by side.
         texture_blocks_arithmetic,
-        /// Units for fixed point (X of `!!FP1.0`) behind the float unit of a pipeline: each does an operation a clock, or two
-        /// multiplications.
+        /// Units for fixed point (X of `!!FP1.0`) behind the float unit of a pipeline: each does an operation a clock,
+        /// or two multiplications.
         fixed_units,
         /// 1 if neighbours of ps_2_x that write colour and alpha apart are issued as pairs, 0 if not.
         automatic_pairs,

@@ -26,7 +26,8 @@ pub struct Switch {
     pub meaning: String,
 }
 
-/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters it.
+/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters
+/// it.
 pub(super) const RULES: [&str; 20] = [
     "format",
     "result-range",

@@ -47,8 +47,8 @@ pub enum Event {
     },
     /// The next draw runs under other state than the last.
     StateChange {
-        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth buffer,
-        /// depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
+        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth
+        /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
         changes: u32,
     },
     /// A target or depth buffer was filled with one value.
@@ -157,8 +157,8 @@ pub struct DepthRecord {
 pub struct DrawRecord {
     /// What happened.
     pub counts: DrawEvents,
-    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades whole
-    /// quads: the lanes outside the triangle cost what the others do.
+    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades
+    /// whole quads: the lanes outside the triangle cost what the others do.
     pub quads: u64,
     /// The pixel program.
     pub pixel: Arc<ProgramWork>,

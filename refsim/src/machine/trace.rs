@@ -2,9 +2,9 @@
 
 #[cfg(feature = "wgpu")]
 use super::device::{Follower, StepBudget};
+use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules};
-use super::tiles::tile_draw;
 use super::walk::load;
 use super::{DrawCall, ExecutorKind, Machine, MachineError, validate};
 use crate::exec::batch::{BatchTracer, SimdLevel};
@@ -56,8 +56,9 @@ impl PixelState {
 }
 
 impl Machine {
-    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every triangle
-    /// that covers the pixel, in the order of submission; what they find in the targets is what those before them left.
+    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every
+    /// triangle that covers the pixel, in the order of submission; what they find in the targets is what those before
+    /// them left.
     ///
     /// # Errors
     /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
@@ -102,7 +103,8 @@ impl Machine {
         Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
-    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such triangle.
+    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such
+    /// triangle.
     ///
     /// # Errors
     /// As [`Machine::draw`].
@@ -209,7 +211,13 @@ impl Machine {
 type PlacedSetup = (usize, usize, usize, TriangleSetup);
 
 /// Sets up some triangles of a round whose first instance is `first`.
-fn set_up(vertices: &[Vertex], triangles: &[usize], first: usize, plan: &Plan, rules: &RasterRules) -> Vec<PlacedSetup> {
+fn set_up(
+    vertices: &[Vertex],
+    triangles: &[usize],
+    first: usize,
+    plan: &Plan,
+    rules: &RasterRules,
+) -> Vec<PlacedSetup> {
     let each = plan.triangles.len().max(1);
     let mut placed = Vec::new();
     let mut parts = Vec::new();

@@ -82,8 +82,8 @@ impl TriangleSetup {
         u32::from(self.center == PixelCenter::OpenGl)
     }
 
-    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the reciprocals
-    /// of w with the weights along the screen, each step rounded to FP32.
+    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the
+    /// reciprocals of w with the weights along the screen, each step rounded to FP32.
     fn position_at(&self, x: u32, y: u32, weights: &Weights) -> [u32; 4] {
         let center =
             |n: u32| value::mul(value::from_integer(2 * i64::from(n) + i64::from(self.half_pixels())), value::HALF);

@@ -230,7 +230,8 @@ impl Image {
         }
     }
 
-    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same format.
+    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same
+    /// format.
     pub(crate) fn contents_name(&self) -> Option<u64> {
         Some(self.stamp.0).filter(|&name| name != 0)
     }

@@ -133,7 +133,8 @@ impl Model {
         }
     }
 
-    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of it.
+    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of
+    /// it.
     pub fn clear(&self, bytes: u64) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -160,8 +161,8 @@ impl Model {
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half and at
-    /// twice the cache's size; between those the nearest is taken.
+    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half
+    /// and at twice the cache's size; between those the nearest is taken.
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.

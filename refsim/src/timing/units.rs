@@ -32,7 +32,8 @@ impl Hertz {
         self.0
     }
 
-    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be longer.
+    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be
+    /// longer.
     pub fn time_of(self, count: u64) -> Picoseconds {
         let exact = (u128::from(count) * PICO).div_ceil(u128::from(self.0));
         Picoseconds(u64::try_from(exact).unwrap_or(u64::MAX))

@@ -1,5 +1,5 @@
-//! The longest program that the card takes: a block of 254 texels of a matrix times a vector, as GPU radiosity of the time
-//! had it: two reads, a multiply-add and a step of the coordinates for each, and 1024 instructions.
+//! The longest program that the card takes: a block of 254 texels of a matrix times a vector, as GPU radiosity of the
+//! time had it: two reads, a multiply-add and a step of the coordinates for each, and 1024 instructions.
 
 use crate::nv35;
 use refsim::asm::assemble;

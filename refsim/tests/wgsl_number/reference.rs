@@ -2,10 +2,10 @@
 
 use refsim::exec::unorm_steps;
 use refsim::exec::wgsl::number::Operation;
-use refsim::num::{Format, Kind, Unpacked, from_ratio, ops, unpack};
+use refsim::num::{Format, FormatKind, Unpacked, from_ratio, ops, unpack};
 
-/// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for what
-/// is no operation on numbers.
+/// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for
+/// what is no operation on numbers.
 pub(crate) fn reference(operation: Operation, format: &Format, a: u32, b: u32, c: u32) -> Option<u32> {
     use Operation as Op;
     let mask = |outcome: refsim::num::Outcome| if outcome.bits == 1 { u32::MAX } else { 0 };
@@ -58,8 +58,8 @@ pub(crate) fn reference(operation: Operation, format: &Format, a: u32, b: u32, c
     })
 }
 
-/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. Doubles hold the product, and the sum where
-/// it comes near an integer.
+/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. Doubles hold the product, and the sum
+/// where it comes near an integer.
 fn signed_byte(bits: u32) -> u32 {
     let x = f64::from(f32::from_bits(bits));
     if x.is_nan() { 128 } else { (128.0 + (127.0 * x).clamp(-128.0, 127.0) + 0.5).floor() as u32 }
@@ -85,7 +85,7 @@ fn factor(format: &Format, a: u32, b: u32) -> u32 {
     let zero = format.is_zero(a) || format.is_zero(b);
     let finite = format.is_finite(a) && format.is_finite(b);
     match format.kind {
-        Kind::Float { .. } if zero && !finite => 0,
+        FormatKind::Float { .. } if zero && !finite => 0,
         _ => passed,
     }
 }

@@ -19,7 +19,11 @@ const MOST_PARAMETER: u16 = 255;
 
 /// Reads a program whose first word is `!!FP1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
-    let mut parser = Parser { cursor: Cursor::new(text, header.end as usize, Dialect::OpenGl), build: Build::default(), names: BTreeMap::new() };
+    let mut parser = Parser {
+        cursor: Cursor::new(text, header.end as usize, Dialect::OpenGl),
+        build: Build::default(),
+        names: BTreeMap::new(),
+    };
     match operand::statements(&mut parser, |parser| &mut parser.cursor, Parser::statement) {
         Some(errors) => Err(errors),
         None => Ok(parser.build.finish(Version::Fp1_0, header)),

@@ -2,7 +2,7 @@
 
 use super::lane::Lane;
 use super::{float::rounding_index, power};
-use crate::num::{Format, Kind, Overflow};
+use crate::num::{Format, FormatKind, Overflow};
 
 /// The overflow rule decided at run time; the other two are 0 (saturate) and 1 (wrap).
 const ANY_OVERFLOW: u8 = 2;
@@ -66,7 +66,7 @@ macro_rules! round_shift {
 impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
     /// The arithmetic of `format`, or `None` if that is a float format.
     pub(crate) fn new(format: Format) -> Option<Self> {
-        let Kind::Fixed { int_bits, frac_bits } = format.kind else { return None };
+        let FormatKind::Fixed { int_bits, frac_bits } = format.kind else { return None };
         let bits = u32::from(int_bits) + u32::from(frac_bits);
         let high = ((1i64 << bits) - 1) as i32;
         let one = (1i64 << frac_bits).min(i64::from(high)) as i32;

@@ -3,7 +3,7 @@
 use super::lane::Lane;
 use super::odd::{self, SIGN};
 use super::power;
-use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 /// Host `f32` operations are the format's own: binary32, nearest even, IEEE overflow.
 pub(crate) const HOST: u8 = 0;
@@ -60,7 +60,7 @@ pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
 
 /// The path that fits the format, and the only one that [`FloatLane::new`] may be built with besides [`DOUBLE`].
 pub(crate) fn path(format: &Format) -> u8 {
-    let Kind::Float { exp_bits, man_bits } = format.kind else { return DOUBLE };
+    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return DOUBLE };
     let ieee = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap);
     if format.rounding != Rounding::NearestEven {
         DOUBLE
@@ -83,7 +83,7 @@ fn pow2(e: i32) -> f64 {
 impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     /// The arithmetic of `format`, or `None` if that is a fixed-point format.
     pub(crate) fn new(format: Format) -> Option<Self> {
-        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+        let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
         let (x, m) = (i32::from(exp_bits), i32::from(man_bits));
         let emax = (1 << (x - 1)) - 1;
         let min_normal = pow2(1 - emax);

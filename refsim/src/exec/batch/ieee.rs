@@ -4,7 +4,7 @@
 use super::float::FloatLane;
 use super::lane::Lane;
 use super::odd;
-use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 
@@ -35,7 +35,7 @@ pub(crate) struct IeeeLane<const PATH: u8> {
 
 /// The path of an IEEE format; `None` if `format` isn't one.
 pub(crate) fn path(format: &Format) -> Option<u8> {
-    let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
     let plain = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap)
         && format.rounding == Rounding::NearestEven
         && format.denormals != Denormals::Flush
@@ -55,7 +55,7 @@ fn power(e: i32) -> f64 {
 impl<const PATH: u8> IeeeLane<PATH> {
     /// The arithmetic of `format`, for which [`path`] must have said `PATH`; `None` for fixed point.
     pub(crate) fn new(format: Format) -> Option<Self> {
-        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+        let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
         let m = u32::from(man_bits);
         let emax = (1 << (exp_bits - 1)) - 1;
         let lowest = power(1 - emax);

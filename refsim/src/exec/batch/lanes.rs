@@ -5,7 +5,7 @@ use super::float::{self, ANY, DOUBLE, FloatLane, HOST, HOST_NV, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
 use super::ops::Code;
-use crate::num::{Format, Kind, Overflow, Rounding};
+use crate::num::{Format, FormatKind, Overflow, Rounding};
 
 /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
 /// formats have their rounding and overflow compiled in; the rest decide at run time.
@@ -31,15 +31,15 @@ impl AnyLane {
     /// The arithmetic of `format`; `None` for no format that [`Format`] can be built with.
     pub(crate) fn new(format: Format) -> Option<Self> {
         Some(match format.kind {
-            Kind::Fixed { .. } if format.width() > 16 => Self::Fixed32(FixedLane::new(format)?),
-            Kind::Fixed { .. } if format.overflow == Overflow::Wrap => Self::Fixed16Wrap(FixedLane::new(format)?),
-            Kind::Fixed { .. } => match format.rounding {
+            FormatKind::Fixed { .. } if format.width() > 16 => Self::Fixed32(FixedLane::new(format)?),
+            FormatKind::Fixed { .. } if format.overflow == Overflow::Wrap => Self::Fixed16Wrap(FixedLane::new(format)?),
+            FormatKind::Fixed { .. } => match format.rounding {
                 Rounding::NearestEven => Self::Fixed16Even(FixedLane::new(format)?),
                 Rounding::NearestAway => Self::Fixed16Away(FixedLane::new(format)?),
                 Rounding::TowardZero => Self::Fixed16Zero(FixedLane::new(format)?),
                 Rounding::Down => Self::Fixed16Down(FixedLane::new(format)?),
             },
-            Kind::Float { .. } => match (ieee::path(&format), float::path(&format)) {
+            FormatKind::Float { .. } => match (ieee::path(&format), float::path(&format)) {
                 (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(format)?),
                 (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(format)?),
                 (Some(_), _) => Self::IeeeDouble(IeeeLane::new(format)?),

@@ -15,8 +15,8 @@ use crate::exec::{FlowMap, ResolvedConstants, colors_written, inputs_read, outpu
 use crate::isa::Stage;
 use crate::machine::memory::Memory;
 use crate::machine::validate::Plan;
-use crate::machine::vertices::{VertexStage, set_up};
 use crate::machine::validate::ROUND;
+use crate::machine::vertices::{VertexStage, set_up};
 use crate::machine::walk::bytes;
 use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError, VertexSource, executor, tile_draw, walk};
 use crate::output::MOST_TARGETS;
