@@ -1,6 +1,6 @@
 //! Cases: one shader, everything it reads and draws, and what must come out, in one TOML file.
 //!
-//! A case passes through three hands. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
+//! A case passes through three stages. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
 //! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
 //! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and
 //! the place in it. docs/cases.md describes the format.

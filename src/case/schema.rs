@@ -105,7 +105,7 @@ pub struct Texture {
     /// How mip levels are chosen.
     #[serde(default)]
     pub mip: MipFilter,
-    /// What lies outside: one for all axes, or one an axis.
+    /// What lies outside: one for all axes, or one per axis.
     pub address: Option<Spanned<OneOrMany>>,
     /// The colour outside, for `border`.
     pub border: Option<Spanned<Vec<Number>>>,

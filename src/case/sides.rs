@@ -17,7 +17,7 @@ use crate::compare::{
 /// Pixels that are followed at a time: the vertices are processed once for them.
 const TOGETHER: usize = 1024;
 
-/// One side: a case with its overrides, and who computes.
+/// One side: a case with its overrides, and the executor.
 #[derive(Clone, Debug)]
 pub struct Side<'s> {
     /// The case. Both sides come from the same file.
@@ -72,7 +72,7 @@ pub struct First {
     pub draw: usize,
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
-    /// Where on the way of its fragments the sides part; `None` if their traces are equal although what the draws left
+    /// The first difference of its fragments' traces; `None` if their traces are equal although what the draws left
     /// is not: then the draw of a side differs from its own trace.
     pub difference: Option<TraceDifference>,
 }

@@ -239,7 +239,7 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
     })
 }
 
-/// One mode for all axes, or one an axis; clamp where nothing is said.
+/// One mode for all axes, or one per axis; clamp where nothing is said.
 fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMode; 3], CaseError> {
     let Some(address) = &written.address else { return Ok([AddressMode::Clamp; 3]) };
     let mode = |name: &String| match name.as_str() {

@@ -1,4 +1,4 @@
-//! What an instruction read, put together from what was written before it.
+//! Operands of an instruction, reconstructed from the steps before it.
 
 use std::collections::BTreeMap;
 

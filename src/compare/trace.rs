@@ -1,4 +1,4 @@
-//! Where two traces of one pixel part.
+//! The first difference of two traces of one pixel.
 
 use refsim::{
     exec::Step,
@@ -39,11 +39,11 @@ pub struct FragmentPass {
     pub part: usize,
 }
 
-/// Where on the way of a fragment the sides part.
+/// The stage of the pipeline at which the traces of a fragment first differ.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TraceStage {
-    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] cannot tell it from what follows;
-    /// who has the corners asks [`differing_corner`].
+    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] does not see corners;
+    /// [`differing_corner`] compares them.
     Vertex {
         /// The corner of the triangle, 0 to 2.
         corner: usize,

@@ -7,7 +7,7 @@ use crate::isa::{
     DestinationRule, Instruction, Opcode, OpcodeClass, Program, RegisterFile, Span, Stage, Usage, Version,
 };
 
-/// How many registers of a file there are, and who says so.
+/// The number of registers of a file.
 pub(super) enum Count {
     /// A figure of the profile or the version.
     Limited(Allowed),
@@ -110,7 +110,7 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Whether the limits that are the version's own ways (ports, tokens) hold: not on ideal devices.
+    /// Whether limits that come from the version alone (ports, tokens) hold: not on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }

@@ -14,7 +14,7 @@ struct OpenBlock {
     /// Where the jump of the opening instruction, or of `else`, is to be filled in.
     patch: usize,
     breaks: Vec<usize>,
-    /// Whether a computed value decides who runs it.
+    /// Whether a computed value decides which fragments run it.
     dynamic: bool,
     has_else: bool,
 }

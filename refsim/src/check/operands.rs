@@ -1,4 +1,4 @@
-//! V07, V13 to V17, V34, V35, V45, V47: what every operand must keep to, whatever the instruction does with it.
+//! V07, V13 to V17, V34, V35, V45, V47: rules of operands that hold in every instruction.
 
 use super::context::{Context, Count, is_arithmetic, is_numeric, is_texture};
 use super::{RuleId, Violation};

@@ -1,4 +1,4 @@
-//! V18, V19, V31, V32, V33: the ways of ps_1_1 to ps_1_3.
+//! V18, V19, V31, V32, V33: rules of ps_1_1 to ps_1_3 alone.
 
 use super::context::{Context, is_texture};
 use super::{RuleId, Violation};

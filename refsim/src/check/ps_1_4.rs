@@ -1,4 +1,4 @@
-//! V21 to V27, V30: the ways of ps_1_4. V28 and V29 are among the operands.
+//! V21 to V27, V30: rules of ps_1_4 alone. V28 and V29 are among the operands.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! V36, V38, V39, V42 to V44, V50, V59: the ways of ps_2_0 and up. What vertex programs share with them is here too.
+//! V36, V38, V39, V42 to V44, V50, V59: rules of ps_2_0 and up, some of them shared with vertex programs.
 
 use std::collections::BTreeMap;
 

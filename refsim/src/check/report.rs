@@ -1,4 +1,4 @@
-//! What is wrong with a program, as data; a renderer is somebody else's.
+//! Violations and warnings as data, without rendering.
 
 use std::fmt;
 

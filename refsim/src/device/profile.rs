@@ -51,18 +51,18 @@ struct RawProfile {
     bus: BTreeMap<String, RawFigure>,
 }
 
-/// A device: how it computes, what it allows, how fast it is.
+/// A device: its arithmetic, its limits, its speed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Profile {
     /// Name on the command line, `r200` for example.
     pub name: String,
     /// Full name of the card.
     pub title: String,
-    /// What executors obey.
+    /// Arithmetic, for the executors.
     pub rules: Rules,
-    /// What [`crate::check`] obeys.
+    /// Limits, for [`crate::check`].
     pub limits: Limits,
-    /// What the timing model obeys.
+    /// Speeds, for the timing model.
     pub rates: Rates,
     /// The way to the host.
     pub bus: Bus,

@@ -18,7 +18,7 @@ pub struct Switch {
     pub current: String,
     /// The value of the profile's file.
     pub default: String,
-    /// Why the default is what it is.
+    /// The reason for the default.
     pub source: String,
     /// How sure we are of the default.
     pub confidence: Confidence,

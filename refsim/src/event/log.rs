@@ -152,7 +152,7 @@ pub struct DepthRecord {
     pub replaced: bool,
 }
 
-/// One draw: what it did, and with what.
+/// One draw: its counts, programs, textures and targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DrawRecord {
     /// What happened.

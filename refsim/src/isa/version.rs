@@ -5,9 +5,9 @@ use std::{fmt, str::FromStr};
 /// Which programmable stage a program runs on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
-    /// Runs once a vertex.
+    /// Runs once per vertex.
     Vertex,
-    /// Runs once a fragment.
+    /// Runs once per fragment.
     Pixel,
 }
 

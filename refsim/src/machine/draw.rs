@@ -26,7 +26,7 @@ pub struct AttributeStream<'a> {
     pub register: usize,
     /// How often it moves on.
     pub step: StepRate,
-    /// The values, single precision patterns: one a vertex or one an instance.
+    /// The values, single precision patterns: one per vertex or one per instance.
     pub data: &'a [[u32; 4]],
 }
 

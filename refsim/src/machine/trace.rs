@@ -20,7 +20,7 @@ use rayon::prelude::*;
 #[cfg(feature = "wgpu")]
 const ON_GPU: usize = 512;
 
-/// A fragment of one pixel: where it came from, what the program did with it, what it did to the targets.
+/// A fragment of one pixel: its triangle, the execution of the program, the targets before and after.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FragmentTrace {
     /// The instance, from 0.
@@ -174,7 +174,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Who processes vertices: for a GPU the batch executor.
+    /// The executor of vertex programs: for a GPU the batch executor.
     fn vertex_executor(&self) -> (ExecutorKind, Option<SimdLevel>) {
         match self.executor {
             #[cfg(feature = "wgpu")]
@@ -255,7 +255,7 @@ impl Followed {
     }
 }
 
-/// Who follows fragments for an executor.
+/// The pixel tracer of an executor.
 fn tracer<'a>((kind, simd): (ExecutorKind, Option<SimdLevel>), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),

@@ -183,7 +183,7 @@ pub struct DepthState {
     pub write: bool,
 }
 
-/// A depth buffer: one pattern of the format a pixel, row by row.
+/// A depth buffer: one pattern of the format per pixel, row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DepthSurface {
     format: DepthFormat,

@@ -1,4 +1,4 @@
-//! Values of a fragment: weights, then one fixed sequence of rounded steps a component.
+//! Values of a fragment: weights, then one fixed sequence of rounded steps per component.
 
 use super::plane::{Plane, plane};
 use super::state::PixelCenter;
@@ -7,7 +7,7 @@ use super::vertex::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMP
 use crate::num::{self, Format};
 use crate::texture::value;
 
-/// What the rasteriser hands a pixel program. All numbers are FP32 bits.
+/// The rasteriser's inputs of a pixel program. All numbers are FP32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentInput {
     /// Texture coordinate sets.

@@ -6,17 +6,17 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Primitive {
-    /// Each three vertices a triangle.
+    /// Every three vertices make a triangle.
     #[serde(rename = "triangles")]
     TriangleList,
-    /// Each vertex from the third on a triangle with its two predecessors.
+    /// From the third on, each vertex makes a triangle with its two predecessors.
     TriangleStrip,
-    /// Each vertex from the third on a triangle with its predecessor and the first.
+    /// From the third on, each vertex makes a triangle with its predecessor and the first.
     TriangleFan,
-    /// Each four vertices a quad.
+    /// Every four vertices make a quad.
     #[serde(rename = "quads")]
     QuadList,
-    /// Each two vertices from the third on a quad with the two before.
+    /// From the third on, every two vertices make a quad with the two before.
     QuadStrip,
     /// Not supported.
     #[serde(skip)]

@@ -10,7 +10,7 @@ pub enum AddressMode {
     Wrap,
     /// The image repeats, every second time mirrored.
     Mirror,
-    /// The texel at the border goes on.
+    /// The texel at the edge repeats.
     Clamp,
     /// The sampler's border colour.
     Border,

@@ -1,4 +1,4 @@
-//! What the host's own work costs: counted operations, times a weight a kind, times one scale.
+//! What the host's own work costs: counted operations, times one weight per kind, times one scale.
 //!
 //! The weights are relative and guessed; the scale is found from one printed figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and
 //! the counts of the run that it was printed for, and then left alone. So the model can be wrong about where the host's
@@ -10,7 +10,7 @@ use std::ops::AddAssign;
 use super::Picoseconds;
 use crate::device::{Confidence, FigureRow};
 
-/// Rays a second of the host alone on the teapot room: Ray Engine paper, Table 3, first row. The one figure that the
+/// Rays per second of the host alone on the teapot room: Ray Engine paper, Table 3, first row. The one figure that the
 /// scale of [`HostModel`] is calibrated on.
 pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 

@@ -8,7 +8,7 @@ use crate::event::{DrawRecord, ProgramWork};
 /// How deep a model looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Level {
-    /// The paper's equation 11: a fill rate, measured where somebody has, and the rates of the bus.
+    /// The paper's equation 11: a fill rate (the measured one, where there is one) and the rates of the bus.
     Rates,
     /// From first principles: clocks of the units, memory traffic, latencies.
     Pipeline,

@@ -14,7 +14,7 @@ pub struct Clocks(pub u64);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Picoseconds(pub u64);
 
-/// Things a second: clocks, bytes, pixels, operations. Never 0.
+/// Things per second: clocks, bytes, pixels, operations. Never 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hertz(u64);
 
@@ -27,7 +27,7 @@ impl Hertz {
         if per_second == 0 { None } else { Some(Self(per_second)) }
     }
 
-    /// Things a second.
+    /// Things per second.
     pub const fn per_second(self) -> u64 {
         self.0
     }

@@ -26,7 +26,7 @@ fn the_run_of_the_calibration_takes_its_printed_time() {
 
 #[test]
 fn a_round_figure_by_hand() {
-    // Ten tests of weight 50 in ten rays at 1000 rays a second: 10 ms for 500 units.
+    // Ten tests of weight 50 in ten rays at 1000 rays per second: 10 ms for 500 units.
     let counts = HostCounts::default().with(HostOperation::RayTriangleTest, 10);
     let model = HostModel::calibrate(&counts, 10, 1000).expect("good counts");
     assert_eq!(model.time_of(HostOperation::RayTriangleTest, 1), Picoseconds(1_000_000_000));

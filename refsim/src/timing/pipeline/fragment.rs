@@ -51,7 +51,7 @@ pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates:
     FragmentClocks { arithmetic: Clocks(pressed(arithmetic).max(1)), textures: Clocks(pressed(textures)), takes_turns }
 }
 
-/// Slots over slots a clock. Fixed point goes to its own units, where there are any, while the float unit is busy
+/// Slots over slots per clock. Fixed point goes to its own units, where there are any, while the float unit is busy
 /// (reading textures for `blocked` clocks too); what is left over is shared with the float unit.
 fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     let units = rates.fixed_units.unwrap_or(0);

@@ -23,7 +23,7 @@ use super::{DrawCost, Picoseconds};
 use fence::Fences;
 use schedule::{Schedule, SpanWork};
 
-/// The name of a texture, target or depth buffer; who gives the commands chooses the numbers.
+/// The name of a texture, target or depth buffer; the caller chooses the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ResourceId(pub u64);
 
@@ -50,7 +50,7 @@ pub struct Queue {
     commands: u32,
 }
 
-/// A command on its way: when the card has it, and what its spans are called.
+/// A submitted command: when it reaches the card, and the label of its spans.
 struct Given {
     ready: Mark,
     label: Label,
@@ -139,7 +139,7 @@ impl Queue {
     }
 
     /// Data of a resource go to the host, after all draws before. Synchronous, the host waits for all earlier work and
-    /// for the transfer, as with `glReadPixels`. Asynchronous, host and card go on, only who writes into the resource
+    /// for the transfer, as with `glReadPixels`. Asynchronous, host and card go on, and only writes into the resource
     /// waits, and it returns a fence that is passed when they have arrived and everything before is done; setting it
     /// costs nothing.
     pub fn read_back(

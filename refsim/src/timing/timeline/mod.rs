@@ -1,4 +1,4 @@
-//! What each unit did when, and what it waited for.
+//! The timeline: spans and waits of every unit.
 
 mod path;
 mod usage;
@@ -12,10 +12,10 @@ use strum::Display;
 
 use super::Picoseconds;
 
-/// What a span shows to people: the name of a draw, of an upload, of host work. Shared by the spans of one command.
+/// The text of a span: the name of a draw, of an upload, of host work. Shared by the spans of one command.
 pub type Label = Arc<str>;
 
-/// What can be busy. Each does one thing at a time.
+/// A unit of host, card or bus. Each does one thing at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Unit {
@@ -53,7 +53,7 @@ impl Unit {
     }
 }
 
-/// What a unit is busy with.
+/// The kind of work of a span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum SpanKind {
@@ -91,11 +91,11 @@ pub struct SpanId(pub u32);
 /// A unit busy with one thing. Never of no length.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TimelineSpan {
-    /// Who.
+    /// The unit.
     pub unit: Unit,
-    /// From when.
+    /// Its start.
     pub start: Picoseconds,
-    /// Until when.
+    /// Its end.
     pub end: Picoseconds,
     /// With what.
     pub kind: SpanKind,
@@ -111,7 +111,7 @@ pub struct TimelineSpan {
 }
 
 impl TimelineSpan {
-    /// How long it lasts.
+    /// Its length.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
@@ -145,13 +145,13 @@ pub enum WaitReason {
 /// A unit that has something to do but can't. Never of no length, never beside a span of the same unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wait {
-    /// Who.
+    /// The unit.
     pub unit: Unit,
-    /// From when.
+    /// Its start.
     pub start: Picoseconds,
-    /// Until when.
+    /// Its end.
     pub end: Picoseconds,
-    /// Why.
+    /// The reason.
     pub reason: WaitReason,
     /// For which span, `None` for the filling of the pipeline with nothing before it.
     pub on: Option<SpanId>,
@@ -160,7 +160,7 @@ pub struct Wait {
 }
 
 impl Wait {
-    /// How long it lasts.
+    /// Its length.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }

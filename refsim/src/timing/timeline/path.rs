@@ -10,7 +10,7 @@ use crate::timing::Picoseconds;
 pub struct Segment {
     /// The span, or the one after whose end the pipeline fills ([`SpanKind::Fill`]), if there is one.
     pub span: Option<SpanId>,
-    /// Who is busy; the front end, while the pipeline fills.
+    /// The busy unit; the front end, while the pipeline fills.
     pub unit: Unit,
     /// With what.
     pub kind: SpanKind,
@@ -30,7 +30,7 @@ impl Segment {
 /// A part of the critical path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathShare {
-    /// Who is busy.
+    /// The busy unit.
     pub unit: Unit,
     /// With what.
     pub kind: SpanKind,
