@@ -8,7 +8,7 @@ use refsim::{
         AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, ProgramPlace, StepRate,
         TextureId, VertexSource, VertexStreams,
     },
-    output::{DepthSurface, MOST_TARGETS, WriteMask},
+    output::{DepthSurface, MAX_TARGETS, WriteMask},
     raster::{ClipSpace, PixelCenter, Vertex},
     texture::{Image, SamplerState},
 };
@@ -190,7 +190,7 @@ fn draw_call<'a>(
         alpha_test: setup.alpha,
         depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
         blend: setup.blend,
-        masks: [WriteMask(setup.write_mask); MOST_TARGETS],
+        masks: [WriteMask(setup.write_mask); MAX_TARGETS],
         targets: targets.to_vec(),
         depth_buffer: depth,
         bump: setup.bump,

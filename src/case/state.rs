@@ -38,8 +38,8 @@ pub enum Expected {
 /// The formats of the colour targets.
 pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
-    if names.is_empty() || names.len() > refsim::output::MOST_TARGETS {
-        let message = format!("expected 1 to {} target formats, found {}", refsim::output::MOST_TARGETS, names.len());
+    if names.is_empty() || names.len() > refsim::output::MAX_TARGETS {
+        let message = format!("expected 1 to {} target formats, found {}", refsim::output::MAX_TARGETS, names.len());
         return Err(binder.place.wrong(target.format.span(), message, "write for example `format = \"rgba8\"`"));
     }
     names.iter().map(|name| texel_format(binder, name, target.format.span())).collect()

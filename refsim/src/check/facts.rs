@@ -14,8 +14,9 @@ pub struct Facts {
     pub phase: Vec<u8>,
     /// The index of `phase`.
     pub phase_marker: Option<usize>,
-    /// The next instruction of a jump, by instruction index: from `if` to its `else` or `endif`, from `else` to `endif`, from `rep`
-    /// and `loop` to their end and back, from `break` to the end of its loop, from `call` to its `label`.
+    /// The next instruction of a jump, by instruction index: from `if` to its `else` or `endif`, from `else` to
+    /// `endif`, from `rep` and `loop` to their end and back, from `break` to the end of its loop, from `call` to its
+    /// `label`.
     pub jump: Vec<Option<usize>>,
     /// The index of the first `label`, where the main program has ended; the number of instructions if there is none.
     pub main_end: usize,

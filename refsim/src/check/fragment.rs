@@ -15,7 +15,7 @@ use crate::isa::{
 const FULL: u16 = 32;
 const HALF: u16 = 64;
 /// What all registers of a program may weigh together, one of half precision weighing 1.
-const MOST_WEIGHT: u32 = 64;
+const MAX_WEIGHT: u32 = 64;
 
 pub(super) fn check(context: &mut Context<'_>) {
     let nv = context.version == Version::Fp1_0;
@@ -249,15 +249,15 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
         };
         if one > 0 && seen.insert((register.file, register.index)) {
             weight += one;
-            if weight > MOST_WEIGHT && first.is_none() {
+            if weight > MAX_WEIGHT && first.is_none() {
                 first = Some(span);
             }
         }
     }
     let Some(span) = first else { return };
-    let message = format!("registers weigh {weight}, !!FP1.0 allows {MOST_WEIGHT}");
+    let message = format!("registers weigh {weight}, !!FP1.0 allows {MAX_WEIGHT}");
     let mut violation = Violation::new(RuleId::RegisterWeight, span, message).label("from here on");
-    violation.limit = Some(MOST_WEIGHT);
+    violation.limit = Some(MAX_WEIGHT);
     violation.found = Some(weight);
     context.add(violation.help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)"));
 }

@@ -8,7 +8,7 @@ use crate::isa::{
 };
 
 /// Passes through a loop, at most: as executors have it.
-const MOST_PASSES: u64 = 255;
+const MAX_PASSES: u64 = 255;
 
 /// One arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -250,7 +250,7 @@ fn passes(program: &Program, constants: FlowConstants<'_>, instruction: &Instruc
         _ => None,
     });
     let set = constants.int.get(usize::from(register.index)).map(|v| v[0]);
-    u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MOST_PASSES)
+    u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MAX_PASSES)
 }
 
 /// The value of a boolean operand; `None` if it is computed.

@@ -11,7 +11,7 @@ use crate::exec::batch::{BatchTracer, SimdLevel};
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
 use crate::isa::Stage;
-use crate::output::{MOST_TARGETS, TargetTile};
+use crate::output::{MAX_TARGETS, TargetTile};
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
@@ -41,7 +41,7 @@ pub struct FragmentTrace {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelState {
     /// The texel of each colour target, a little-endian integer.
-    pub colors: [Option<u128>; MOST_TARGETS],
+    pub colors: [Option<u128>; MAX_TARGETS],
     /// The pattern in the depth buffer.
     pub depth: Option<u32>,
 }

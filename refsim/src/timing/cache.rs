@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// The smallest line: the largest texel fits.
 const LEAST_LINE: u64 = 16;
 /// The largest cache: more would be no cache of these cards.
-const MOST_BYTES: u64 = 1 << 26;
+const MAX_BYTES: u64 = 1 << 26;
 
 /// One cache. It is empty at first.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl TextureCache {
     pub fn new(bytes: u64, line_bytes: u64, ways: u64) -> Result<Self, TimingError> {
         let error = TimingError::CacheShape { bytes, line_bytes, ways };
         let set = line_bytes.checked_mul(ways).filter(|&set| set > 0).ok_or(error.clone())?;
-        let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MOST_BYTES;
+        let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MAX_BYTES;
         if !fits || bytes == 0 || !bytes.is_multiple_of(set) {
             return Err(error);
         }

@@ -12,7 +12,7 @@ use super::targets::Targets;
 use crate::event::FragmentCounts;
 use crate::num::{Format, ops};
 use crate::output::{
-    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MOST_TARGETS, OutputRules, OutputState, merge,
+    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MAX_TARGETS, OutputRules, OutputState, merge,
 };
 
 /// Where the results of a program lie.
@@ -51,7 +51,7 @@ pub(crate) struct Fragment {
     /// As the depth buffer stores it.
     depth: u32,
     /// As slots hold them.
-    colors: [[u32; 4]; MOST_TARGETS],
+    colors: [[u32; 4]; MAX_TARGETS],
 }
 
 impl Shaded<'_> {
@@ -167,7 +167,7 @@ impl Output {
         if survivors.count == 0 {
             return;
         }
-        for i in 0..MOST_TARGETS {
+        for i in 0..MAX_TARGETS {
             let Some(rows) = &mut targets.colors[i] else { continue };
             let Some(colors) = shaded.results.colors[i] else { continue };
             let colors = colors.map(|slot| shaded.slots.row(slot));
@@ -189,7 +189,7 @@ impl Output {
 
     /// The colours that are written and whose targets are not in rows.
     fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
-        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
+        let here = (0..MAX_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
         here.fold(0, |bits, i| bits | (self.written & 1 << i))
     }
 

@@ -15,7 +15,7 @@ use crate::exec::{Shading, colors_written, inputs_read, output_rules, program};
 use crate::isa::OpcodeClass;
 use crate::machine::trace::PixelState;
 use crate::machine::{DrawCall, Machine, MachineError};
-use crate::output::MOST_TARGETS;
+use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
 use crate::texture::{Image, TextureKind};
 use std::ops::Range;
@@ -76,7 +76,7 @@ impl<'a> Follower<'a> {
         };
         let (shader, samplers) = shader(&mut card, memory, profile, call, true)?;
         let width = pixels.len() as u32 + 1;
-        let (mut targets, mut colors) = ([None; MOST_TARGETS], Vec::new());
+        let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let format = memory.texture(id)?.format();
             let image = Image::new(format, TextureKind::Rectangle, [width, 1, 1], 1)?;
