@@ -209,7 +209,7 @@ impl ShaderText {
         program.warnings().iter().map(|warning| {
             let (start, end) = (warning.span.start as usize, warning.span.end as usize);
             ShaderWarning {
-                code: warning.code,
+                code: warning.id.code(),
                 message: warning.message.clone(),
                 help: warning.help,
                 source_code: self.named_source(),

@@ -1,7 +1,7 @@
 //! The batch executor's arithmetic against `num`: two implementations that share no code, equal on every operation.
 //!
-//! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule; wider
-//! ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
+//! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule;
+//! wider ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
 
 use refsim::exec::batch::{convert, evaluate, exact_dot};
 use refsim::num::{Denormals, DotOrder, Format, NumberOperation as Op, Overflow, Rounding, Specials, ops};

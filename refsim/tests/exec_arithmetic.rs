@@ -297,7 +297,7 @@ fn relative_addresses_reach_their_constant_and_zero_beyond() {
 }
 
 #[test]
-fn vertex_colours_are_clamped_and_coordinates_are_not() {
+fn vertex_colors_are_clamped_and_coordinates_are_not() {
     let profile = ideal("e8m23");
     let text = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmov oD0, v0\nmov oT3, v0";
     let vertex = run_vertex(text, &profile, &Constants::default(), &[[-1.0, 0.5, 7.0, 1.0]]).vertex;

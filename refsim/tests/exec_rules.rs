@@ -443,7 +443,7 @@ fn the_trace_has_flags() {
 }
 
 #[test]
-fn colours_pass_the_iterator() {
+fn colors_pass_the_iterator() {
     let mut profile = r200();
     profile.set_switch("color-iterator", "8").unwrap();
     let constants = Constants::default();

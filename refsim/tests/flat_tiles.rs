@@ -1,5 +1,5 @@
-//! Targets of one row of quads, which the batch executor walks in flat tiles, and textures that are too large for its tables: the bits
-//! and counts of the scalar executor.
+//! Targets of one row of quads, which the batch executor walks in flat tiles, and textures that are too large for its
+//! tables: the bits and counts of the scalar executor.
 
 use refsim::asm::assemble;
 use refsim::check::check;

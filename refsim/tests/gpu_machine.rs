@@ -55,11 +55,11 @@ fn vertices(dice: &mut Dice, count: usize) -> Vec<Vertex> {
         .map(|_| {
             let w = if flat { 1.0 } else { dice.number(0.2, 3.0) };
             let [x, y] = [dice.number(-1.4, 1.4) * w, dice.number(-1.4, 1.4) * w];
-            let colour = [0; 4].map(|_| dice.number(-0.5, 1.5));
+            let color = [0; 4].map(|_| dice.number(-0.5, 1.5));
             Vertex {
                 position: bits([x, y, dice.number(-0.1, 1.1) * w, w]),
-                texcoords: [bits(colour); 8],
-                colors: [bits(colour); 2],
+                texcoords: [bits(color); 8],
+                colors: [bits(color); 2],
                 ..Vertex::default()
             }
         })

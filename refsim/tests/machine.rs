@@ -44,7 +44,7 @@ fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     (image.raw(0, 0, y, x) as u32).to_le_bytes()
 }
 
-const COLOUR: &str = "ps_1_4\nmov r0, v0";
+const COLOR: &str = "ps_1_4\nmov r0, v0";
 
 #[test]
 fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
@@ -271,7 +271,7 @@ fn rendering_to_a_texture_and_reading_it() {
 #[test]
 fn every_mistake_has_its_error() {
     let profile = Profile::named("r200").unwrap();
-    let program = checked(COLOUR, &profile);
+    let program = checked(COLOR, &profile);
     let vertex_program = checked("vs_1_1\ndcl_position v0\nmov oPos, v0", &profile);
     let mut machine = Machine::new(profile.clone(), ExecutorKind::Scalar);
     let mut other = Machine::new(ideal("e8m23"), ExecutorKind::Scalar);

@@ -1,4 +1,5 @@
-//! docs/numbers.md held against the emulator: its sections rebuilt from the text alone, in host arithmetic, on random probes.
+//! docs/numbers.md held against the emulator: its sections rebuilt from the text alone, in host arithmetic, on random
+//! probes.
 //!
 //! Nothing here is taken from the rooms that it tests but their types; tables are read out of the page itself.
 

@@ -1,4 +1,5 @@
-//! Step budgets: programs that would run for years end with an error that says where, programs that fit are not touched.
+//! Step budgets: programs that would run for years end with an error that says where, programs that fit are not
+//! touched.
 
 #[path = "common/running.rs"]
 mod running;
@@ -144,8 +145,8 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     }
 }
 
-/// Fragments that need more the further down and right they are: the first of those that need too much is named, whichever
-/// executor meets another one first.
+/// Fragments that need more the further down and right they are: the first of those that need too much is named,
+/// whichever executor meets another one first.
 #[test]
 fn the_first_fragment_that_needs_too_much_is_named() {
     let text = "ps_2_a\ndef c1, 1, 0, 0, 0\ndef c2, 6, 11, 0, 0\ndcl t0\nmov r0, c1.y\nrep i0\nif_gt t0.x, c2.x\nif_gt \

@@ -194,8 +194,8 @@ fn without_a_cache_every_access_is_a_line() {
     }
 }
 
-/// One texel a pixel, each pixel once: every line is asked for eight times, once for each texel of it, and comes once, or
-/// twice where the quad's two triangles share it.
+/// One texel a pixel, each pixel once: every line is asked for eight times, once for each texel of it, and comes once,
+/// or twice where the quad's two triangles share it.
 #[test]
 fn a_copy_moves_the_texture_once() {
     let texture = image(TexelFormat::Rgba8, 64, 1);

@@ -49,8 +49,8 @@ fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) 
 
 const DUAL: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1";
 
-/// 20 bytes a pixel (two texels, a colour, a depth read and written) are more than the pipelines can hide: 368 Mpixel/s of
-/// the printed 390 on the GeForce3, 520 of the implied 527 on the GeForce4.
+/// 20 bytes a pixel (two texels, a colour, a depth read and written) are more than the pipelines can hide: 368 Mpixel/s
+/// of the printed 390 on the GeForce3, 520 of the implied 527 on the GeForce4.
 #[test]
 fn dual_texturing_is_bound_by_memory() {
     for (device, expected, printed) in [("nv20", 368_000_000, 390.0), ("nv25", 520_000_000, 527.3)] {

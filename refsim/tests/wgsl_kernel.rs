@@ -1,4 +1,5 @@
-//! The texts of the pixel kernel and of the one that follows pixels are valid modules, with a program in both number modes.
+//! The texts of the pixel kernel and of the one that follows pixels are valid modules, with a program in both number
+//! modes.
 
 use refsim::exec::wgsl::number::{NativeOperations, NumberMode, library};
 use refsim::exec::wgsl::{follow, kernel, program, texture};

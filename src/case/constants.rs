@@ -10,9 +10,8 @@ use toml::Spanned;
 
 use super::{
     CaseError,
-    schema::Constant,
-    setup::{Binder, register},
-    value::Number,
+    binder::{Binder, register},
+    value::{Constant, Number},
 };
 
 /// Where a constant goes.
@@ -24,8 +23,8 @@ enum Home {
 }
 
 impl Binder<'_> {
-    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names that they
-    /// write, and those that they declare.
+    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names
+    /// that they write, and those that they declare.
     pub(super) fn constants(
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,

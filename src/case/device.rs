@@ -7,38 +7,7 @@ use refsim::{
 };
 use toml::Spanned;
 
-use super::{CaseError, schema::Case, setup::Binder};
-
-/// What to put in place of what a case says about its device: to run one case on two cards, in two formats, or with two
-/// answers to an open question.
-#[derive(Clone, Debug, Default)]
-pub struct Overrides {
-    /// Instead of `device`, or of `shader_model` and `format`. Switches of the case that this device does not have are left
-    /// out.
-    pub device: Option<Profile>,
-    /// Instead of the format of the pixel registers.
-    pub format: Option<Format>,
-    /// Switches on top of those of the case, set last.
-    pub switches: Vec<(String, String)>,
-    /// Instructions that a program may execute per pixel or vertex, in place of what case and device say.
-    pub step_budget: Option<u32>,
-}
-
-impl Overrides {
-    /// Applies format and switches.
-    pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
-        if let Some(format) = self.format {
-            profile.set_format(format);
-        }
-        for (name, value) in &self.switches {
-            profile.set_switch(name, value).map_err(CaseError::from)?;
-        }
-        if let Some(steps) = self.step_budget {
-            profile.limits.set_step_budget(steps);
-        }
-        Ok(())
-    }
-}
+use super::{CaseError, binder::Binder, schema::Case};
 
 impl Binder<'_> {
     /// The device, the version that the pixel program must have, and the switches that were left out.

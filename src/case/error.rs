@@ -129,11 +129,11 @@ impl From<MachineError> for CaseError {
 
 /// Places errors in the text of a case.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct CaseText {
     source: Source,
 }
 
-impl Place {
+impl CaseText {
     pub(super) fn new(name: &str, text: &str) -> Self {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }

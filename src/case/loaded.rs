@@ -8,16 +8,12 @@ use refsim::{
         AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, ProgramPlace, StepRate,
         TextureId, VertexSource, VertexStreams,
     },
-    output::{DepthSurface, MOST_TARGETS, WriteMask},
-    raster::{ClipSpace, Cull, PixelCenter, Vertex},
+    output::{DepthSurface, MAX_TARGETS, WriteMask},
+    raster::{ClipSpace, PixelCenter, Vertex},
     texture::{Image, SamplerState},
 };
 
-use super::{
-    CaseError, Setup,
-    schema::{self, Convention},
-    setup::Vertices,
-};
+use super::{CaseError, Setup, schema::Convention, vertices::Vertices};
 
 /// A card with everything that a case puts into it.
 #[derive(Debug)]
@@ -190,15 +186,11 @@ fn draw_call<'a>(
     let call = DrawCall {
         center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
         clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
-        cull: match setup.geometry.cull {
-            schema::Cull::None => Cull::None,
-            schema::Cull::Clockwise => Cull::Clockwise,
-            schema::Cull::CounterClockwise => Cull::CounterClockwise,
-        },
+        cull: setup.geometry.cull,
         alpha_test: setup.alpha,
         depth: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
         blend: setup.blend,
-        masks: [WriteMask(setup.write_mask); MOST_TARGETS],
+        masks: [WriteMask(setup.write_mask); MAX_TARGETS],
         targets: targets.to_vec(),
         depth_buffer: depth,
         bump: setup.bump,

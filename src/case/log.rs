@@ -7,8 +7,8 @@ use refsim::{
 
 use super::{CaseError, Loaded, Setup};
 
-/// Draws the case as [`super::run`] does and returns the machine's log: textures up, targets cleared, the draw, targets and depth
-/// buffer back. The same for every executor.
+/// Draws the case as [`super::run`] does and returns the machine's log: textures up, targets cleared, the draw, targets
+/// and depth buffer back. The same for every executor.
 ///
 /// # Errors
 /// If the device cannot do what the case asks.

@@ -1,9 +1,11 @@
 //! Cases: one shader, everything it reads and draws, and what must come out, in one TOML file.
 //!
-//! A case passes through three hands. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
+//! A case passes through three stages. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
 //! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
-//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and the place in it. docs/cases.md describes the format.
+//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and
+//! the place in it. docs/cases.md describes the format.
 
+mod binder;
 mod constants;
 mod device;
 mod error;
@@ -21,13 +23,14 @@ mod trace;
 mod value;
 mod vertices;
 
-pub use device::Overrides;
+pub use binder::Overrides;
 pub use error::{CaseError, CaseWarning};
 pub use loaded::Loaded;
 pub use log::{log, log_observed};
 pub use probe::{Found, ProbeResult};
-pub use run::{Outcome, ShaderSlots, run};
-pub use setup::{Setup, Vertices};
+pub use run::{CaseOutcome, ShaderSlots, run};
+pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use trace::{PixelTrace, trace};
-pub use value::{Exactly, Number, OneOrMany};
+pub use value::{Constant, Exactly, Number, OneOrMany};
+pub use vertices::Vertices;

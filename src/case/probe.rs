@@ -9,7 +9,7 @@ use refsim::{
 };
 use serde::Serialize;
 
-use super::setup::{Expected, Probe};
+use super::state::{Expected, Probe};
 
 /// What stands at a probed pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]

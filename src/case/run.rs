@@ -19,7 +19,7 @@ use crate::{
 
 /// What a case did.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// Every target, and the depth buffer, as a picture.
     pub pictures: Vec<NamedFile>,
     /// The answers to the probes, in their order.
@@ -43,7 +43,7 @@ pub struct ShaderSlots {
     pub cycles: Option<u64>,
 }
 
-impl Outcome {
+impl CaseOutcome {
     /// Whether every probe found what it expected.
     pub fn passed(&self) -> bool {
         self.probes.iter().all(|result| result.passed)
@@ -54,7 +54,7 @@ impl Outcome {
 ///
 /// # Errors
 /// If the device cannot do what the case asks, or a picture cannot be encoded.
-pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, CaseError> {
+pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;
     let (surfaces, depth) = (loaded.targets()?, loaded.depth()?);
@@ -74,7 +74,7 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<Outcome, Case
         pictures.push(("depth.exr".to_owned(), exr(&picture)?));
     }
     let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
-    Ok(Outcome {
+    Ok(CaseOutcome {
         pictures,
         probes: setup.probes.iter().map(answer).collect(),
         events,
@@ -88,8 +88,8 @@ fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
 }
 
-/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all the
-/// time, memory for nothing.
+/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all
+/// the time, memory for nothing.
 fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
     let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);

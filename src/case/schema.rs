@@ -5,7 +5,14 @@ use std::{collections::BTreeMap, path::PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::value::{Exactly, Number, OneOrMany};
+use refsim::{
+    exec::Projection,
+    output::{BlendFactor, BlendOp, CompareFunction},
+    raster::{Cull, Primitive},
+    texture::{Filter, MipFilter, TextureKind},
+};
+
+use super::value::{Constant, Exactly, Number, OneOrMany};
 
 /// A case as written, with places for error messages; nothing in it is checked beyond words and types.
 #[derive(Clone, Debug, Deserialize)]
@@ -25,9 +32,9 @@ pub struct Case {
     /// Instructions that a program may execute per pixel or vertex, in place of the device's figures.
     pub step_budget: Option<Spanned<u32>>,
     /// The pixel program.
-    pub pixel: Spanned<Shader>,
+    pub pixel: Spanned<ShaderSource>,
     /// The vertex program, if there is one.
-    pub vertex: Option<Spanned<Shader>>,
+    pub vertex: Option<Spanned<ShaderSource>>,
     /// The pixel program's constants: `c0` to lists of numbers, `i0` to lists of integers, `b0` to truth values.
     #[serde(default)]
     pub constants: BTreeMap<String, Spanned<Constant>>,
@@ -43,7 +50,7 @@ pub struct Case {
     /// What is drawn.
     pub geometry: Spanned<Geometry>,
     /// What is drawn on.
-    pub target: Target,
+    pub target: TargetTable,
     /// The depth buffer, if there is one.
     pub depth: Option<Depth>,
     /// The alpha test, if there is one.
@@ -58,20 +65,11 @@ pub struct Case {
 /// A program: in a file or in the case itself.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Shader {
+pub struct ShaderSource {
     /// A file, from the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
     /// The program itself.
     pub source: Option<Spanned<String>>,
-}
-
-/// The value of a constant register.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Constant {
-    /// `b#`
-    Bool(bool),
-    /// `c#`, `i#`: four numbers.
-    Vector(Vec<Number>),
 }
 
 /// A texture and the sampler that reads it.
@@ -82,7 +80,7 @@ pub struct Texture {
     pub slot: Spanned<u32>,
     /// The shape.
     #[serde(default)]
-    pub kind: Kind,
+    pub kind: TextureKind,
     /// The texel format.
     pub format: Spanned<String>,
     /// Width, height, depth, as many as the kind has; with a `file` the picture's.
@@ -107,7 +105,7 @@ pub struct Texture {
     /// How mip levels are chosen.
     #[serde(default)]
     pub mip: MipFilter,
-    /// What lies outside: one for all axes, or one an axis.
+    /// What lies outside: one for all axes, or one per axis.
     pub address: Option<Spanned<OneOrMany>>,
     /// The colour outside, for `border`.
     pub border: Option<Spanned<Vec<Number>>>,
@@ -116,16 +114,7 @@ pub struct Texture {
     /// The most detailed level that is read.
     pub max_mip_level: Option<Spanned<u32>>,
     /// The coordinate that `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the others by.
-    pub projected: Option<Spanned<Projected>>,
-}
-
-/// The coordinate by which the others are divided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Projected {
-    Z,
-    W,
+    pub projected: Option<Spanned<Projection>>,
 }
 
 /// Bump state of a texture stage.
@@ -140,43 +129,6 @@ pub struct Bump {
     pub luminance_scale: Option<Number>,
     /// What `texbeml` adds to that; 0 if not said.
     pub luminance_offset: Option<Number>,
-}
-
-/// The shape of a texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Kind {
-    #[serde(rename = "1d")]
-    D1,
-    #[default]
-    #[serde(rename = "2d")]
-    D2,
-    #[serde(rename = "rectangle")]
-    Rectangle,
-    #[serde(rename = "cube")]
-    Cube,
-    #[serde(rename = "volume")]
-    Volume,
-}
-
-/// How texels are combined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Filter {
-    Nearest,
-    Linear,
-}
-
-/// How mip levels are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum MipFilter {
-    #[default]
-    None,
-    Nearest,
-    Linear,
 }
 
 /// What is drawn.
@@ -205,19 +157,6 @@ pub struct Geometry {
     pub convention: Convention,
 }
 
-/// How vertices make triangles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Primitive {
-    #[default]
-    Triangles,
-    TriangleStrip,
-    TriangleFan,
-    Quads,
-    QuadStrip,
-}
-
 /// Whether colours are interpolated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -226,17 +165,6 @@ pub enum Shading {
     #[default]
     Smooth,
     Flat,
-}
-
-/// Which side is left out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Cull {
-    #[default]
-    None,
-    Clockwise,
-    CounterClockwise,
 }
 
 /// Whose rules hold for pixel centres and clip space.
@@ -252,7 +180,7 @@ pub enum Convention {
 /// What is drawn on.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Target {
+pub struct TargetTable {
     /// Width and height in pixels.
     pub size: Spanned<Exactly<u32, 2>>,
     /// The texel format, or up to four for several targets.
@@ -272,24 +200,9 @@ pub struct Depth {
     /// What it holds before the draw; 1 if not said.
     pub clear: Option<Spanned<Number>>,
     /// The test a fragment must pass; none if not said.
-    pub test: Option<Compare>,
+    pub test: Option<CompareFunction>,
     /// Whether fragments that pass write their depth.
     pub write: Option<Spanned<bool>>,
-}
-
-/// A comparison of a new value with an old one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Compare {
-    Never,
-    Less,
-    Equal,
-    LessEqual,
-    Greater,
-    NotEqual,
-    GreaterEqual,
-    Always,
 }
 
 /// The alpha test.
@@ -297,7 +210,7 @@ pub enum Compare {
 #[serde(deny_unknown_fields)]
 pub struct Alpha {
     /// The test that a fragment's alpha must pass.
-    pub test: Compare,
+    pub test: CompareFunction,
     /// What it is compared with.
     pub reference: Spanned<Number>,
 }
@@ -307,49 +220,18 @@ pub struct Alpha {
 #[serde(deny_unknown_fields)]
 pub struct Blend {
     /// What the fragment is multiplied by.
-    pub source: Factor,
+    pub source: BlendFactor,
     /// What the target is multiplied by.
-    pub destination: Factor,
+    pub destination: BlendFactor,
     /// How the products are combined.
     #[serde(default)]
-    pub operation: BlendOperation,
+    pub operation: BlendOp,
     /// `source` for alpha.
-    pub alpha_source: Option<Factor>,
+    pub alpha_source: Option<BlendFactor>,
     /// `destination` for alpha.
-    pub alpha_destination: Option<Factor>,
+    pub alpha_destination: Option<BlendFactor>,
     /// `operation` for alpha.
-    pub alpha_operation: Option<BlendOperation>,
-}
-
-/// What a colour is multiplied by before blending.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum Factor {
-    Zero,
-    One,
-    SourceColor,
-    InverseSourceColor,
-    SourceAlpha,
-    InverseSourceAlpha,
-    DestinationColor,
-    InverseDestinationColor,
-    DestinationAlpha,
-    InverseDestinationAlpha,
-    SourceAlphaSaturate,
-}
-
-/// How blending combines its two products.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "the variants are the words")]
-pub enum BlendOperation {
-    #[default]
-    Add,
-    Subtract,
-    ReverseSubtract,
-    Min,
-    Max,
+    pub alpha_operation: Option<BlendOp>,
 }
 
 /// What must come out at a pixel.

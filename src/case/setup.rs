@@ -1,9 +1,6 @@
 //! From the words of a case to a device, programs, images and state.
 
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, path::Path};
 
 use refsim::{
     check::Checked,
@@ -12,18 +9,20 @@ use refsim::{
     isa::{Program, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
-    raster::{Primitive, Provoking, Vertex},
     texture::{Image, SamplerState, TexelFormat},
 };
 use toml::Spanned;
 
 use super::{
     CaseError, CaseWarning, Overrides,
-    error::Place,
+    binder::Binder,
+    error::CaseText,
     schema::{self, Case},
-    stages, state, texels,
-    value::{Exactly, Number},
-    vertices,
+    stages,
+    state::{self, Probe},
+    texels,
+    value::Exactly,
+    vertices::{self, Geometry},
 };
 use crate::{
     io::read_limited,
@@ -31,7 +30,7 @@ use crate::{
 };
 
 /// The longest case file that is read, in bytes.
-const LONGEST: u64 = 1 << 26;
+const MAX_BYTES: u64 = 1 << 26;
 
 /// A case that is ready to be drawn.
 #[derive(Clone, Debug)]
@@ -82,54 +81,6 @@ pub struct Setup {
     pub warnings: Vec<CaseWarning>,
 }
 
-/// What is drawn, and how.
-#[derive(Clone, Debug)]
-pub struct Geometry {
-    /// How vertices make triangles.
-    pub primitive: Primitive,
-    /// The vertices.
-    pub vertices: Vertices,
-    /// Which side is left out.
-    pub cull: schema::Cull,
-    /// Flat shading: whose colours a primitive has, as the convention says.
-    pub flat: Option<Provoking>,
-    /// Whose rules hold for pixel centres and clip space.
-    pub convention: schema::Convention,
-}
-
-/// Vertices before or after the vertex program.
-#[derive(Clone, Debug)]
-pub enum Vertices {
-    /// Attributes `v0` to `v15` of each vertex, for the vertex program.
-    Attributes(Vec<[[u32; 4]; 16]>),
-    /// What the rasteriser takes: there is no vertex program.
-    Transformed(Vec<Vertex>),
-}
-
-/// What must come out at a pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Probe {
-    /// Column and row.
-    pub pixel: [u32; 2],
-    /// Which target.
-    pub target: usize,
-    /// What is expected.
-    pub expected: Expected,
-    /// How far numbers may be off.
-    pub tolerance: f64,
-}
-
-/// What a probe compares with.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Expected {
-    /// Red, green, blue, alpha, from the first on, as numbers.
-    Color(Vec<f64>),
-    /// The stored channels, to the bit.
-    Raw(Vec<u32>),
-    /// The depth as a number.
-    Depth(f64),
-}
-
 impl Setup {
     /// Reads a case and everything that it names.
     ///
@@ -147,8 +98,8 @@ impl Setup {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
         // No more than the limit is read: the name may be that of a device without an end.
-        let Some(bytes) = read_limited(path, LONGEST).map_err(unreadable)? else {
-            return Err(CaseError::TooLong { most: LONGEST });
+        let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
+            return Err(CaseError::TooLong { most: MAX_BYTES });
         };
         let folder = path.parent().unwrap_or_else(|| Path::new(""));
         Self::bound(&path.display().to_string(), &bytes, folder, overrides)
@@ -163,25 +114,17 @@ impl Setup {
     }
 
     fn bound(name: &str, bytes: &[u8], folder: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
-        if bytes.len() as u64 > LONGEST {
-            return Err(CaseError::TooLong { most: LONGEST });
+        if bytes.len() as u64 > MAX_BYTES {
+            return Err(CaseError::TooLong { most: MAX_BYTES });
         }
         let text = std::str::from_utf8(bytes).map_err(|error| {
             let offset = error.valid_up_to();
             CaseError::NotText { byte: bytes.get(offset).copied().unwrap_or_default(), offset }
         })?;
-        let place = Place::new(name, text);
+        let place = CaseText::new(name, text);
         let case: Case = toml::from_str(text).map_err(|error| place.toml(&error))?;
         Binder { place, name, folder, overrides }.bind(case)
     }
-}
-
-/// What every step needs: where to report, where files are.
-pub(super) struct Binder<'a> {
-    pub(super) place: Place,
-    name: &'a str,
-    folder: &'a Path,
-    pub(super) overrides: &'a Overrides,
 }
 
 impl Binder<'_> {
@@ -264,7 +207,7 @@ impl Binder<'_> {
     /// Reads, assembles and judges a program.
     fn program(
         &self,
-        shader: &Spanned<schema::Shader>,
+        shader: &Spanned<schema::ShaderSource>,
         table: &str,
         stage: Stage,
         profile: &Profile,
@@ -305,10 +248,6 @@ impl Binder<'_> {
         Ok((text.check(program, profile)?, text))
     }
 
-    pub(super) fn path(&self, file: &Path) -> PathBuf {
-        self.folder.join(file)
-    }
-
     fn size(&self, size: &Spanned<Exactly<u32, 2>>) -> Result<[u32; 2], CaseError> {
         let [width, height] = size.get_ref().0;
         if (1..=4096).contains(&width) && (1..=4096).contains(&height) {
@@ -317,27 +256,4 @@ impl Binder<'_> {
         let message = format!("expected a target of 1 to 4096 pixels a side, found {width}x{height}");
         Err(self.place.wrong(size.span(), message, "write `size = [width, height]`"))
     }
-
-    /// Exactly four numbers, as IEEE singles.
-    pub(super) fn four(&self, numbers: &[Number], span: std::ops::Range<usize>) -> Result<[u32; 4], CaseError> {
-        <[Number; 4]>::try_from(numbers).map(|four| four.map(Number::single)).map_err(|_| {
-            let message = format!("expected 4 numbers, found {}", numbers.len());
-            self.place.wrong(span, message, "write all four: x, y, z, w, or red, green, blue, alpha")
-        })
-    }
-
-    pub(super) fn optional_vector(
-        &self,
-        vector: Option<&Spanned<Vec<Number>>>,
-        default: [u32; 4],
-    ) -> Result<[u32; 4], CaseError> {
-        vector.map_or(Ok(default), |vector| self.four(vector.get_ref(), vector.span()))
-    }
-}
-
-/// The number of a register such as `c17`, below `count`; no sign, no leading zeros.
-pub(super) fn register(name: &str, count: usize) -> Option<usize> {
-    let digits = name.get(1..)?;
-    let plain = digits.bytes().all(|byte| byte.is_ascii_digit()) && (digits == "0" || !digits.starts_with('0'));
-    digits.parse().ok().filter(|number| plain && *number < count)
 }

@@ -10,13 +10,14 @@ use serde::Serialize;
 
 use super::{CaseError, Loaded, Setup, loaded::constants};
 use crate::compare::{
-    Difference, Pass, Shape, Stage, SurfaceDifference, TraceSide, depths, differing_corner, first_difference, images,
+    FragmentPass, SurfaceDifference, TargetFormats, TraceDifference, TraceSide, TraceStage, depths, differing_corner,
+    first_difference, images,
 };
 
 /// Pixels that are followed at a time: the vertices are processed once for them.
 const TOGETHER: usize = 1024;
 
-/// One side: a case with its overrides, and who computes.
+/// One side: a case with its overrides, and the executor.
 #[derive(Clone, Debug)]
 pub struct Side<'s> {
     /// The case. Both sides come from the same file.
@@ -71,9 +72,9 @@ pub struct First {
     pub draw: usize,
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
-    /// Where on the way of its fragments the sides part; `None` if their traces are equal although what the draws left is
-    /// not: then the draw of a side differs from its own trace.
-    pub difference: Option<Difference>,
+    /// The first difference of its fragments' traces; `None` if their traces are equal although what the draws left
+    /// is not: then the draw of a side differs from its own trace.
+    pub difference: Option<TraceDifference>,
 }
 
 impl Comparison {
@@ -88,7 +89,7 @@ impl Comparison {
 /// # Errors
 /// If a side cannot be drawn, or the pixel of the scope lies outside the targets.
 pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Comparison, CaseError> {
-    let mut sides = [Drawn::new(left)?, Drawn::new(right)?];
+    let mut sides = [DrawnSide::new(left)?, DrawnSide::new(right)?];
     let events = [sides[0].draw()?, sides[1].draw()?];
     let surfaces = surfaces(&sides[0].drawn, &sides[1].drawn)?;
     let [width, height] = left.setup.size;
@@ -128,14 +129,14 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
 }
 
 /// A side with two cards: one that draws, one whose memory stays as it was before the draw.
-struct Drawn<'s> {
+struct DrawnSide<'s> {
     drawn: Loaded<'s>,
     before: Loaded<'s>,
     setup: &'s Setup,
     constants: ResolvedConstants,
 }
 
-impl<'s> Drawn<'s> {
+impl<'s> DrawnSide<'s> {
     fn new(side: &Side<'s>) -> Result<Self, CaseError> {
         let load = || Loaded::new(side.setup, &side.executor);
         Ok(Self { drawn: load()?, before: load()?, setup: side.setup, constants: constants(side.setup) })
@@ -152,9 +153,9 @@ impl<'s> Drawn<'s> {
 }
 
 /// Follows pixels on both sides, counts those that differ and keeps the first.
-fn follow(sides: &[Drawn<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Comparison) -> Result<(), CaseError> {
+fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Comparison) -> Result<(), CaseError> {
     let setup = sides[0].setup;
-    let shape = Shape { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
+    let shape = TargetFormats { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
     let traces = [sides[0].before.trace(pixels)?, sides[1].before.trace(pixels)?];
     for (&(x, y), (left, right)) in pixels.iter().zip(traces[0].iter().zip(&traces[1])) {
         comparison.followed[0] += 1;
@@ -173,15 +174,15 @@ fn follow(sides: &[Drawn<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Compar
 }
 
 /// A difference before the program may come from the vertices: then it is there that the sides part.
-fn from_vertices(sides: &[Drawn<'_>; 2], difference: Difference) -> Result<Difference, CaseError> {
-    if !matches!(difference.stage, Stage::Coverage { .. } | Stage::Input) {
+fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Result<TraceDifference, CaseError> {
+    if !matches!(difference.stage, TraceStage::Coverage { .. } | TraceStage::Input) {
         return Ok(difference);
     }
-    let Pass { instance, triangle, .. } = difference.pass;
+    let FragmentPass { instance, triangle, .. } = difference.pass;
     let corners = [sides[0].before.corners(instance, triangle)?, sides[1].before.corners(instance, triangle)?];
     Ok(match corners {
         [Some(left), Some(right)] => match differing_corner(&left, &right) {
-            Some((corner, values)) => Difference { stage: Stage::Vertex { corner }, values, ..difference },
+            Some((corner, values)) => TraceDifference { stage: TraceStage::Vertex { corner }, values, ..difference },
             None => difference,
         },
         _ => difference,

@@ -6,12 +6,7 @@ use refsim::{
 };
 use toml::Spanned;
 
-use super::{
-    CaseError, CaseWarning,
-    schema::{self, Projected},
-    setup::Binder,
-    value::Number,
-};
+use super::{CaseError, CaseWarning, binder::Binder, schema, value::Number};
 
 /// Bump state by stage, as Direct3D has it before anything is set: zeros.
 pub(super) fn bump(
@@ -44,7 +39,7 @@ pub(super) fn bump(
 /// Sets the projection of the stage that reads a texture.
 pub(super) fn project(
     binder: &Binder<'_>,
-    projected: &Spanned<Projected>,
+    projected: &Spanned<Projection>,
     slot: u32,
     pixel: &Program,
     projections: &mut [Projection; BUMP_STAGES],
@@ -58,17 +53,14 @@ pub(super) fn project(
         let message = format!("expected a stage from 0 to {}, found slot {slot}", BUMP_STAGES - 1);
         return Err(binder.place.wrong(projected.span(), message, "only stages can be projected"));
     };
-    *stage = match projected.get_ref() {
-        Projected::Z => Projection::Z,
-        Projected::W => Projection::W,
-    };
+    *stage = *projected.get_ref();
     Ok(())
 }
 
 /// Warns of the stages whose bump state the program reads and the case does not set.
 pub(super) fn unset(
     binder: &Binder<'_>,
-    shader: &Spanned<schema::Shader>,
+    shader: &Spanned<schema::ShaderSource>,
     pixel: &Program,
     stages: &[Option<BumpStage>; BUMP_STAGES],
 ) -> Vec<CaseWarning> {

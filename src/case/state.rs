@@ -1,26 +1,45 @@
 //! Targets, tests, blending and probes: from words to the emulator's state.
 
 use refsim::{
-    output::{AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState},
+    output::{AlphaTest, BlendEquation, BlendState, DepthFormat, DepthState},
     texture::TexelFormat,
 };
 use toml::Spanned;
 
-use super::{
-    CaseError,
-    schema::{self, BlendOperation, Compare, Factor},
-    setup::{Binder, Expected, Probe},
-    value::Number,
-};
+use super::{CaseError, binder::Binder, schema, value::Number};
 
 /// 1.0 as an IEEE single.
 const ONE: u32 = 0x3f80_0000;
 
+/// What must come out at a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Column and row.
+    pub pixel: [u32; 2],
+    /// Which target.
+    pub target: usize,
+    /// What is expected.
+    pub expected: Expected,
+    /// How far numbers may be off.
+    pub tolerance: f64,
+}
+
+/// What a probe compares with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expected {
+    /// Red, green, blue, alpha, from the first on, as numbers.
+    Color(Vec<f64>),
+    /// The stored channels, to the bit.
+    Raw(Vec<u32>),
+    /// The depth as a number.
+    Depth(f64),
+}
+
 /// The formats of the colour targets.
-pub(super) fn targets(binder: &Binder<'_>, target: &schema::Target) -> Result<Vec<TexelFormat>, CaseError> {
+pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
-    if names.is_empty() || names.len() > refsim::output::MOST_TARGETS {
-        let message = format!("expected 1 to {} target formats, found {}", refsim::output::MOST_TARGETS, names.len());
+    if names.is_empty() || names.len() > refsim::output::MAX_TARGETS {
+        let message = format!("expected 1 to {} target formats, found {}", refsim::output::MAX_TARGETS, names.len());
         return Err(binder.place.wrong(target.format.span(), message, "write for example `format = \"rgba8\"`"));
     }
     names.iter().map(|name| texel_format(binder, name, target.format.span())).collect()
@@ -63,7 +82,7 @@ pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(Depth
         return Err(binder.place.wrong(write.span(), "`write = true` without a `test`", help));
     }
     let write = depth.write.as_ref().map_or(depth.test.is_some(), |write| *write.get_ref());
-    let state = DepthState { test: depth.test.map(compare), write };
+    let state = DepthState { test: depth.test, write };
     let clear = depth.clear.as_ref().map_or(Ok(ONE), |clear| fraction(binder, clear, "a depth"))?;
     Ok((format, clear, state))
 }
@@ -81,20 +100,16 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
 /// The alpha test.
 pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
     let reference = fraction(binder, &alpha.reference, "a reference")?;
-    Ok(AlphaTest { function: compare(alpha.test), reference })
+    Ok(AlphaTest { function: alpha.test, reference })
 }
 
 /// Blending; alpha as colour where nothing else is said.
 pub(super) fn blend(blend: &schema::Blend) -> BlendState {
-    let color = BlendEquation {
-        source: factor(blend.source),
-        destination: factor(blend.destination),
-        op: operation(blend.operation),
-    };
+    let color = BlendEquation { source: blend.source, destination: blend.destination, op: blend.operation };
     let alpha = BlendEquation {
-        source: blend.alpha_source.map_or(color.source, factor),
-        destination: blend.alpha_destination.map_or(color.destination, factor),
-        op: blend.alpha_operation.map_or(color.op, operation),
+        source: blend.alpha_source.unwrap_or(color.source),
+        destination: blend.alpha_destination.unwrap_or(color.destination),
+        op: blend.alpha_operation.unwrap_or(color.op),
     };
     BlendState { color, alpha }
 }
@@ -159,44 +174,5 @@ fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool
         (None, None, Some(_)) => wrong("the probe asks for depth, but the case has no depth buffer", "add [depth]"),
         (None, None, None) => wrong("the probe expects nothing", "write `expected`, `raw` or `depth`"),
         _ => wrong("the probe expects several things at once", "write one probe for each"),
-    }
-}
-
-fn compare(compare: Compare) -> CompareFunction {
-    match compare {
-        Compare::Never => CompareFunction::Never,
-        Compare::Less => CompareFunction::Less,
-        Compare::Equal => CompareFunction::Equal,
-        Compare::LessEqual => CompareFunction::LessEqual,
-        Compare::Greater => CompareFunction::Greater,
-        Compare::NotEqual => CompareFunction::NotEqual,
-        Compare::GreaterEqual => CompareFunction::GreaterEqual,
-        Compare::Always => CompareFunction::Always,
-    }
-}
-
-fn factor(factor: Factor) -> BlendFactor {
-    match factor {
-        Factor::Zero => BlendFactor::Zero,
-        Factor::One => BlendFactor::One,
-        Factor::SourceColor => BlendFactor::SrcColor,
-        Factor::InverseSourceColor => BlendFactor::InvSrcColor,
-        Factor::SourceAlpha => BlendFactor::SrcAlpha,
-        Factor::InverseSourceAlpha => BlendFactor::InvSrcAlpha,
-        Factor::DestinationColor => BlendFactor::DestColor,
-        Factor::InverseDestinationColor => BlendFactor::InvDestColor,
-        Factor::DestinationAlpha => BlendFactor::DestAlpha,
-        Factor::InverseDestinationAlpha => BlendFactor::InvDestAlpha,
-        Factor::SourceAlphaSaturate => BlendFactor::SrcAlphaSat,
-    }
-}
-
-fn operation(operation: BlendOperation) -> BlendOp {
-    match operation {
-        BlendOperation::Add => BlendOp::Add,
-        BlendOperation::Subtract => BlendOp::Subtract,
-        BlendOperation::ReverseSubtract => BlendOp::ReverseSubtract,
-        BlendOperation::Min => BlendOp::Min,
-        BlendOperation::Max => BlendOp::Max,
     }
 }

@@ -6,17 +6,14 @@ use image::{ImageFormat, ImageReader};
 use refsim::{
     event::SAMPLERS,
     num::{self, Format},
-    texture::{
-        AddressMode, ChannelClass, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureError,
-        TextureKind,
-    },
+    texture::{AddressMode, ChannelClass, Image, SamplerState, TargetRounding, TexelFormat, TextureError, TextureKind},
 };
 use toml::Spanned;
 
 use super::{
     CaseError,
-    schema::{self, Kind},
-    setup::Binder,
+    binder::Binder,
+    schema,
     state::texel_format,
     value::{Number, vector, whole},
 };
@@ -45,23 +42,13 @@ pub(super) fn bind(
     Ok((slot, image, sampler(binder, written)?))
 }
 
-fn kind(kind: Kind) -> TextureKind {
-    match kind {
-        Kind::D1 => TextureKind::D1,
-        Kind::D2 => TextureKind::D2,
-        Kind::Rectangle => TextureKind::Rectangle,
-        Kind::Cube => TextureKind::Cube,
-        Kind::Volume => TextureKind::Volume,
-    }
-}
-
 /// Width, height and depth from as many numbers as the kind has axes.
-fn extents(kind: Kind, size: &[u32]) -> Option<[u32; 3]> {
+fn extents(kind: TextureKind, size: &[u32]) -> Option<[u32; 3]> {
     match (kind, size) {
-        (Kind::D1, &[width]) => Some([width, 1, 1]),
-        (Kind::D2 | Kind::Rectangle, &[width, height]) => Some([width, height, 1]),
-        (Kind::Cube, &[side]) => Some([side, side, 1]),
-        (Kind::Volume, &[width, height, depth]) => Some([width, height, depth]),
+        (TextureKind::D1, &[width]) => Some([width, 1, 1]),
+        (TextureKind::D2 | TextureKind::Rectangle, &[width, height]) => Some([width, height, 1]),
+        (TextureKind::Cube, &[side]) => Some([side, side, 1]),
+        (TextureKind::Volume, &[width, height, depth]) => Some([width, height, depth]),
         _ => None,
     }
 }
@@ -83,7 +70,7 @@ fn from_texels(
         return Err(binder.place.wrong(size.span(), message, help));
     };
     // Before memory is taken for the size: so many texels must have been written.
-    let faces = if written.kind == Kind::Cube { 6 } else { 1 };
+    let faces = if written.kind == TextureKind::Cube { 6 } else { 1 };
     let expected = extents.iter().try_fold(faces, |product: usize, &side| product.checked_mul(side as usize));
     if expected != Some(texels.get_ref().len()) {
         let expected = expected.map_or_else(|| "far more".to_owned(), |number| number.to_string());
@@ -92,7 +79,7 @@ fn from_texels(
     }
     let wrong = |error: TextureError| binder.place.wrong(size.span(), error.to_string(), "change `size` or `mipmaps`");
     let levels = u32::try_from(written.mipmaps.len()).unwrap_or(u32::MAX).saturating_add(1);
-    let mut image = Image::new(format, kind(written.kind), extents, levels).map_err(wrong)?;
+    let mut image = Image::new(format, written.kind, extents, levels).map_err(wrong)?;
     fill(binder, &mut image, 0, written.raw, texels)?;
     for (level, texels) in (1..).zip(&written.mipmaps) {
         fill(binder, &mut image, level, written.raw, texels)?;
@@ -180,7 +167,7 @@ fn from_file(
         return Err(binder.place.wrong(file.span(), "`raw` codes of a picture", help));
     }
     let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
-    if matches!(written.kind, Kind::Cube | Kind::Volume) || !written.mipmaps.is_empty() {
+    if matches!(written.kind, TextureKind::Cube | TextureKind::Volume) || !written.mipmaps.is_empty() {
         let help = "list `texels` for cubes, volumes and mip maps";
         return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
     }
@@ -205,7 +192,7 @@ fn from_file(
     let single = |k: u16| num::from_ratio(Format::FP32, false, k.into(), 65535).bits;
     let values: Vec<[u32; 4]> = picture.pixels().map(|pixel| pixel.0.map(single)).collect();
     let extents = [picture.width(), picture.height(), 1];
-    Image::from_values(format, kind(written.kind), extents, Format::FP32, &values, TargetRounding::Nearest)
+    Image::from_values(format, written.kind, extents, Format::FP32, &values, TargetRounding::Nearest)
         .map_err(|error| wrong(error.to_string(), "use another picture, or another `kind`"))
 }
 
@@ -223,20 +210,12 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
     let levels = written.mipmaps.len() as u32;
     let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() > levels).map(Spanned::span);
     unused(beyond, "the texture has no such level", "`mipmaps` lists the levels from 1 on")?;
-    let filter =
-        |filter: Option<schema::Filter>| match filter.or(written.filter.as_ref().map(|filter| *filter.get_ref())) {
-            Some(schema::Filter::Linear) => Filter::Linear,
-            _ => Filter::Nearest,
-        };
+    let both = written.filter.as_ref().map(|filter| *filter.get_ref()).unwrap_or_default();
     let [address_u, address_v, address_w] = address(binder, written)?;
     Ok(SamplerState {
-        min: filter(written.min),
-        mag: filter(written.mag),
-        mip: match written.mip {
-            schema::MipFilter::None => MipFilter::None,
-            schema::MipFilter::Nearest => MipFilter::Nearest,
-            schema::MipFilter::Linear => MipFilter::Linear,
-        },
+        min: written.min.unwrap_or(both),
+        mag: written.mag.unwrap_or(both),
+        mip: written.mip,
         address_u,
         address_v,
         address_w,
@@ -249,7 +228,7 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
     })
 }
 
-/// One mode for all axes, or one an axis; clamp where nothing is said.
+/// One mode for all axes, or one per axis; clamp where nothing is said.
 fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMode; 3], CaseError> {
     let Some(address) = &written.address else { return Ok([AddressMode::Clamp; 3]) };
     let mode = |name: &String| match name.as_str() {
@@ -264,9 +243,9 @@ fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMod
     };
     let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<_>, _>>()?;
     let axes = match written.kind {
-        Kind::D1 => 1,
-        Kind::D2 | Kind::Rectangle | Kind::Cube => 2,
-        Kind::Volume => 3,
+        TextureKind::D1 => 1,
+        TextureKind::D2 | TextureKind::Rectangle | TextureKind::Cube => 2,
+        TextureKind::Volume => 3,
     };
     match modes[..] {
         [all] => Ok([all; 3]),

@@ -7,8 +7,6 @@ use serde::{
     de::{self, SeqAccess, Visitor},
 };
 
-use super::schema::Constant;
-
 /// A number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
@@ -119,6 +117,15 @@ impl<'de> Deserialize<'de> for OneOrMany {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(OneOrManyVisitor)
     }
+}
+
+/// The value of a constant register.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Constant {
+    /// `b#`
+    Bool(bool),
+    /// `c#`, `i#`: four numbers.
+    Vector(Vec<Number>),
 }
 
 struct ConstantVisitor;

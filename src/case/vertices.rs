@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use refsim::{
     isa::{Program, Usage},
-    raster::{Primitive, Provoking, Vertex},
+    raster::{Cull, Primitive, Provoking, Vertex},
 };
 use toml::Spanned;
 
 use super::{
     CaseError,
+    binder::{Binder, register},
     schema::{self, Convention, Shading},
-    setup::{Binder, Geometry, Vertices, register},
     value::{Number, vector},
 };
 
@@ -19,7 +19,31 @@ use super::{
 const ONE: u32 = 0x3f80_0000;
 const MINUS_ONE: u32 = 0xbf80_0000;
 /// The most vertices of a case.
-const MOST_VERTICES: usize = 1 << 20;
+const MAX_VERTICES: usize = 1 << 20;
+
+/// What is drawn, and how.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    /// How vertices make triangles.
+    pub primitive: Primitive,
+    /// The vertices.
+    pub vertices: Vertices,
+    /// Which side is left out.
+    pub cull: Cull,
+    /// Flat shading: whose colours a primitive has, as the convention says.
+    pub flat: Option<Provoking>,
+    /// Whose rules hold for pixel centres and clip space.
+    pub convention: Convention,
+}
+
+/// Vertices before or after the vertex program.
+#[derive(Clone, Debug)]
+pub enum Vertices {
+    /// Attributes `v0` to `v15` of each vertex, for the vertex program.
+    Attributes(Vec<[[u32; 4]; 16]>),
+    /// What the rasteriser takes: there is no vertex program.
+    Transformed(Vec<Vertex>),
+}
 
 type Attributes = BTreeMap<String, Spanned<Vec<Number>>>;
 
@@ -37,7 +61,7 @@ pub(super) fn bind(
     if !written.full_screen && written.vertices.is_empty() {
         return wrong("the geometry has no vertices", "list `vertices`, or write `full_screen = true`");
     }
-    if written.vertices.len() > MOST_VERTICES {
+    if written.vertices.len() > MAX_VERTICES {
         return wrong("the geometry has more than 1048576 vertices", "split the case");
     }
     let reader = Reader { binder, all: &written.attributes, program };
@@ -61,7 +85,7 @@ pub(super) fn bind(
     }
     let primitive = match (&written.primitive, written.full_screen) {
         (_, true) => Primitive::QuadList,
-        (Some(words), false) => primitive(*words.get_ref()),
+        (Some(primitive), false) => *primitive.get_ref(),
         (None, false) => Primitive::TriangleList,
     };
     let flat = (written.shading == Shading::Flat).then_some(match written.convention {
@@ -69,16 +93,6 @@ pub(super) fn bind(
         Convention::Opengl => Provoking::Last,
     });
     Ok(Geometry { primitive, vertices, cull: written.cull, flat, convention: written.convention })
-}
-
-fn primitive(primitive: schema::Primitive) -> Primitive {
-    match primitive {
-        schema::Primitive::Triangles => Primitive::TriangleList,
-        schema::Primitive::TriangleStrip => Primitive::TriangleStrip,
-        schema::Primitive::TriangleFan => Primitive::TriangleFan,
-        schema::Primitive::Quads => Primitive::QuadList,
-        schema::Primitive::QuadStrip => Primitive::QuadStrip,
-    }
 }
 
 /// Position and `t0` of a corner of the screen.

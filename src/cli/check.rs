@@ -86,7 +86,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 fn warning_json(warning: &Warning) -> Value {
     json!({
-        "code": warning.code,
+        "code": warning.id.code(),
         "start": warning.span.start,
         "end": warning.span.end,
         "message": warning.message,

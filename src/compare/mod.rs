@@ -1,16 +1,18 @@
 //! The one place that says "equal": numbers, pictures, and what two runs of one program did.
 //!
-//! - [`Number`]: two patterns are equal if their bits are, where both have the same layout; across layouts if they are the
-//!   same number. [`ulps`] is how far apart they are.
+//! - [`Number`]: two patterns are equal if their bits are, where both have the same layout; across layouts if they are
+//!   the same number. [`ulps`] is how far apart they are.
 //! - [`images`], [`depths`]: two surfaces are equal if every stored bit is; the difference as statistics.
 //! - [`first_difference`]: where two traces of one pixel part: the pass, the stage, the instruction, the component.
 
 mod number;
 mod operands;
+mod side;
 mod surface;
 mod trace;
 
 pub use number::{Compared, Number, ulps};
 pub use operands::Operand;
+pub use side::{TraceSide, component};
 pub use surface::{Largest, SurfaceDifference, depths, images};
-pub use trace::{Difference, Pass, Shape, Stage, TraceSide, component, differing_corner, first_difference};
+pub use trace::{FragmentPass, TargetFormats, TraceDifference, TraceStage, differing_corner, first_difference};

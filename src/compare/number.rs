@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use refsim::{
-    num::{Format, Kind, Unpacked, unpack},
+    num::{Format, FormatKind, Unpacked, power_of_two, unpack},
     texture::{Channel, ChannelClass, ChannelValue, SignedTexelMinimum, decode_channel},
 };
 use serde::Serialize;
@@ -42,11 +42,6 @@ pub struct Compared {
     pub unit: String,
 }
 
-/// 2 to a power within the range of normal doubles.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(u64::from((exponent + 1023).clamp(1, 2046).unsigned_abs()) << 52)
-}
-
 impl Number {
     /// The number as a double, which holds every number of every format exactly; NaN and infinities as such.
     pub fn double(&self) -> f64 {
@@ -69,8 +64,8 @@ impl Number {
         }
     }
 
-    /// Whether two numbers are equal: with one layout (sizes of the fields), if their bits are, so that 0 and -0 differ; with
-    /// two, if they are the same number. NaN equals NaN.
+    /// Whether two numbers are equal: with one layout (sizes of the fields), if their bits are, so that 0 and -0
+    /// differ; with two, if they are the same number. NaN equals NaN.
     pub fn equals(&self, other: &Self) -> bool {
         if self.format.kind == other.format.kind {
             let nan = self.format.is_nan(self.bits) && other.format.is_nan(other.bits);
@@ -94,8 +89,8 @@ impl Number {
     /// The place of the last bit at a magnitude: the distance from one number to the next.
     fn last_place(&self, magnitude: f64) -> f64 {
         match self.format.kind {
-            Kind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
-            Kind::Float { exp_bits, man_bits } => {
+            FormatKind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
+            FormatKind::Float { exp_bits, man_bits } => {
                 let bias = (1 << (exp_bits - 1)) - 1;
                 let exponent = ((magnitude.to_bits() >> 52) & 0x7ff) as i32 - 1023;
                 power_of_two(exponent.clamp(1 - bias, bias) - i32::from(man_bits))
@@ -107,8 +102,8 @@ impl Number {
     fn step(&self) -> i64 {
         let bits = i64::from(self.bits & self.format.mask());
         match self.format.kind {
-            Kind::Fixed { .. } if self.format.is_negative(self.bits) => bits - (1i64 << self.format.width()),
-            Kind::Float { .. } if self.format.is_negative(self.bits) => i64::from(self.format.sign_bit()) - bits,
+            FormatKind::Fixed { .. } if self.format.is_negative(self.bits) => bits - (1i64 << self.format.width()),
+            FormatKind::Float { .. } if self.format.is_negative(self.bits) => i64::from(self.format.sign_bit()) - bits,
             _ => bits,
         }
     }

@@ -1,4 +1,4 @@
-//! What an instruction read, put together from what was written before it.
+//! Operands of an instruction, reconstructed from the steps before it.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use refsim::{
 
 use super::{
     number::{Compared, Number},
-    trace::{TraceSide, component},
+    side::{TraceSide, component},
 };
 
 /// A register that an instruction read, by both sides: before swizzle and modifier.
@@ -35,7 +35,7 @@ pub(super) fn operands(
     else {
         return Vec::new();
     };
-    let states = [left, right].map(|(side, fragment)| State::before(side, fragment, k));
+    let states = [left, right].map(|(side, fragment)| RegisterValues::before(side, fragment, k));
     registers_read(instruction)
         .into_iter()
         .filter_map(|register| {
@@ -78,9 +78,9 @@ fn reads_coordinates(version: Version, instruction: &Instruction, register: &Reg
 }
 
 /// The registers of a lane before an instruction.
-struct State(BTreeMap<(RegisterFile, u16), [u32; 4]>);
+struct RegisterValues(BTreeMap<(RegisterFile, u16), [u32; 4]>);
 
-impl State {
+impl RegisterValues {
     fn before(side: &TraceSide<'_>, fragment: &FragmentTrace, k: usize) -> Self {
         let shading = &fragment.shading;
         let delivered = shading.delivered.iter().map(|(register, value)| ((register.file, register.index), *value));

@@ -18,8 +18,8 @@ pub struct SurfaceDifference {
     pub pixels: u64,
     /// Pixels of which a stored bit differs.
     pub different: u64,
-    /// The largest difference between two numbers, of the first pixel that has it. A difference from something that is not
-    /// finite is larger than all others.
+    /// The largest difference between two numbers, of the first pixel that has it. A difference from something that is
+    /// not finite is larger than all others.
     pub largest: Option<Largest>,
     /// For each pixel, row by row, whether it differs.
     #[serde(skip)]

@@ -1,9 +1,8 @@
-//! Where two traces of one pixel part.
+//! The first difference of two traces of one pixel.
 
 use refsim::{
-    asm,
-    exec::{ResolvedConstants, Step},
-    isa::{Mask, Opcode, Program, Register, RegisterFile},
+    exec::Step,
+    isa::{Mask, Opcode, Register, RegisterFile},
     machine::{FragmentTrace, PixelState},
     num::Format,
     output::{DepthFormat, FragmentFate},
@@ -14,25 +13,13 @@ use refsim::{
 use super::{
     number::{Compared, Number},
     operands::{Operand, operands},
+    side::{TraceSide, component},
     surface::{compared_depths, differing_channels},
 };
 
-/// One side's trace of a pixel, and what is needed to read it.
-#[derive(Clone, Copy, Debug)]
-pub struct TraceSide<'a> {
-    /// The pixel program; both sides run the same text.
-    pub program: &'a Program,
-    /// The format of its registers.
-    pub format: Format,
-    /// Its constants as this side's instructions read them.
-    pub constants: &'a ResolvedConstants,
-    /// The fragments of the pixel in order.
-    pub fragments: &'a [FragmentTrace],
-}
-
 /// The formats of what is drawn on, the same on both sides.
 #[derive(Clone, Copy, Debug)]
-pub struct Shape<'a> {
+pub struct TargetFormats<'a> {
     /// The colour targets.
     pub targets: &'a [TexelFormat],
     /// The depth buffer.
@@ -41,7 +28,7 @@ pub struct Shape<'a> {
 
 /// Which of the fragments at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pass {
+pub struct FragmentPass {
     /// Its number at the pixel, from 0.
     pub index: usize,
     /// The instance that it belongs to, from 0.
@@ -52,11 +39,11 @@ pub struct Pass {
     pub part: usize,
 }
 
-/// Where on the way of a fragment the sides part.
+/// The stage of the pipeline at which the traces of a fragment first differ.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stage {
-    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] cannot tell it from what follows; who has
-    /// the corners asks [`differing_corner`].
+pub enum TraceStage {
+    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] does not see corners;
+    /// [`differing_corner`] compares them.
     Vertex {
         /// The corner of the triangle, 0 to 2.
         corner: usize,
@@ -65,9 +52,9 @@ pub enum Stage {
     /// triangles computes. Which pass each side has there.
     Coverage {
         /// On the left.
-        left: Option<Pass>,
+        left: Option<FragmentPass>,
         /// On the right.
-        right: Option<Pass>,
+        right: Option<FragmentPass>,
     },
     /// What the rasteriser interpolates.
     Input,
@@ -94,8 +81,8 @@ pub enum Stage {
         /// On the right.
         right: Option<usize>,
     },
-    /// What the program leaves behind that no register shows: kill, depth, clamped colour. With the instruction, if there is
-    /// only one that can have done it.
+    /// What the program leaves behind that no register shows: kill, depth, clamped colour. With the instruction, if
+    /// there is only one that can have done it.
     Output {
         /// Its index in the program.
         instruction: Option<usize>,
@@ -113,35 +100,39 @@ pub enum Stage {
 
 /// The first difference of two traces.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct TraceDifference {
     /// The pass.
-    pub pass: Pass,
+    pub pass: FragmentPass,
     /// How many passes the pixel has on the left and on the right.
     pub passes: [usize; 2],
     /// Where.
-    pub stage: Stage,
+    pub stage: TraceStage,
     /// What differs there, the first component first.
     pub values: Vec<Compared>,
     /// What the instruction read, where [`Self::stage`] is one.
     pub operands: Vec<Operand>,
     /// The first instruction of the same pass that writes something different, where the stage is an earlier one.
-    pub instruction: Option<Box<Difference>>,
+    pub instruction: Option<Box<TraceDifference>>,
 }
 
-fn pass(index: usize, fragment: &FragmentTrace) -> Pass {
-    Pass { index, instance: fragment.instance, triangle: fragment.triangle, part: fragment.part }
+fn pass(index: usize, fragment: &FragmentTrace) -> FragmentPass {
+    FragmentPass { index, instance: fragment.instance, triangle: fragment.triangle, part: fragment.part }
 }
 
-/// Finds the first difference between two traces of one pixel: in the first pass that differs, the first stage, and there
-/// the first step. `None` if they are equal; flags are not compared, since only the scalar executor knows them.
-pub fn first_difference(left: &TraceSide<'_>, right: &TraceSide<'_>, shape: &Shape<'_>) -> Option<Difference> {
+/// Finds the first difference between two traces of one pixel: in the first pass that differs, the first stage, and
+/// there the first step. `None` if they are equal; flags are not compared, since only the scalar executor knows them.
+pub fn first_difference(
+    left: &TraceSide<'_>,
+    right: &TraceSide<'_>,
+    shape: &TargetFormats<'_>,
+) -> Option<TraceDifference> {
     let count = left.fragments.len().max(right.fragments.len());
     (0..count).find_map(|index| {
         let sides = (left.fragments.get(index), right.fragments.get(index));
         let places = (sides.0.map(|f| pass(index, f)), sides.1.map(|f| pass(index, f)));
         let passes = [left.fragments.len(), right.fragments.len()];
-        let found = |stage, values| Difference {
-            pass: places.0.or(places.1).unwrap_or(Pass { index, instance: 0, triangle: 0, part: 0 }),
+        let found = |stage, values| TraceDifference {
+            pass: places.0.or(places.1).unwrap_or(FragmentPass { index, instance: 0, triangle: 0, part: 0 }),
             passes,
             stage,
             values,
@@ -149,15 +140,16 @@ pub fn first_difference(left: &TraceSide<'_>, right: &TraceSide<'_>, shape: &Sha
             instruction: None,
         };
         let (Some(a), Some(b)) = sides else {
-            return Some(found(Stage::Coverage { left: places.0, right: places.1 }, Vec::new()));
+            return Some(found(TraceStage::Coverage { left: places.0, right: places.1 }, Vec::new()));
         };
         if places.0 != places.1 {
-            return Some(found(Stage::Coverage { left: places.0, right: places.1 }, Vec::new()));
+            return Some(found(TraceStage::Coverage { left: places.0, right: places.1 }, Vec::new()));
         }
         let pair = Pair { left, right, a, b };
-        let in_steps = || pair.steps().map(|(stage, values, operands)| Difference { operands, ..found(stage, values) });
+        let in_steps =
+            || pair.steps().map(|(stage, values, operands)| TraceDifference { operands, ..found(stage, values) });
         if let Some((stage, values)) = pair.inputs() {
-            return Some(Difference { instruction: in_steps().map(Box::new), ..found(stage, values) });
+            return Some(TraceDifference { instruction: in_steps().map(Box::new), ..found(stage, values) });
         }
         in_steps().or_else(|| {
             let (stage, values) = pair.outputs().or_else(|| pair.stored(shape))?;
@@ -191,15 +183,6 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
     })
 }
 
-/// The name of a component of a register as programs write it.
-pub fn component(program: &Program, register: &Register, component: usize) -> String {
-    let name = asm::register_name(program, register);
-    if register.file.is_scalar() {
-        return name;
-    }
-    format!("{name}.{}", ['x', 'y', 'z', 'w'][component & 3])
-}
-
 /// One fragment by both sides.
 struct Pair<'a> {
     left: &'a TraceSide<'a>,
@@ -219,7 +202,7 @@ impl Pair<'_> {
         pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
     }
 
-    fn inputs(&self) -> Option<(Stage, Vec<Compared>)> {
+    fn inputs(&self) -> Option<(TraceStage, Vec<Compared>)> {
         let single = |bits| Number { format: Format::FP32, bits };
         let (a, b) = (&self.a.shading.input, &self.b.shading.input);
         let vectors = a.t.iter().zip(&b.t).enumerate().map(|(n, v)| (RegisterFile::Texture, n, v));
@@ -237,31 +220,31 @@ impl Pair<'_> {
             .map(|(name, a, b)| Compared::registers(name, &a, &b))
             .collect();
         if !values.is_empty() {
-            return Some((Stage::Input, values));
+            return Some((TraceStage::Input, values));
         }
         for ((register, a), (_, b)) in self.a.shading.delivered.iter().zip(&self.b.shading.delivered) {
             values.extend(self.registers(|c| component(self.left.program, register, c), *a, *b, Mask::ALL));
         }
-        (!values.is_empty()).then_some((Stage::Delivered, values))
+        (!values.is_empty()).then_some((TraceStage::Delivered, values))
     }
 
-    fn steps(&self) -> Option<(Stage, Vec<Compared>, Vec<Operand>)> {
+    fn steps(&self) -> Option<(TraceStage, Vec<Compared>, Vec<Operand>)> {
         let (a, b) = (&self.a.shading.steps, &self.b.shading.steps);
         (0..a.len().max(b.len())).find_map(|k| {
             let (x, y) = match (a.get(k), b.get(k)) {
                 (Some(x), Some(y)) if x.instruction == y.instruction => (x, y),
                 (x, y) => {
                     let [left, right] = [x, y].map(|step| step.map(|step| step.instruction));
-                    return Some((Stage::Flow { left, right }, Vec::new(), Vec::new()));
+                    return Some((TraceStage::Flow { left, right }, Vec::new(), Vec::new()));
                 }
             };
             let index = x.instruction;
             if x.mask != y.mask {
-                return Some((Stage::Mask { index, left: x.mask, right: y.mask }, Vec::new(), Vec::new()));
+                return Some((TraceStage::Mask { index, left: x.mask, right: y.mask }, Vec::new(), Vec::new()));
             }
             let values = self.written(x, y);
             let read = || operands((self.left, self.a), (self.right, self.b), k);
-            (!values.is_empty()).then(|| (Stage::Instruction { index }, values, read()))
+            (!values.is_empty()).then(|| (TraceStage::Instruction { index }, values, read()))
         })
     }
 
@@ -280,22 +263,22 @@ impl Pair<'_> {
         self.registers(|c| component(self.left.program, register, c), x.value, y.value, x.mask)
     }
 
-    fn outputs(&self) -> Option<(Stage, Vec<Compared>)> {
+    fn outputs(&self) -> Option<(TraceStage, Vec<Compared>)> {
         let (a, b) = (&self.a.shading.output, &self.b.shading.output);
         if a.killed != b.killed {
             let instruction = self.only(&[Opcode::TexKill]);
-            return Some((Stage::Output { instruction }, vec![Compared::truths("killed", a.killed, b.killed)]));
+            return Some((TraceStage::Output { instruction }, vec![Compared::truths("killed", a.killed, b.killed)]));
         }
         let depths = [a.depth, b.depth].map(|d| d.map(|d| Number { format: d.format, bits: d.bits }));
         match depths {
             [Some(x), Some(y)] if !x.equals(&y) => {
                 let instruction = self.only(&[Opcode::TexDepth, Opcode::TexM3x2Depth]);
-                return Some((Stage::Output { instruction }, vec![Compared::registers("depth", &x, &y)]));
+                return Some((TraceStage::Output { instruction }, vec![Compared::registers("depth", &x, &y)]));
             }
             [Some(_), None] | [None, Some(_)] => {
                 let has = depths.map(|d| d.is_some());
                 let values = vec![Compared::truths("decides its depth", has[0], has[1])];
-                return Some((Stage::Output { instruction: None }, values));
+                return Some((TraceStage::Output { instruction: None }, values));
             }
             _ => {}
         }
@@ -306,7 +289,7 @@ impl Pair<'_> {
                 self.registers(|c| component(self.left.program, &register, c), *a, *b, Mask::ALL)
             })
             .collect();
-        (!values.is_empty()).then_some((Stage::Output { instruction: None }, values))
+        (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
     /// The one instruction of some operations that the fragment ran.
@@ -318,18 +301,18 @@ impl Pair<'_> {
         found.all(|i| i == first).then_some(first)
     }
 
-    fn stored(&self, shape: &Shape<'_>) -> Option<(Stage, Vec<Compared>)> {
+    fn stored(&self, shape: &TargetFormats<'_>) -> Option<(TraceStage, Vec<Compared>)> {
         let (left, right) = (self.a.shading.fate, self.b.shading.fate);
         let values = differing_states(&self.a.after, &self.b.after, shape);
         if left != right {
-            return Some((Stage::Test { left, right }, values));
+            return Some((TraceStage::Test { left, right }, values));
         }
-        (!values.is_empty()).then_some((Stage::Merge, values))
+        (!values.is_empty()).then_some((TraceStage::Merge, values))
     }
 }
 
 /// What differs between two states of a pixel's targets.
-fn differing_states(a: &PixelState, b: &PixelState, shape: &Shape<'_>) -> Vec<Compared> {
+fn differing_states(a: &PixelState, b: &PixelState, shape: &TargetFormats<'_>) -> Vec<Compared> {
     let mut values = Vec::new();
     for (n, (format, (a, b))) in shape.targets.iter().zip(a.colors.iter().zip(&b.colors)).enumerate() {
         let channels = differing_channels(format.record().stored(), a.unwrap_or_default(), b.unwrap_or_default());

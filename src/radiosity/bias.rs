@@ -14,7 +14,7 @@
 //! takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so it is good to
 //! first order in the loss.
 
-use refsim::num::{Format, Kind, Rounding};
+use refsim::num::{Format, FormatKind, Rounding};
 
 use super::System;
 use super::packing::Packing;
@@ -39,7 +39,7 @@ impl Accumulator {
     /// The accumulator of a floating-point register; `None` for fixed point.
     #[must_use]
     pub fn of(format: &Format, packing: Packing, block: usize) -> Option<Self> {
-        let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+        let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
         let least_exponent = 2 - (1 << (exp_bits - 1));
         Some(Self { mantissa: man_bits, least_exponent, rounding: format.rounding, packing, block })
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::event::{DrawEvents, Event, TexelObserver};
 use refsim::machine::{Executor, MachineError};
-use refsim::num::{Format, Kind};
+use refsim::num::{Format, FormatKind};
 use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
@@ -291,8 +291,8 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
 /// Whether a float format holds the whole numbers up to this one.
 fn tells_apart(format: &Format, most: usize) -> bool {
     match format.kind {
-        Kind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
-        Kind::Fixed { .. } => false,
+        FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
+        FormatKind::Fixed { .. } => false,
     }
 }
 

@@ -14,7 +14,7 @@
 //! added to q and to what stands alone. Where an intermediate could leave the range of the format, triangles stay.
 
 use refsim::device::Rules;
-use refsim::num::{Format, Kind};
+use refsim::num::{Format, FormatKind};
 
 use super::RayBatch;
 use super::rays::normalise_range;
@@ -57,13 +57,13 @@ impl Errors {
 
     fn of_format(format: &Format) -> Self {
         match format.kind {
-            Kind::Fixed { int_bits, frac_bits } => {
+            FormatKind::Fixed { int_bits, frac_bits } => {
                 let step = power(-i32::from(frac_bits));
                 // Ray textures of fixed-point cards have 16 bits.
                 let texel = 2.0 * step + power(-14);
                 Self { share: 0.0, step, texel, largest: power(i32::from(int_bits)), fixed: true }
             }
-            Kind::Float { exp_bits, man_bits } => {
+            FormatKind::Float { exp_bits, man_bits } => {
                 let bias = power(i32::from(exp_bits) - 1) as i32 - 1;
                 let share = 64.0 * power(-i32::from(man_bits) - 1);
                 let step = power(18 - bias);

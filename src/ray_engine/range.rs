@@ -18,7 +18,7 @@
 //! infinite, in whatever order a card adds.
 
 use refsim::device::{Rules, TexdepthDenominator};
-use refsim::num::{Format, Kind};
+use refsim::num::{Format, FormatKind};
 
 use super::rays::{ceil_power_of_two, power_of_two};
 
@@ -58,10 +58,10 @@ impl Range {
     /// The range of a format.
     pub(super) fn of(format: &Format) -> Self {
         let (end, step, kind) = match format.kind {
-            Kind::Fixed { int_bits, frac_bits } => {
+            FormatKind::Fixed { int_bits, frac_bits } => {
                 (power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)), RangeKind::Fixed)
             }
-            Kind::Float { exp_bits, .. } => {
+            FormatKind::Float { exp_bits, .. } => {
                 // The largest number is nearly 2^(bias + 1).
                 let bias = (1 << (i32::from(exp_bits) - 1)) - 1;
                 match exp_bits {

@@ -2,7 +2,7 @@
 
 use crate::executors::Executor;
 use crate::scene::{Case, Programs, Scene};
-use crossbar::compare::{Difference, Shape, Stage, TraceSide, first_difference};
+use crossbar::compare::{TargetFormats, TraceDifference, TraceSide, TraceStage, first_difference};
 use refsim::exec::ResolvedConstants;
 use refsim::isa::Program;
 use refsim::machine::FragmentTrace;
@@ -50,7 +50,7 @@ pub(crate) fn blame(left: Side<'_>, right: Side<'_>) -> String {
         (Err(e), _) | (_, Err(e)) => return format!("cannot be followed: {e}"),
     };
     let (scene, other) = (&left.case.scene, &right.case.scene);
-    let shape = Shape { targets: &scene.targets, depth: scene.depth.map(|(format, _)| format) };
+    let shape = TargetFormats { targets: &scene.targets, depth: scene.depth.map(|(format, _)| format) };
     for pixel in 0..a.traces.len().min(b.traces.len()) {
         let found = first_difference(&a.side(scene, pixel), &b.side(other, pixel), &shape);
         if let Some(difference) = found {
@@ -62,7 +62,7 @@ pub(crate) fn blame(left: Side<'_>, right: Side<'_>) -> String {
 }
 
 /// A difference with the line of the program that it belongs to.
-fn words(difference: &Difference, lines: &[String], program: &Program) -> String {
+fn words(difference: &TraceDifference, lines: &[String], program: &Program) -> String {
     let at = difference.pass;
     let mut text = format!("pass {} (instance {}, triangle {}): ", at.index, at.instance, at.triangle);
     let line = |index: usize| {
@@ -71,8 +71,8 @@ fn words(difference: &Difference, lines: &[String], program: &Program) -> String
         text.get(span).unwrap_or_default().to_owned()
     };
     let _ = match &difference.stage {
-        Stage::Instruction { index } => write!(text, "`{}`", line(*index)),
-        Stage::Mask { index, left, right } => {
+        TraceStage::Instruction { index } => write!(text, "`{}`", line(*index)),
+        TraceStage::Mask { index, left, right } => {
             write!(text, "mask {:04b} or {:04b} of `{}`", left.0, right.0, line(*index))
         }
         other => write!(text, "{other:?}"),

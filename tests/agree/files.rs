@@ -6,7 +6,7 @@ use crate::rules;
 use crate::scene::{Case, Scene, build};
 use crate::shapes::{self, Shape};
 use crate::suite::{pass_through, shows_all};
-use crossbar::case::schema::{Convention, Cull as CaseCull};
+use crossbar::case::schema::Convention;
 use crossbar::case::{Setup, Vertices};
 use refsim::asm;
 use refsim::device::Profile;
@@ -14,7 +14,7 @@ use refsim::exec::CheckedProgram;
 use refsim::isa::{Stage, Usage};
 use refsim::machine::StepRate;
 use refsim::output::WriteMask;
-use refsim::raster::{ClipSpace, Cull, PixelCenter};
+use refsim::raster::{ClipSpace, PixelCenter};
 use refsim::texture::TextureKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -199,11 +199,7 @@ fn from_setup(setup: &Setup) -> Case {
         masks: [WriteMask(setup.write_mask); 4],
         center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
         clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
-        cull: match setup.geometry.cull {
-            CaseCull::None => Cull::None,
-            CaseCull::Clockwise => Cull::Clockwise,
-            CaseCull::CounterClockwise => Cull::CounterClockwise,
-        },
+        cull: setup.geometry.cull,
         viewport: None,
         scissor: None,
         draws: 1,

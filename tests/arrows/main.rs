@@ -1,18 +1,22 @@
-//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files of
-//! a room need each other in one direction; names and lines of documentation keep their bounds.
+//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files
+//! of a room need each other in one direction; names and lines of documentation keep their bounds.
 
 mod circles;
+mod names;
 mod source;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
 
-/// A crate's source folder, and for each room of it the rooms that it may name.
-type Law = (&'static str, &'static [(&'static str, &'static [&'static str])]);
+use circles::room;
+use source::{Crate, root};
+
+/// A crate's source folder, the module whose rooms it is about, and for each of them the rooms that it may name.
+type Law = (&'static str, &'static [&'static str], &'static [(&'static str, &'static [&'static str])]);
 
 const REFSIM: Law = (
     "refsim/src",
+    &[],
     &[
         ("num", &[]),
         ("isa", &["num"]),
@@ -32,6 +36,7 @@ const REFSIM: Law = (
 
 const CROSSBAR: Law = (
     "src",
+    &[],
     &[
         ("linalg", &[]),
         ("picture", &[]),
@@ -77,12 +82,14 @@ const CROSSBAR: Law = (
 
 /// The executors: `scalar` stands alone; the others share a middle. Files of `exec` itself stand to the left of all.
 const EXEC: Law = (
-    "refsim/src/exec",
+    "refsim/src",
+    &["exec"],
     &[("scalar", &[]), ("lower", &[]), ("batch", &["lower"]), ("wgsl", &["lower"]), ("gpu", &["wgsl"])],
 );
 
 const BATCH: Law = (
-    "refsim/src/exec/batch",
+    "refsim/src",
+    &["exec", "batch"],
     &[
         ("cache", &[]),
         ("lanes", &[]),
@@ -97,87 +104,30 @@ const BATCH: Law = (
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn rust_files(folder: &Path, into: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("the source folders can be read") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            rust_files(&path, into);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            into.push(path);
-        }
-    }
-}
-
-/// The first component below `source`, without `.rs`.
-fn room_of(path: &Path, source: &Path) -> String {
-    let relative = path.strip_prefix(source).expect("below the source folder");
-    let first = relative.components().next().expect("a component").as_os_str().to_string_lossy().into_owned();
-    first.trim_end_matches(".rs").to_owned()
-}
-
-/// The names that follow `prefix` in code (comments and doc links left out), `{a, b}` groups included.
-fn named_after(text: &str, prefix: &str) -> BTreeSet<String> {
-    let code: String = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-    let mut names = BTreeSet::new();
-    for (at, _) in code.match_indices(prefix) {
-        let preceded = code[..at].chars().next_back().is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$');
-        if preceded && !code[..at].ends_with('$') {
-            continue;
-        }
-        let rest = &code[at + prefix.len()..];
-        if let Some(group) = rest.strip_prefix('{') {
-            let mut depth = 0;
-            let mut start = true;
-            for (i, c) in group.char_indices() {
-                match c {
-                    '{' => depth += 1,
-                    '}' if depth == 0 => break,
-                    '}' => depth -= 1,
-                    ',' if depth == 0 => start = true,
-                    c if start && c.is_alphanumeric() => {
-                        names.insert(identifier(&group[i..]));
-                        start = false;
-                    }
-                    _ => {}
-                }
-            }
-        } else {
-            names.insert(identifier(rest));
-        }
-    }
-    names
-}
-
-fn identifier(text: &str) -> String {
-    text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-}
-
-/// What the files of `source` name after one of `prefixes` against their room's line. A file outside the table's rooms is
-/// a fault, or, where the rooms have files in common, may name no room at all.
-fn violations((source, law): Law, prefixes: &[&str], common: bool) -> Vec<String> {
-    let source = root().join(source);
-    let mut files = Vec::new();
-    rust_files(&source, &mut files);
+/// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
+/// where the rooms have files in common, may name no room at all.
+fn violations((crate_folder, below, law): Law) -> Vec<String> {
+    let source = Crate::read(crate_folder);
     let rooms: BTreeSet<&str> = law.iter().map(|(room, _)| *room).collect();
+    let in_room = |path: &[String]| {
+        (path.len() > below.len() && path.iter().zip(below).all(|(a, b)| a == b)).then(|| path[below.len()].clone())
+    };
     let mut found = Vec::new();
-    for file in files {
-        let room = room_of(&file, &source);
+    for (module, it) in &source.modules {
+        let path: Vec<String> =
+            it.file.with_extension("").iter().map(|part| part.to_string_lossy().into_owned()).collect();
+        let Some(room) = in_room(&path) else { continue };
         let allowed = match law.iter().find(|(r, _)| *r == room) {
             Some((_, allowed)) => *allowed,
-            None if common => &[],
+            None if !below.is_empty() => &[],
             None => {
-                found.push(format!("{}: room `{room}` is not in the law's table", file.display()));
+                found.push(format!("{}: room `{room}` is not in the law's table", it.file.display()));
                 continue;
             }
         };
-        let text = fs::read_to_string(&file).expect("a source file");
-        for name in prefixes.iter().flat_map(|prefix| named_after(&text, prefix)) {
-            if rooms.contains(name.as_str()) && name != room && !allowed.contains(&name.as_str()) {
-                found.push(format!("{}: `{room}` uses `{name}`", file.display()));
+        for name in source.paths(module).filter_map(|path| in_room(&path)) {
+            if rooms.contains(name.as_str()) && name != room && !allowed.contains(&name.as_str()) && room != "mod" {
+                found.push(format!("{}: `{room}` uses `{name}`", it.file.display()));
             }
         }
     }
@@ -186,23 +136,17 @@ fn violations((source, law): Law, prefixes: &[&str], common: bool) -> Vec<String
 
 #[test]
 fn rooms_use_only_what_stands_to_their_left() {
-    let mut found = violations(REFSIM, &["crate::", "refsim::"], false);
-    found.extend(violations(CROSSBAR, &["crate::", "crossbar::"], false));
-    found.extend(violations(EXEC, &["crate::exec::", "super::"], true));
-    found.extend(violations(BATCH, &["crate::exec::batch::", "super::"], true));
+    let found = [REFSIM, CROSSBAR, EXEC, BATCH].map(violations).concat();
     assert!(found.is_empty(), "the import law is broken:\n{}", found.join("\n"));
 }
 
 #[test]
 fn the_shared_ground_knows_nothing_of_cards() {
-    let source = root().join("src");
-    let mut files = Vec::new();
-    rust_files(&source, &mut files);
-    for file in files {
-        let room = room_of(&file, &source);
-        let text = fs::read_to_string(&file).expect("a source file");
-        let speaks = !named_after(&text, "refsim::").is_empty();
-        assert!(!speaks || SPEAKS_REFSIM.contains(&room.as_str()), "{}: `{room}` speaks refsim", file.display());
+    let source = Crate::read("src");
+    for (module, it) in &source.modules {
+        let speaks = source.after(module, "refsim").next().is_some();
+        let room = room(&it.file);
+        assert!(!speaks || SPEAKS_REFSIM.contains(&room.as_str()), "{}: `{room}` speaks refsim", it.file.display());
     }
 }
 
@@ -222,12 +166,9 @@ fn the_emulator_depends_on_nothing_heavy() {
 /// nalgebra's product chooses its kernel by the processor if other crates turn its `std` on: docs/decisions/0016.
 #[test]
 fn only_linalg_names_nalgebra() {
-    let source = root().join("src");
-    let mut files = Vec::new();
-    rust_files(&source, &mut files);
-    for file in files.iter().filter(|file| room_of(file, &source) != "linalg") {
-        let text = fs::read_to_string(file).expect("a source file");
-        assert!(named_after(&text, "nalgebra::").is_empty(), "{}: take it from `linalg`", file.display());
+    let source = Crate::read("src");
+    for (module, it) in source.modules.iter().filter(|(_, it)| room(&it.file) != "linalg") {
+        assert!(source.after(module, "nalgebra").next().is_none(), "{}: take it from `linalg`", it.file.display());
     }
     let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
     for comparison in ["bvh", "parry3d", "obvhs"] {
@@ -236,10 +177,10 @@ fn only_linalg_names_nalgebra() {
 }
 
 #[test]
-fn the_scanner_sees_groups_and_passes_over_comments() {
-    let names = named_after(
-        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nlet x = crate::asm::f();",
-        "crate::",
-    );
-    assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one in line");
+fn the_scanner_sees_groups_and_macros_and_passes_over_comments() {
+    let text =
+        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nfn f() { let x = vec![crate::asm::f()]; }";
+    let source = Crate::of_texts([("lib.rs".into(), text.to_owned())]);
+    let names: BTreeSet<&str> = source.after(&[], "crate").collect();
+    assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one from the macro");
 }

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use proc_macro2::{TokenStream, TokenTree};
-use syn::visit::{self, Visit};
+use quote::ToTokens;
+use syn::{Item, UseTree};
 
 /// Names joined by `::`: a module from the crate's root, or a path as the code writes it.
 pub(crate) type Names = Vec<String>;
@@ -23,6 +24,8 @@ struct Named {
 #[derive(Default)]
 pub(crate) struct Module {
     pub(crate) file: PathBuf,
+    /// Whether it is for tests only.
+    pub(crate) is_test: bool,
     named: Vec<Named>,
     /// Names of all items.
     items: BTreeSet<String>,
@@ -82,9 +85,7 @@ impl Crate {
             }
             let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
             let module = Module { file, ..Module::default() };
-            let mut reader = Reader { modules: &mut modules, path, module };
-            reader.visit_file(&parsed);
-            reader.end();
+            Reader { modules: &mut modules, path, module }.items(parsed.items);
         }
         Self { modules }
     }
@@ -127,6 +128,17 @@ impl Crate {
         inside.map_or(Some(&it.file), |glob| self.defining_file(&[&glob[..], rest].concat(), depth))
     }
 
+    /// What a module names right after a prefix: after `crate`, the rooms that it uses.
+    pub(crate) fn after<'a>(&'a self, module: &[String], prefix: &'a str) -> impl Iterator<Item = &'a str> {
+        let named = self.modules[module].named.iter();
+        named.filter(move |named| named.path[0] == prefix).filter_map(|named| named.path.get(1).map(String::as_str))
+    }
+
+    /// The paths that a module names, from the crate's root.
+    pub(crate) fn paths<'a>(&'a self, module: &'a [String]) -> impl Iterator<Item = Names> {
+        self.modules[module].named.iter().filter_map(move |named| self.absolute(module, &named.path, 9))
+    }
+
     /// The other files whose items a module names, with the names. A re-export counts only where its name is used.
     pub(crate) fn needs<'a>(&'a self, module: &'a [String]) -> impl Iterator<Item = (&'a Path, String)> {
         let it = &self.modules[module];
@@ -149,47 +161,56 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn end(self) {
+    fn items(mut self, items: Vec<Item>) {
+        for item in items {
+            match item {
+                Item::Use(import) => {
+                    let exported = !matches!(import.vis, syn::Visibility::Inherited);
+                    self.leaves(import.tree, Vec::new(), exported);
+                }
+                Item::Mod(inner) => {
+                    let test: syn::Attribute = syn::parse_quote!(#[cfg(test)]);
+                    let is_test = self.module.is_test || inner.attrs.contains(&test);
+                    let path = [&self.path[..], &[inner.ident.to_string()]].concat();
+                    let module = Module { file: self.module.file.clone(), is_test, ..Module::default() };
+                    if let Some((_, items)) = inner.content {
+                        Reader { modules: self.modules, path, module }.items(items);
+                    }
+                }
+                item => {
+                    let is_macro = matches!(item, Item::Macro(_));
+                    self.tokens(item.into_token_stream(), true, is_macro);
+                }
+            }
+        }
         self.modules.insert(self.path, self.module);
     }
 
-    fn leaves(&mut self, tree: &syn::UseTree, mut path: Names, exported: bool) {
-        let mut leaf = |path: Names, alias: String| {
-            self.module.named.push(Named { path, alias: Some(alias), exported });
-        };
-        match tree {
-            syn::UseTree::Path(next) => {
+    fn leaves(&mut self, tree: UseTree, mut path: Names, exported: bool) {
+        let alias = match tree {
+            UseTree::Path(next) => {
                 path.push(next.ident.to_string());
-                self.leaves(&next.tree, path, exported);
+                return self.leaves(*next.tree, path, exported);
             }
-            syn::UseTree::Group(group) => {
-                group.items.iter().for_each(|tree| self.leaves(tree, path.clone(), exported));
+            UseTree::Group(group) => {
+                return group.items.into_iter().for_each(|tree| self.leaves(tree, path.clone(), exported));
             }
-            syn::UseTree::Name(name) if name.ident == "self" => {
-                let alias = path.last().cloned().unwrap_or_default();
-                leaf(path, alias);
-            }
-            syn::UseTree::Name(name) => {
+            UseTree::Name(name) if name.ident == "self" => path.last().cloned().unwrap_or_default(),
+            UseTree::Name(name) => {
                 path.push(name.ident.to_string());
-                leaf(path, name.ident.to_string());
+                name.ident.to_string()
             }
-            syn::UseTree::Rename(renamed) => {
+            UseTree::Rename(renamed) => {
                 path.push(renamed.ident.to_string());
-                leaf(path, renamed.rename.to_string());
+                renamed.rename.to_string()
             }
-            syn::UseTree::Glob(_) => leaf(path, "*".to_owned()),
-        }
+            UseTree::Glob(_) => "*".to_owned(),
+        };
+        self.module.named.push(Named { path, alias: Some(alias), exported });
     }
 
-    fn path(&mut self, path: Names) {
-        self.module.words.extend(path.first().cloned());
-        if path.len() > 1 {
-            self.module.named.push(Named { path, alias: None, exported: false });
-        }
-    }
-
-    /// Paths and types in a macro's tokens.
-    fn tokens(&mut self, tokens: TokenStream) {
+    /// The paths in an item's tokens, and what it defines: in front of its braces, or anywhere in a macro.
+    fn tokens(&mut self, tokens: TokenStream, defines: bool, is_macro: bool) {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
         let word = |at: usize| match tokens.get(at) {
             Some(TokenTree::Ident(ident)) => Some(ident.to_string()),
@@ -199,69 +220,33 @@ impl Reader<'_> {
         let mut at = 0;
         while at < tokens.len() {
             if let TokenTree::Group(group) = &tokens[at] {
-                self.tokens(group.stream());
+                // What visibility is restricted to is not used.
+                if at == 0 || word(at - 1).is_none_or(|word| word != "pub") {
+                    self.tokens(group.stream(), is_macro, is_macro);
+                }
             } else if let Some(first) = word(at) {
-                if let Some(name) = word(at + 1).filter(|_| ["struct", "enum", "trait"].contains(&first.as_str())) {
-                    self.module.types.insert(name.clone());
-                    self.module.items.insert(name);
+                if let Some(name) = word(at + 1).filter(|_| defines) {
+                    if TYPES.contains(&first.as_str()) {
+                        self.module.types.insert(name.clone());
+                    }
+                    if TYPES.contains(&first.as_str()) || VALUES.contains(&first.as_str()) {
+                        self.module.items.insert(name);
+                    }
                 }
                 let mut path = vec![first];
                 while let Some(next) = word(at + 3).filter(|_| colon(at + 1) && colon(at + 2)) {
                     path.push(next);
                     at += 3;
                 }
-                self.path(path);
+                self.module.words.insert(path[0].clone());
+                if path.len() > 1 {
+                    self.module.named.push(Named { path, alias: None, exported: false });
+                }
             }
             at += 1;
         }
     }
 }
 
-impl<'ast> Visit<'ast> for Reader<'_> {
-    fn visit_item(&mut self, item: &'ast syn::Item) {
-        let (name, is_type) = match item {
-            syn::Item::Struct(it) => (&it.ident, true),
-            syn::Item::Enum(it) => (&it.ident, true),
-            syn::Item::Trait(it) => (&it.ident, true),
-            syn::Item::Type(it) => (&it.ident, true),
-            syn::Item::Fn(it) => (&it.sig.ident, false),
-            syn::Item::Const(it) => (&it.ident, false),
-            syn::Item::Static(it) => (&it.ident, false),
-            _ => return visit::visit_item(self, item),
-        };
-        self.module.items.insert(name.to_string());
-        if is_type {
-            self.module.types.insert(name.to_string());
-        }
-        visit::visit_item(self, item);
-    }
-
-    fn visit_item_mod(&mut self, inner: &'ast syn::ItemMod) {
-        let is_test = inner.attrs.iter().any(|attribute| {
-            attribute.path().is_ident("cfg")
-                && attribute.parse_args::<syn::Path>().is_ok_and(|only| only.is_ident("test"))
-        });
-        if inner.content.is_none() || is_test {
-            return;
-        }
-        let path = [&self.path[..], &[inner.ident.to_string()]].concat();
-        let module = Module { file: self.module.file.clone(), ..Module::default() };
-        let mut reader = Reader { modules: self.modules, path, module };
-        visit::visit_item_mod(&mut reader, inner);
-        reader.end();
-    }
-
-    fn visit_item_use(&mut self, import: &'ast syn::ItemUse) {
-        self.leaves(&import.tree, Vec::new(), !matches!(import.vis, syn::Visibility::Inherited));
-    }
-
-    fn visit_path(&mut self, path: &'ast syn::Path) {
-        self.path(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
-        visit::visit_path(self, path);
-    }
-
-    fn visit_macro(&mut self, call: &'ast syn::Macro) {
-        self.path(call.path.segments.iter().map(|segment| segment.ident.to_string()).collect());
-        self.tokens(call.tokens.clone());
-    }
-}
+const TYPES: [&str; 4] = ["struct", "enum", "trait", "type"];
+const VALUES: [&str; 3] = ["fn", "const", "static"];

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::{
     case::{Loaded, Scope, Setup, Side, compare},
-    compare::{Difference, Number, Shape, Stage, TraceSide, first_difference, ulps},
+    compare::{Number, TargetFormats, TraceDifference, TraceSide, TraceStage, first_difference, ulps},
 };
 use proptest::prelude::*;
 use refsim::{
@@ -77,7 +77,7 @@ fn example(name: &str) -> Setup {
 }
 
 /// The difference between a pixel's trace and the same after a change.
-fn after(setup: &Setup, pixel: (u32, u32), change: impl Fn(&mut Vec<FragmentTrace>)) -> Option<Difference> {
+fn after(setup: &Setup, pixel: (u32, u32), change: impl Fn(&mut Vec<FragmentTrace>)) -> Option<TraceDifference> {
     let loaded = Loaded::new(setup, ExecutorKind::Scalar).expect("the example fits its card");
     let trace = loaded.trace(&[pixel]).expect("the pixel is inside").remove(0);
     let mut changed = trace.clone();
@@ -85,12 +85,12 @@ fn after(setup: &Setup, pixel: (u32, u32), change: impl Fn(&mut Vec<FragmentTrac
     let rules = &setup.profile.rules;
     let constants = ResolvedConstants::pixel(&setup.pixel, rules, &setup.pixel_constants);
     let side = |fragments| TraceSide { program: &setup.pixel, format: rules.format, constants: &constants, fragments };
-    let shape = Shape { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
+    let shape = TargetFormats { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
     assert!(first_difference(&side(&trace), &side(&trace), &shape).is_none(), "a trace is equal to itself");
     first_difference(&side(&trace), &side(&changed), &shape)
 }
 
-fn names(difference: &Difference) -> Vec<&str> {
+fn names(difference: &TraceDifference) -> Vec<&str> {
     difference.values.iter().map(|v| v.name.as_str()).collect()
 }
 
@@ -103,7 +103,7 @@ fn one_bit_of_one_step() {
     for (k, step) in steps.iter().enumerate() {
         for c in step.mask.components() {
             let found = after(&setup, (2, 2), |t| t[0].shading.steps[k].value[c] ^= 1).expect("a difference");
-            assert_eq!(found.stage, Stage::Instruction { index: step.instruction });
+            assert_eq!(found.stage, TraceStage::Instruction { index: step.instruction });
             assert_eq!((found.values.len(), found.values[0].ulps), (1, Some(1.0)), "{found:?}");
             let register = if k == 2 { "oC0" } else { "r0" };
             assert_eq!(found.values[0].name, format!("{register}.{}", ["x", "y", "z", "w"][c]));
@@ -135,27 +135,27 @@ fn every_stage_in_its_order() {
         let found = found.expect("a difference");
         assert_eq!((found.pass.index, found.passes), (1, [2, 2]), "{name}");
         let stage = match &found.stage {
-            Stage::Coverage { left: Some(left), right: Some(right) } => {
+            TraceStage::Coverage { left: Some(left), right: Some(right) } => {
                 assert_eq!((left.triangle, right.triangle), (1, 5));
                 "coverage"
             }
-            Stage::Coverage { .. } => "one side only",
-            Stage::Input => {
+            TraceStage::Coverage { .. } => "one side only",
+            TraceStage::Input => {
                 assert_eq!(names(&found), ["depth"]);
                 "interpolation"
             }
-            Stage::Delivered => {
+            TraceStage::Delivered => {
                 assert_eq!(names(&found), ["v0.z"]);
-                assert!(matches!(found.instruction.as_ref().map(|i| &i.stage), Some(Stage::Flow { .. })));
+                assert!(matches!(found.instruction.as_ref().map(|i| &i.stage), Some(TraceStage::Flow { .. })));
                 "input"
             }
-            Stage::Flow { left: Some(0), right: None } => "flow",
-            Stage::Output { instruction: None } => {
+            TraceStage::Flow { left: Some(0), right: None } => "flow",
+            TraceStage::Output { instruction: None } => {
                 assert_eq!(names(&found), ["killed"]);
                 "output"
             }
-            Stage::Test { right: FragmentFate::AlphaFailed, .. } => "test",
-            Stage::Merge => {
+            TraceStage::Test { right: FragmentFate::AlphaFailed, .. } => "test",
+            TraceStage::Merge => {
                 assert_eq!(names(&found)[0], "target 0 red");
                 "merge"
             }
@@ -164,7 +164,7 @@ fn every_stage_in_its_order() {
         assert_eq!(stage, *name);
     }
     let shorter = after(&setup, (7, 4), |t| t.truncate(1)).expect("a difference");
-    assert!(matches!(shorter.stage, Stage::Coverage { left: Some(_), right: None }), "{shorter:?}");
+    assert!(matches!(shorter.stage, TraceStage::Coverage { left: Some(_), right: None }), "{shorter:?}");
 }
 
 /// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and with it whether it
@@ -180,7 +180,7 @@ fn vertices_come_before_what_they_cause() {
     let first = found.first.expect("a difference");
     assert_eq!(first.pixel, [3, 0]);
     let difference = first.difference.expect("a stage");
-    assert_eq!((&difference.stage, names(&difference)), (&Stage::Vertex { corner: 0 }, vec!["oPos.x"]));
+    assert_eq!((&difference.stage, names(&difference)), (&TraceStage::Vertex { corner: 0 }, vec!["oPos.x"]));
     assert_eq!((&*difference.values[0].left, &*difference.values[0].right), ("-0.5299999713897705", "-0.5"));
 }
 
@@ -188,7 +188,7 @@ fn vertices_come_before_what_they_cause() {
 fn a_mask_is_a_difference() {
     let setup = example("transform.toml");
     let found = after(&setup, (2, 2), |t| t[0].shading.steps[1].mask = Mask(0b0101)).expect("a difference");
-    assert_eq!(found.stage, Stage::Mask { index: 1, left: Mask::ALL, right: Mask(0b0101) });
+    assert_eq!(found.stage, TraceStage::Mask { index: 1, left: Mask::ALL, right: Mask(0b0101) });
 }
 
 /// What an instruction read is put together from what was written before: through `phase`, which loses alpha, and for both of

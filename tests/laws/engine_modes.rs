@@ -11,7 +11,7 @@ use crossbar::scene::Camera;
 use refsim::device::Profile;
 use refsim::event::{Event, FenceId, ReadBackMode};
 use refsim::machine::ExecutorKind;
-use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, Operation};
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation};
 use refsim::timing::replay::{Options, Replay, replay};
 use refsim::timing::{Level, Model};
 
@@ -43,7 +43,7 @@ fn host_work(log: &[Event]) -> HostCounts {
     let mut out = HostCounts::default();
     for event in log {
         if let Event::Host(work) = event {
-            out.add(Operation::named(&work.kind).expect("a kind that the model knows"), work.operations);
+            out.add(HostOperation::named(&work.kind).expect("a kind that the model knows"), work.operations);
         }
     }
     out
@@ -116,7 +116,7 @@ fn an_asynchronous_host_has_some_passes_in_flight_and_waits_for_the_oldest() {
                     assert!(seen.insert(fence.expect("a fence")), "a fence of its own");
                 }
                 Event::FinishFence(fence) => assert_eq!(open.remove(0), Some(*fence), "the last of the oldest pass"),
-                Event::Host(work) if work.kind == Operation::ResultRead.name() => looked += work.operations,
+                Event::Host(work) if work.kind == HostOperation::ResultRead.name() => looked += work.operations,
                 _ => {}
             }
         }
@@ -142,14 +142,14 @@ fn a_renderer_counts_its_own_work_into_the_log() {
     let parameters = EngineParameters { record: true, ..EngineParameters::default() };
     let profile = || Profile::named("ideal-fp32").expect("a profile");
     let mut engine = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, parameters).expect("an engine");
-    engine.note_host(Operation::RayGenerated, rays.len() as u64);
+    engine.note_host(HostOperation::RayGenerated, rays.len() as u64);
     let hits = engine.trace(&rays).expect("the card works").iter().flatten().count() as u64;
-    engine.note_host(Operation::Shade, hits);
+    engine.note_host(HostOperation::Shade, hits);
     let work = host_work(&engine.take_log());
-    assert_eq!(work.of(Operation::RayGenerated), rays.len() as u64);
-    assert_eq!(work.of(Operation::Shade), hits);
-    assert_eq!(work.of(Operation::VertexSent), 4 * work.of(Operation::TriangleSent), "a quad a triangle");
+    assert_eq!(work.of(HostOperation::RayGenerated), rays.len() as u64);
+    assert_eq!(work.of(HostOperation::Shade), hits);
+    assert_eq!(work.of(HostOperation::VertexSent), 4 * work.of(HostOperation::TriangleSent), "a quad a triangle");
     let mut silent = RayEngine::new(&mesh, profile(), ExecutorKind::Batch, EngineParameters::default()).expect("one");
-    silent.note_host(Operation::Shade, 1);
+    silent.note_host(HostOperation::Shade, 1);
     assert!(silent.take_log().is_empty());
 }

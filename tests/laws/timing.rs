@@ -70,7 +70,8 @@ fn time_never_changes_a_pixel() {
                 strange.profile = absurd(&setup.profile, up);
                 let found = case::run(&strange, executor).expect("the case draws");
                 assert_eq!(found.events, plain.events, "{}", path.display());
-                let bytes = |o: &case::Outcome| o.pictures.iter().map(|(_, bytes)| bytes.clone()).collect::<Vec<_>>();
+                let bytes =
+                    |o: &case::CaseOutcome| o.pictures.iter().map(|(_, bytes)| bytes.clone()).collect::<Vec<_>>();
                 assert_eq!(bytes(&found), bytes(&plain), "{}: a pixel changed", path.display());
                 assert!(case::log(&strange, executor).expect("the case draws") == log, "{}", path.display());
                 // But time did change.

@@ -163,7 +163,7 @@ impl Diagnostic for SyntaxError {
 
 /// Every syntax error of a text; never empty.
 ///
-/// No source is attached: whoever has the text's name wraps this with name and text
+/// No source is attached. To show the text, wrap the errors with its name and contents
 /// (`miette::Report::new(errors).with_source_code(NamedSource::new(name, text))`).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{}", summary(.errors))]

@@ -1,4 +1,5 @@
-//! Text to tokens, for both languages. Never fails: what fits nowhere becomes a token that the parser refuses in its place.
+//! Text to tokens, for both languages. Never fails: what fits nowhere becomes a token that the parser refuses in its
+//! place.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
@@ -162,8 +163,8 @@ impl Lexer<'_> {
         self.push(TokenKind::Word, len);
     }
 
-    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens. In OpenGL
-    /// `0..3` is three tokens.
+    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens. In
+    /// OpenGL `0..3` is three tokens.
     fn number(&mut self) {
         let rest = self.rest();
         let direct3d = self.dialect == Dialect::Direct3d;

@@ -60,8 +60,8 @@ pub fn print(program: &Program) -> String {
     if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }
 }
 
-/// A register as the program writes it: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are called `R0` and so on,
-/// as [`print()`] declares them.
+/// A register as the program writes it: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are called
+/// `R0` and so on, as [`print()`] declares them.
 pub fn register_name(program: &Program, register: &Register) -> String {
     match program.version.is_fragment_program() {
         true => gl::register_name(program, register),

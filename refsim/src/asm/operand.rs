@@ -31,7 +31,7 @@ const FILES: [RegisterFile; 18] = [
 
 /// A source modifier written after the register.
 #[derive(Clone, Copy)]
-enum Suffix {
+enum SourceSuffix {
     Bias,
     Bx2,
     X2,
@@ -41,14 +41,14 @@ enum Suffix {
 
 /// A source modifier written in front of the register.
 #[derive(Clone, Copy)]
-enum Prefix {
+enum SourcePrefix {
     Negate,
     Invert,
     Not,
 }
 
 /// A register with everything that was written around it.
-struct Named<'a> {
+struct NamedRegister<'a> {
     register: Register,
     /// The words of modifiers, in the order of the text.
     modifiers: Vec<(&'a str, Span)>,
@@ -131,13 +131,13 @@ fn out_of_range(what: &str, found: &str, span: Span) -> SyntaxError {
     )
 }
 
-fn suffix_of(word: &str, span: Span) -> Parsed<Suffix> {
+fn suffix_of(word: &str, span: Span) -> Parsed<SourceSuffix> {
     match word.to_ascii_lowercase().as_str() {
-        "bias" => Ok(Suffix::Bias),
-        "bx2" => Ok(Suffix::Bx2),
-        "x2" => Ok(Suffix::X2),
-        "dz" | "db" => Ok(Suffix::Dz),
-        "dw" | "da" => Ok(Suffix::Dw),
+        "bias" => Ok(SourceSuffix::Bias),
+        "bx2" => Ok(SourceSuffix::Bx2),
+        "x2" => Ok(SourceSuffix::X2),
+        "dz" | "db" => Ok(SourceSuffix::Dz),
+        "dw" | "da" => Ok(SourceSuffix::Dw),
         lower => Err(SyntaxError::new(
             ErrorKind::UnknownSourceModifier,
             span,
@@ -154,20 +154,20 @@ fn suffix_of(word: &str, span: Span) -> Parsed<Suffix> {
     }
 }
 
-fn combine(prefix: Option<Prefix>, suffix: Option<Suffix>, span: Span) -> Parsed<Modifier> {
+fn combine(prefix: Option<SourcePrefix>, suffix: Option<SourceSuffix>, span: Span) -> Parsed<Modifier> {
     Ok(match (prefix, suffix) {
         (None, None) => Modifier::None,
-        (Some(Prefix::Negate), None) => Modifier::Negate,
-        (Some(Prefix::Invert), None) => Modifier::Invert,
-        (Some(Prefix::Not), None) => Modifier::Not,
-        (None, Some(Suffix::Bias)) => Modifier::Bias,
-        (None, Some(Suffix::Bx2)) => Modifier::Bx2,
-        (None, Some(Suffix::X2)) => Modifier::X2,
-        (None, Some(Suffix::Dz)) => Modifier::Dz,
-        (None, Some(Suffix::Dw)) => Modifier::Dw,
-        (Some(Prefix::Negate), Some(Suffix::Bias)) => Modifier::BiasNegate,
-        (Some(Prefix::Negate), Some(Suffix::Bx2)) => Modifier::Bx2Negate,
-        (Some(Prefix::Negate), Some(Suffix::X2)) => Modifier::X2Negate,
+        (Some(SourcePrefix::Negate), None) => Modifier::Negate,
+        (Some(SourcePrefix::Invert), None) => Modifier::Invert,
+        (Some(SourcePrefix::Not), None) => Modifier::Not,
+        (None, Some(SourceSuffix::Bias)) => Modifier::Bias,
+        (None, Some(SourceSuffix::Bx2)) => Modifier::Bx2,
+        (None, Some(SourceSuffix::X2)) => Modifier::X2,
+        (None, Some(SourceSuffix::Dz)) => Modifier::Dz,
+        (None, Some(SourceSuffix::Dw)) => Modifier::Dw,
+        (Some(SourcePrefix::Negate), Some(SourceSuffix::Bias)) => Modifier::BiasNegate,
+        (Some(SourcePrefix::Negate), Some(SourceSuffix::Bx2)) => Modifier::Bx2Negate,
+        (Some(SourcePrefix::Negate), Some(SourceSuffix::X2)) => Modifier::X2Negate,
         _ => return Err(clash(span, "a prefix and a suffix that exclude each other")),
     })
 }
@@ -270,11 +270,11 @@ impl<'a> Parser<'a> {
     pub(super) fn source(&mut self) -> Parsed<Source> {
         let start = self.peek().span.start;
         let prefix = match self.peek().kind {
-            TokenKind::Minus => Some(Prefix::Negate),
-            TokenKind::Bang => Some(Prefix::Not),
+            TokenKind::Minus => Some(SourcePrefix::Negate),
+            TokenKind::Bang => Some(SourcePrefix::Not),
             TokenKind::Number if self.peek().text == "1" && self.peek_at(1).kind == TokenKind::Minus => {
                 self.next();
-                Some(Prefix::Invert)
+                Some(SourcePrefix::Invert)
             }
             _ => None,
         };
@@ -320,7 +320,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A register, its address, its selector and its suffixes, the latter two in either order.
-    fn named(&mut self) -> Parsed<Named<'a>> {
+    fn named(&mut self) -> Parsed<NamedRegister<'a>> {
         let token = self.peek();
         if token.kind != TokenKind::Word {
             return Err(self.malformed("a register"));
@@ -351,7 +351,7 @@ impl<'a> Parser<'a> {
             selector = Some((text, Span::new(start, start + text.len() as u32)));
             modifiers.extend(word::suffixes(&letters));
         }
-        Ok(Named { register: register.0, modifiers, selector })
+        Ok(NamedRegister { register: register.0, modifiers, selector })
     }
 
     /// The register that `token`, already taken, starts, and whether brackets followed.

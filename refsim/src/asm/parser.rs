@@ -38,7 +38,7 @@ impl DerefMut for Parser<'_> {
 
 /// What a statement may have in front.
 #[derive(Clone, Copy)]
-struct Prefix {
+struct StatementPrefix {
     coissue: bool,
     predicate: Option<Predicate>,
     span: Span,
@@ -210,15 +210,15 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn prefix(&mut self) -> Parsed<Prefix> {
+    fn prefix(&mut self) -> Parsed<StatementPrefix> {
         let start = self.peek().span.start;
         let coissue = self.accept(TokenKind::Plus).is_some();
         let predicate = if self.peek().kind == TokenKind::OpenParen { Some(self.predicate()?) } else { None };
         let end = if coissue || predicate.is_some() { self.last_end() } else { start };
-        Ok(Prefix { coissue, predicate, span: Span::new(start, end) })
+        Ok(StatementPrefix { coissue, predicate, span: Span::new(start, end) })
     }
 
-    fn instruction(&mut self, token: Token<'a>, prefix: Prefix) {
+    fn instruction(&mut self, token: Token<'a>, prefix: StatementPrefix) {
         let mnemonic = match word::mnemonic(&token) {
             Ok(mnemonic) => mnemonic,
             Err(error) => {

@@ -22,7 +22,7 @@ pub(super) enum Limit {
     StaticFlowCount,
 }
 
-/// A figure, who says it, and under which key of the profile.
+/// A limit, where it comes from (device or version), and its key in the profile.
 #[derive(Clone, Debug)]
 pub(super) struct Allowed {
     pub(super) value: u32,

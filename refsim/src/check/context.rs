@@ -7,7 +7,7 @@ use crate::isa::{
     DestinationRule, Instruction, Opcode, OpcodeClass, Program, RegisterFile, Span, Stage, Usage, Version,
 };
 
-/// How many registers of a file there are, and who says so.
+/// The number of registers of a file.
 pub(super) enum Count {
     /// A figure of the profile or the version.
     Limited(Allowed),
@@ -92,7 +92,8 @@ impl<'a> Context<'a> {
         self.program.instructions.iter().enumerate().filter(move |(i, _)| sound[*i])
     }
 
-    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1 elsewhere.
+    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1
+    /// elsewhere.
     pub(super) fn phase(&self, index: usize) -> u8 {
         match (self.version, self.phase_marker) {
             (Version::Ps1_4, Some(marker)) if index < marker => 1,
@@ -109,7 +110,7 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Whether the limits that are the version's own ways (ports, tokens) hold: not on ideal devices.
+    /// Whether limits that come from the version alone (ports, tokens) hold: not on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }

@@ -1,8 +1,8 @@
 //! V11, V12, V48, V49, V57: what is read must have been written.
 //!
 //! Straight code is followed exactly. Where paths meet, a component counts as written if one of them writes it; on
-//! entering a loop everything that the loop writes counts as written, on entering a subroutine everything that the program
-//! writes: no legal program is turned away.
+//! entering a loop everything that the loop writes counts as written, on entering a subroutine everything that the
+//! program writes: no legal program is turned away.
 
 use std::collections::BTreeMap;
 
@@ -119,7 +119,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
     for (k, source) in instruction.sources.iter().enumerate() {
         if let Some(Relative::Address(component)) = source.register.relative {
             let mask = 1 << (component & 3);
-            need(context, written, RegisterFile::Address, 0, mask, source.span, RuleId::V49);
+            need(context, written, RegisterFile::Address, 0, mask, source.span, RuleId::UnsetAddress);
         }
         let (file, first) = (source.register.file, source.register.index);
         if !is_followed(version, file) {
@@ -130,7 +130,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
         if version == Version::Ps1_4 && (instruction.opcode == Opcode::TexLd || passes) {
             continue;
         }
-        let rule = if file == RegisterFile::Predicate { RuleId::V57 } else { RuleId::V11 };
+        let rule = if file == RegisterFile::Predicate { RuleId::PredicateUse } else { RuleId::UnwrittenRead };
         let lanes = source_lanes(version, instruction, k, sampler);
         let components = through(source, lanes);
         let rows = if k == 1 { matrix_rows(instruction.opcode).unwrap_or(1) } else { 1 };
@@ -143,13 +143,13 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
         let mask = destination_reads(instruction.opcode);
         // In ps_1_1 to 1_3 texkill takes coordinates, not the register's contents.
         if mask.0 != 0 && register.file == RegisterFile::Temp {
-            need(context, written, register.file, register.index, mask.0, destination.span, RuleId::V11);
+            need(context, written, register.file, register.index, mask.0, destination.span, RuleId::UnwrittenRead);
         }
     }
     if let Some(predicate) = instruction.predicate {
         let lanes = instruction.destination.map_or(Mask::ALL, |d| d.mask);
         let components = swizzled(predicate.swizzle, lanes);
-        need(context, written, RegisterFile::Predicate, 0, components, predicate.span, RuleId::V57);
+        need(context, written, RegisterFile::Predicate, 0, components, predicate.span, RuleId::PredicateUse);
     }
 }
 
@@ -205,8 +205,8 @@ fn need(
 /// V12 and V48: what must have been written at the end.
 fn results(context: &mut Context<'_>, written: &Written) {
     let (rule, file, name) = match context.version {
-        v if v.is_ps_1_x() => (RuleId::V12, RegisterFile::Temp, "r0"),
-        v if v.stage() == Stage::Vertex => (RuleId::V48, RegisterFile::PositionOut, "oPos"),
+        v if v.is_ps_1_x() => (RuleId::UnwrittenResult, RegisterFile::Temp, "r0"),
+        v if v.stage() == Stage::Vertex => (RuleId::UnwrittenPosition, RegisterFile::PositionOut, "oPos"),
         _ => return,
     };
     let missing = 0b1111 & !written.get(file, 0);

@@ -9,7 +9,7 @@ use crate::isa::{RegisterFile, Stage, Usage};
 pub(super) fn check(context: &mut Context<'_>) {
     let version = context.version;
     let vertex = version.stage() == Stage::Vertex;
-    let rule = if vertex { RuleId::V51 } else { RuleId::V37 };
+    let rule = if vertex { RuleId::AttributeDeclaration } else { RuleId::Declaration };
     let mut registers = BTreeSet::new();
     let mut usages = Vec::new();
     for declaration in &context.program.declarations {

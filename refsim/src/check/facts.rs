@@ -14,8 +14,9 @@ pub struct Facts {
     pub phase: Vec<u8>,
     /// The index of `phase`.
     pub phase_marker: Option<usize>,
-    /// Where flow goes on, by instruction index: from `if` to its `else` or `endif`, from `else` to `endif`, from `rep`
-    /// and `loop` to their end and back, from `break` to the end of its loop, from `call` to its `label`.
+    /// The next instruction of a jump, by instruction index: from `if` to its `else` or `endif`, from `else` to
+    /// `endif`, from `rep` and `loop` to their end and back, from `break` to the end of its loop, from `call` to its
+    /// `label`.
     pub jump: Vec<Option<usize>>,
     /// The index of the first `label`, where the main program has ended; the number of instructions if there is none.
     pub main_end: usize,
@@ -51,7 +52,7 @@ pub struct Facts {
     pub slots: [SlotCount; 2],
 }
 
-/// A program that was found legal for a device. Only [`super::check`] makes one, so whoever has one may rely on
+/// A program that was found legal for a device. Only [`super::check`] makes one, so code that takes one may rely on
 /// everything that the rules say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked<T> {
@@ -66,7 +67,7 @@ impl<T> Checked<T> {
         Self { inner, facts, device, warnings }
     }
 
-    /// What is legal in the program but not what its text says, in the order of the text.
+    /// Warnings, in the order of the text.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }

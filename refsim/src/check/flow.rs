@@ -8,18 +8,18 @@ use super::{RuleId, Violation};
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
 /// A block that is open.
-struct Block {
+struct OpenBlock {
     opcode: Opcode,
     start: usize,
     /// Where the jump of the opening instruction, or of `else`, is to be filled in.
     patch: usize,
     breaks: Vec<usize>,
-    /// Whether a computed value decides who runs it.
+    /// Whether a computed value decides which fragments run it.
     dynamic: bool,
     has_else: bool,
 }
 
-impl Block {
+impl OpenBlock {
     fn is_loop(&self) -> bool {
         matches!(self.opcode, Opcode::Rep | Opcode::Loop)
     }
@@ -35,7 +35,7 @@ struct Call {
 }
 
 struct Walk {
-    blocks: Vec<Block>,
+    blocks: Vec<OpenBlock>,
     labels: BTreeMap<u16, usize>,
     calls: Vec<Call>,
     /// The label of the subroutine that the walk is in.
@@ -58,7 +58,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     };
     for (index, instruction) in context.instructions() {
         if walk.ended && instruction.opcode != Opcode::Label {
-            context.breach(RuleId::V54, instruction.span, "an instruction follows `ret` and is never reached");
+            context.breach(RuleId::Subroutines, instruction.span, "an instruction follows `ret` and is never reached");
             walk.ended = false;
         }
         if instruction.opcode.info().class == OpcodeClass::Flow {
@@ -106,11 +106,11 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
         };
         if !fits {
             let message = format!("`{name}` takes `{}`, expected {expected}", source.register);
-            context.add(Violation::new(RuleId::V55, source.span, message).label("this operand"));
+            context.add(Violation::new(RuleId::FlowOperands, source.span, message).label("this operand"));
         }
     }
     if instruction.coissue && version.is_ps_1_x() {
-        context.breach(RuleId::V10, instruction.span, format!("`{name}` is co-issued"));
+        context.breach(RuleId::MalformedPair, instruction.span, format!("`{name}` is co-issued"));
     }
 }
 
@@ -127,7 +127,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
                 block.patch = index;
                 block.has_else = true;
             }
-            _ => context.breach(RuleId::V52, instruction.span, "`else` without an open `if`"),
+            _ => context.breach(RuleId::UnclosedBlock, instruction.span, "`else` without an open `if`"),
         },
         Opcode::EndIf => end(context, walk, index, instruction, &[Opcode::If, Opcode::IfC]),
         Opcode::EndRep => end(context, walk, index, instruction, &[Opcode::Rep]),
@@ -136,7 +136,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
             let computed = instruction.opcode != Opcode::Break;
             let inside = walk.blocks.iter().rposition(|b| b.is_loop());
             let Some(at) = inside else {
-                context.breach(RuleId::V55, instruction.span, "a break stands outside of any loop");
+                context.breach(RuleId::FlowOperands, instruction.span, "a break stands outside of any loop");
                 return;
             };
             let within_dynamic = walk.blocks[at..].iter().any(|b| b.dynamic);
@@ -157,7 +157,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
             if walk.blocks.is_empty() {
                 walk.ended = true;
             } else {
-                context.breach(RuleId::V54, instruction.span, "`ret` stands inside of a block");
+                context.breach(RuleId::Subroutines, instruction.span, "`ret` stands inside of a block");
             }
         }
         _ => {}
@@ -167,10 +167,10 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
 fn open(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     let opcode = instruction.opcode;
     let dynamic = opcode == Opcode::IfC || opcode == Opcode::If && by_predicate(instruction.sources.first());
-    walk.blocks.push(Block { opcode, start: index, patch: index, breaks: Vec::new(), dynamic, has_else: false });
-    let of = |f: &dyn Fn(&Block) -> bool| walk.blocks.iter().filter(|b| f(b)).count() as u32;
+    walk.blocks.push(OpenBlock { opcode, start: index, patch: index, breaks: Vec::new(), dynamic, has_else: false });
+    let of = |f: &dyn Fn(&OpenBlock) -> bool| walk.blocks.iter().filter(|b| f(b)).count() as u32;
     let (limit, found, what) = if matches!(opcode, Opcode::Rep | Opcode::Loop) {
-        (Limit::LoopDepth, of(&Block::is_loop), "loops are")
+        (Limit::LoopDepth, of(&OpenBlock::is_loop), "loops are")
     } else if dynamic {
         dynamic_depth(context, walk, instruction, 0);
         return;
@@ -185,14 +185,14 @@ fn dynamic_depth(context: &mut Context<'_>, walk: &Walk, instruction: &Instructi
     depth(context, Limit::DynamicFlowDepth, found, "flow that a computed value decides is", instruction.span);
 }
 
-/// V53
+/// V53, [`RuleId::NestingDepth`].
 fn depth(context: &mut Context<'_>, limit: Limit, found: u32, what: &str, span: Span) {
     let Some(allowed) = context.limit(limit) else { return };
     // One report at the first level that is too deep says it for all deeper ones.
     if found == allowed.value + 1 {
         let message = format!("{what} nested {found} deep, {} allows {}", allowed.owner, allowed.value);
         let advice = "unroll, or select with cmp";
-        context.exceed(RuleId::V53, span, found, &allowed, message, "this level".to_owned(), advice);
+        context.exceed(RuleId::NestingDepth, span, found, &allowed, message, "this level".to_owned(), advice);
     }
 }
 
@@ -204,7 +204,7 @@ fn end(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &I
             Some(block) => format!("`{name}` closes `{}`, expected `{opener}`", block.opcode.info().mnemonic),
             None => format!("`{name}` without an open `{opener}`"),
         };
-        context.breach(RuleId::V52, instruction.span, message);
+        context.breach(RuleId::UnclosedBlock, instruction.span, message);
         return;
     };
     context.jump[block.patch] = Some(index);
@@ -219,14 +219,18 @@ fn end(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &I
 fn label(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     if !walk.ended {
         context.add(
-            Violation::new(RuleId::V54, instruction.span, "`label` follows a section that does not end with `ret`")
-                .help("end the main program and every subroutine with ret"),
+            Violation::new(
+                RuleId::Subroutines,
+                instruction.span,
+                "`label` follows a section that does not end with `ret`",
+            )
+            .help("end the main program and every subroutine with ret"),
         );
     }
     close(context, walk);
     let number = instruction.sources.first().map_or(0, |s| s.register.index);
     if walk.labels.insert(number, index).is_some() {
-        context.breach(RuleId::V54, instruction.span, format!("`l{number}` labels two subroutines"));
+        context.breach(RuleId::Subroutines, instruction.span, format!("`l{number}` labels two subroutines"));
     }
     walk.section = Some(number);
     walk.ended = false;
@@ -237,7 +241,8 @@ fn close(context: &mut Context<'_>, walk: &mut Walk) {
     for block in walk.blocks.drain(..) {
         let span = context.program.instructions[block.start].span;
         let name = block.opcode.info().mnemonic;
-        context.add(Violation::new(RuleId::V52, span, format!("`{name}` is never closed")).label("opened here"));
+        context
+            .add(Violation::new(RuleId::UnclosedBlock, span, format!("`{name}` is never closed")).label("opened here"));
     }
 }
 
@@ -246,7 +251,7 @@ fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction:
     let in_loop = walk.section.is_some() || walk.blocks.iter().any(|b| b.opcode == Opcode::Loop);
     for source in &instruction.sources {
         if source.register.relative == Some(Relative::Loop) && !in_loop && context.version == Version::Vs2_0 {
-            context.breach(RuleId::V49, source.span, "`aL` addresses outside of any loop");
+            context.breach(RuleId::UnsetAddress, source.span, "`aL` addresses outside of any loop");
         }
     }
     let computed = instruction.sources.first().is_some_and(|s| s.register.file == RegisterFile::Temp);
@@ -267,19 +272,19 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     let span = |at: usize| program.instructions[at].span;
     if walk.section.is_some() && !walk.ended {
         let at = walk.section.and_then(|s| walk.labels.get(&s)).copied().unwrap_or(0);
-        context.breach(RuleId::V54, span(at), "the last subroutine does not end with `ret`");
+        context.breach(RuleId::Subroutines, span(at), "the last subroutine does not end with `ret`");
     }
     // Callers stand before what they call, so one pass in the order of the text knows every caller first.
     let mut depths: BTreeMap<u16, u32> = BTreeMap::new();
     let mut parted: BTreeMap<u16, bool> = BTreeMap::new();
     for call in &walk.calls {
         let Some(&target) = walk.labels.get(&call.label) else {
-            context.breach(RuleId::V54, span(call.at), format!("`l{}` labels no subroutine", call.label));
+            context.breach(RuleId::Subroutines, span(call.at), format!("`l{}` labels no subroutine", call.label));
             continue;
         };
         if target < call.at {
             context.add(
-                Violation::new(RuleId::V54, span(call.at), format!("`l{}` stands before its call", call.label))
+                Violation::new(RuleId::Subroutines, span(call.at), format!("`l{}` stands before its call", call.label))
                     .help("subroutines call only later ones, so that none can call itself"),
             );
             continue;
@@ -297,8 +302,12 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
         if within || section.is_some_and(|s| parted.get(&s).copied().unwrap_or(false)) {
             let name = program.instructions[at].opcode.info().mnemonic;
             context.add(
-                Violation::new(RuleId::V56, span(at), format!("`{name}` needs its neighbours, which may have parted"))
-                    .help("move it out of the flow that a computed value decides, or read with texldd"),
+                Violation::new(
+                    RuleId::DivergentGradient,
+                    span(at),
+                    format!("`{name}` needs its neighbours, which may have parted"),
+                )
+                .help("move it out of the flow that a computed value decides, or read with texldd"),
             );
         }
     }
@@ -314,7 +323,15 @@ fn static_count(context: &mut Context<'_>) {
         let found = spans.len() as u32;
         let message =
             format!("program has {found} flow control instructions, {} allows {}", allowed.owner, allowed.value);
-        context.exceed(RuleId::V53, *span, found, &allowed, message, "one too many".to_owned(), "unroll or select");
+        context.exceed(
+            RuleId::NestingDepth,
+            *span,
+            found,
+            &allowed,
+            message,
+            "one too many".to_owned(),
+            "unroll or select",
+        );
     }
 }
 
@@ -333,10 +350,10 @@ fn predicates(context: &mut Context<'_>) {
             None
         };
         if let Some(problem) = problem {
-            context.breach(RuleId::V57, predicate.span, problem);
+            context.breach(RuleId::PredicateUse, predicate.span, problem);
         }
         if predicate.swizzle.0.iter().any(|c| *c > 3) {
-            context.breach(RuleId::V15, predicate.span, "a predicate names a component beyond the fourth");
+            context.breach(RuleId::InvalidSwizzle, predicate.span, "a predicate names a component beyond the fourth");
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::isa::{
 const FULL: u16 = 32;
 const HALF: u16 = 64;
 /// What all registers of a program may weigh together, one of half precision weighing 1.
-const MOST_WEIGHT: u32 = 64;
+const MAX_WEIGHT: u32 = 64;
 
 pub(super) fn check(context: &mut Context<'_>) {
     let nv = context.version == Version::Fp1_0;
@@ -42,11 +42,15 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-/// V03.
+/// V03, [`RuleId::UnsupportedInstruction`].
 fn missing(context: &mut Context<'_>, instruction: &Instruction) {
     let name = Spelling::of(instruction.opcode).map_or(instruction.opcode.info().mnemonic, |s| s.name);
     let version = context.version;
-    let found = Violation::new(RuleId::V03, instruction.span, format!("`{name}` is not an instruction of {version}"));
+    let found = Violation::new(
+        RuleId::UnsupportedInstruction,
+        instruction.span,
+        format!("`{name}` is not an instruction of {version}"),
+    );
     context.add(found.label("this one").help("write it with the instructions that the extension has"));
 }
 
@@ -76,7 +80,7 @@ fn registers(context: &mut Context<'_>, instruction: &Instruction) {
         if u32::from(number) >= count {
             let name = written_name(register, number);
             let message = format!("`{name}` does not exist: there are {count}");
-            let mut violation = Violation::new(RuleId::V07, span, message).label("no such register");
+            let mut violation = Violation::new(RuleId::NoSuchRegister, span, message).label("no such register");
             violation.key = (key != "version").then_some(key);
             violation.limit = Some(count);
             violation.found = Some(u32::from(number) + 1);
@@ -113,7 +117,7 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     for source in vague {
         let message = format!("`{}` reads one component, found four", spelling.name);
         let advice = "choose one: `.x`, `.y`, `.z` or `.w`";
-        context.add(Violation::new(RuleId::V42, source.span, message).label("which component?").help(advice));
+        context.add(Violation::new(RuleId::ScalarSource, source.span, message).label("which component?").help(advice));
     }
 }
 
@@ -134,8 +138,10 @@ fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
         _ => return,
     };
     let message = format!("`{}` has no suffix {wrong}", spelling.name);
-    context
-        .add(Violation::new(RuleId::V60, instruction.span, message).help("see the extension's table of instructions"));
+    context.add(
+        Violation::new(RuleId::InvalidSuffix, instruction.span, message)
+            .help("see the extension's table of instructions"),
+    );
 }
 
 /// V61: packed words are of full precision.
@@ -151,7 +157,7 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     };
     if let Some(span) = half {
         let message = "a packed word has 32 bits, a register of half precision 16";
-        context.add(Violation::new(RuleId::V61, span, message).help("keep packed words in R# or o[COLR]"));
+        context.add(Violation::new(RuleId::PackedPrecision, span, message).help("keep packed words in R# or o[COLR]"));
     }
 }
 
@@ -177,7 +183,7 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
         }
         if let Some(span) = second {
             let message = format!("instruction reads {} different {what}, allowed is 1", seen.len());
-            let mut violation = Violation::new(RuleId::V62, span, message).label("the second");
+            let mut violation = Violation::new(RuleId::TooManyOperandReads, span, message).label("the second");
             violation.limit = Some(1);
             violation.found = Some(seen.len() as u32);
             context.add(violation.help("move one of them into a temporary first"));
@@ -192,17 +198,21 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     if let (Some(full), Some(half)) = (full, half) {
         let later = if full.span.start > half.span.start { full } else { half };
         let message = "program writes both o[COLR] and o[COLH]";
-        context.add(Violation::new(RuleId::V63, later.span, message).help("write the colour in one precision"));
+        context.add(
+            Violation::new(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision"),
+        );
     }
     let depths = all.iter().filter_map(|i| i.destination).filter(|d| d.register.file == RegisterFile::DepthOut);
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
         let message = "depth is the z component, which the mask leaves out";
-        context.add(Violation::new(RuleId::V63, depth.span, message).help("write o[DEPR].z or result.depth.z"));
+        context.add(
+            Violation::new(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z"),
+        );
     }
     if full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none() {
         let span = context.program.version_span;
         let message = "program writes neither colour nor depth";
-        context.add(Violation::new(RuleId::V63, span, message).help("write a result, for example o[COLR]"));
+        context.add(Violation::new(RuleId::FragmentOutputs, span, message).help("write a result, for example o[COLR]"));
     }
 }
 
@@ -216,7 +226,8 @@ fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
             let message =
                 format!("image unit {} is read as {} and as {}", unit.register.index, first.name(), target.name());
             context.add(
-                Violation::new(RuleId::V64, instruction.span, message).help("bind the second texture to another unit"),
+                Violation::new(RuleId::ImageUnitTarget, instruction.span, message)
+                    .help("bind the second texture to another unit"),
             );
         }
     }
@@ -238,21 +249,21 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
         };
         if one > 0 && seen.insert((register.file, register.index)) {
             weight += one;
-            if weight > MOST_WEIGHT && first.is_none() {
+            if weight > MAX_WEIGHT && first.is_none() {
                 first = Some(span);
             }
         }
     }
     let Some(span) = first else { return };
-    let message = format!("registers weigh {weight}, !!FP1.0 allows {MOST_WEIGHT}");
-    let mut violation = Violation::new(RuleId::V65, span, message).label("from here on");
-    violation.limit = Some(MOST_WEIGHT);
+    let message = format!("registers weigh {weight}, !!FP1.0 allows {MAX_WEIGHT}");
+    let mut violation = Violation::new(RuleId::RegisterWeight, span, message).label("from here on");
+    violation.limit = Some(MAX_WEIGHT);
     violation.found = Some(weight);
     context.add(violation.help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)"));
 }
 
-/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its destination
-/// was touched, since the last began.
+/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its
+/// destination was touched, since the last began.
 fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let Some(allowed) = context.limit(Limit::DependentReads) else { return };
     let mut touched: BTreeSet<Register> = BTreeSet::new();
@@ -284,7 +295,7 @@ fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let message = format!("program has {count} texture indirections, {} allows {}", allowed.owner, allowed.value);
     let label = format!("the {} begins here", ordinal(allowed.value + 1));
     context.exceed(
-        RuleId::V66,
+        RuleId::Indirections,
         span,
         count,
         &allowed,

@@ -2,8 +2,8 @@
 //!
 //! [`check`] finds *every* violation of the rules [`RuleId`] in one go, each with its place in the text, what was found
 //! and what is allowed, and the profile key of the figure that decides. Executors take only [`Checked`] programs and
-//! rely on it: register numbers are in range, operands are there, blocks close, labels exist, subroutines do not recurse,
-//! and nothing is read that was not written on any path.
+//! rely on it: register numbers are in range, operands are there, blocks close, labels exist, subroutines do not
+//! recurse, and nothing is read that was not written on any path.
 //!
 //! Where the sources leave a rule open the checker takes the strict reading if a card could not run the program, and
 //! the lenient one otherwise. Reads of unwritten components are followed exactly through straight code; through
@@ -31,7 +31,7 @@ mod vertex;
 pub use facts::{Checked, Facts};
 pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
 pub use report::{CheckReport, Violation, Warning};
-pub use rule::RuleId;
+pub use rule::{RuleId, WarningId};
 pub use slots::SlotCount;
 
 use crate::device::Profile;

@@ -1,4 +1,4 @@
-//! V07, V13 to V17, V34, V35, V45, V47: what every operand must keep to, whatever the instruction does with it.
+//! V07, V13 to V17, V34, V35, V45, V47: rules of operands that hold in every instruction.
 
 use super::context::{Context, Count, is_arithmetic, is_numeric, is_texture};
 use super::{RuleId, Violation};
@@ -26,7 +26,7 @@ pub(super) fn check(context: &mut Context<'_>) {
                 source_modifier(context, instruction, source);
             } else if source.swizzle != Swizzle::IDENTITY && source.register.file != RegisterFile::Predicate {
                 let file = source.register.file.prefix();
-                context.breach(RuleId::V15, source.span, format!("a `{file}` register has a swizzle"));
+                context.breach(RuleId::InvalidSwizzle, source.span, format!("a `{file}` register has a swizzle"));
             }
         }
     }
@@ -38,7 +38,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
     let prefix = file.prefix();
     let Some(count) = context.count(file) else {
         let name = if file.is_unnumbered() { prefix.to_owned() } else { format!("{prefix}#") };
-        context.breach(RuleId::V07, span, format!("{version} has no register `{name}`"));
+        context.breach(RuleId::NoSuchRegister, span, format!("{version} has no register `{name}`"));
         return false;
     };
     let n = count.value();
@@ -55,7 +55,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
         Count::Limited(allowed) => {
             let message = format!("program names `{found}`, {} {range}", allowed.owner);
             context.exceed(
-                RuleId::V07,
+                RuleId::NoSuchRegister,
                 span,
                 index,
                 &allowed,
@@ -66,7 +66,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
         }
         Count::Fixed(_) => {
             let message = format!("program names `{found}`, {version} {range}");
-            context.add(Violation::new(RuleId::V07, span, message).label("no such register"));
+            context.add(Violation::new(RuleId::NoSuchRegister, span, message).label("no such register"));
         }
     }
     false
@@ -90,7 +90,7 @@ fn relative(context: &mut Context<'_>, source: &Source) {
     };
     if let Some(message) = breach {
         let help = "only constants are addressed relatively, in vs_1_1 by a0.x, in vs_2_0 by a0 or aL";
-        context.add(Violation::new(RuleId::V45, span, message).help(help));
+        context.add(Violation::new(RuleId::RelativeAddress, span, message).help(help));
     }
 }
 
@@ -100,27 +100,29 @@ fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destin
     let (version, opcode) = (context.version, instruction.opcode);
     let (file, name) = (destination.register.file, opcode.info().mnemonic);
     if destination.register.relative.is_some() {
-        context.breach(RuleId::V45, destination.span, "a destination is addressed relatively");
+        context.breach(RuleId::RelativeAddress, destination.span, "a destination is addressed relatively");
     }
     let (rule, allowed, expected): (RuleId, bool, &str) = match version {
         _ if opcode == Opcode::TexKill => match version {
-            Version::Ps1_4 => (RuleId::V29, matches!(file, F::Texture | F::Temp), "t# or r#"),
-            v if v.is_ps_2() => (RuleId::V41, matches!(file, F::Texture | F::Temp), "t# or r#"),
-            _ => (RuleId::V13, file == F::Texture, "t#"),
+            Version::Ps1_4 => (RuleId::TextureSource, matches!(file, F::Texture | F::Temp), "t# or r#"),
+            v if v.is_ps_2() => (RuleId::TexKillOperand, matches!(file, F::Texture | F::Temp), "t# or r#"),
+            _ => (RuleId::InvalidDestination, file == F::Texture, "t#"),
         },
-        v if v.is_ps_1_1_to_1_3() && is_texture(opcode) => (RuleId::V13, file == F::Texture, "t#"),
-        v if v.is_ps_1_1_to_1_3() => (RuleId::V13, matches!(file, F::Temp | F::Texture), "r# or t#"),
-        Version::Ps1_4 => (RuleId::V13, file == F::Temp, "r#"),
-        _ if opcode == Opcode::Setp => (RuleId::V57, file == F::Predicate, "p0"),
-        _ if opcode == Opcode::Mova => (RuleId::V49, file == F::Address, "a0"),
-        v if v.is_ps_2() && matches!(file, F::ColorOut | F::DepthOut) => (RuleId::V36, opcode == Opcode::Mov, "r#"),
-        v if v.is_ps_2() => (RuleId::V13, file == F::Temp, "r#, oC# or oDepth"),
-        Version::Vs1_1 if file == F::Address => (RuleId::V49, opcode == Opcode::Mov, "mov to write a0"),
-        Version::Vs2_0 if file == F::Address => (RuleId::V49, false, "mova to write a0"),
-        _ if matches!(opcode, Opcode::SinCos | Opcode::Sgn) => (RuleId::V13, file == F::Temp, "r#"),
+        v if v.is_ps_1_1_to_1_3() && is_texture(opcode) => (RuleId::InvalidDestination, file == F::Texture, "t#"),
+        v if v.is_ps_1_1_to_1_3() => (RuleId::InvalidDestination, matches!(file, F::Temp | F::Texture), "r# or t#"),
+        Version::Ps1_4 => (RuleId::InvalidDestination, file == F::Temp, "r#"),
+        _ if opcode == Opcode::Setp => (RuleId::PredicateUse, file == F::Predicate, "p0"),
+        _ if opcode == Opcode::Mova => (RuleId::UnsetAddress, file == F::Address, "a0"),
+        v if v.is_ps_2() && matches!(file, F::ColorOut | F::DepthOut) => {
+            (RuleId::OutputWrite, opcode == Opcode::Mov, "r#")
+        }
+        v if v.is_ps_2() => (RuleId::InvalidDestination, file == F::Temp, "r#, oC# or oDepth"),
+        Version::Vs1_1 if file == F::Address => (RuleId::UnsetAddress, opcode == Opcode::Mov, "mov to write a0"),
+        Version::Vs2_0 if file == F::Address => (RuleId::UnsetAddress, false, "mova to write a0"),
+        _ if matches!(opcode, Opcode::SinCos | Opcode::Sgn) => (RuleId::InvalidDestination, file == F::Temp, "r#"),
         _ => {
             let output = [F::PositionOut, F::FogOut, F::PointSizeOut, F::DiffuseOut, F::TexCoordOut].contains(&file);
-            (RuleId::V13, file == F::Temp || output, "r# or an output")
+            (RuleId::InvalidDestination, file == F::Temp || output, "r# or an output")
         }
     };
     if !allowed {
@@ -134,28 +136,30 @@ fn mask(context: &mut Context<'_>, instruction: &Instruction, destination: &Dest
     let (version, opcode, mask) = (context.version, instruction.opcode, destination.mask);
     let texture = is_texture(opcode);
     let (rule, allowed, expected): (RuleId, bool, &str) = match version {
-        _ if mask.0 == 0 || mask.0 > 0b1111 => (RuleId::V14, false, "one to four components"),
-        v if v.is_ps_2() && opcode == Opcode::TexKill => (RuleId::V41, mask == Mask::ALL, "no mask"),
-        v if v.is_ps_2() && texture => (RuleId::V40, mask == Mask::ALL, "no mask"),
-        Version::Ps1_4 if opcode == Opcode::TexLd => (RuleId::V25, mask == Mask::ALL, "no mask"),
+        _ if mask.0 == 0 || mask.0 > 0b1111 => (RuleId::InvalidMask, false, "one to four components"),
+        v if v.is_ps_2() && opcode == Opcode::TexKill => (RuleId::TexKillOperand, mask == Mask::ALL, "no mask"),
+        v if v.is_ps_2() && texture => (RuleId::TextureReadOperands, mask == Mask::ALL, "no mask"),
+        Version::Ps1_4 if opcode == Opcode::TexLd => (RuleId::TextureLoadMask, mask == Mask::ALL, "no mask"),
         Version::Ps1_4 if opcode == Opcode::TexCrd => {
             let projected = instruction.sources.first().is_some_and(|s| s.modifier == Modifier::Dw);
             if projected {
-                (RuleId::V25, mask == Mask(0b0011), ".rg (with _dw)")
+                (RuleId::TextureLoadMask, mask == Mask(0b0011), ".rg (with _dw)")
             } else {
-                (RuleId::V25, mask == Mask::RGB, ".rgb")
+                (RuleId::TextureLoadMask, mask == Mask::RGB, ".rgb")
             }
         }
-        Version::Ps1_4 if opcode == Opcode::Bem => (RuleId::V27, mask == Mask(0b0011), ".rg"),
-        v if v.is_ps_1_x() && texture => (RuleId::V14, mask == Mask::ALL, "no mask"),
+        Version::Ps1_4 if opcode == Opcode::Bem => (RuleId::Bem, mask == Mask(0b0011), ".rg"),
+        v if v.is_ps_1_x() && texture => (RuleId::InvalidMask, mask == Mask::ALL, "no mask"),
         v if v.is_ps_1_1_to_1_3() && opcode == Opcode::Dp3 => {
-            (RuleId::V20, matches!(mask, Mask::RGB | Mask::ALL), ".rgb or .rgba")
+            (RuleId::Dp3Mask, matches!(mask, Mask::RGB | Mask::ALL), ".rgb or .rgba")
         }
         v if v.is_ps_1_1_to_1_3() => {
-            (RuleId::V14, matches!(mask, Mask::RGB | Mask::ALPHA | Mask::ALL), ".rgb, .a or .rgba")
+            (RuleId::InvalidMask, matches!(mask, Mask::RGB | Mask::ALPHA | Mask::ALL), ".rgb, .a or .rgba")
         }
-        Version::Vs1_1 if opcode == Opcode::Frc => (RuleId::V14, matches!(mask.0, 0b0010 | 0b0011), ".y or .xy"),
-        _ => (RuleId::V14, true, ""),
+        Version::Vs1_1 if opcode == Opcode::Frc => {
+            (RuleId::InvalidMask, matches!(mask.0, 0b0010 | 0b0011), ".y or .xy")
+        }
+        _ => (RuleId::InvalidMask, true, ""),
     };
     if !allowed {
         let name = opcode.info().mnemonic;
@@ -181,30 +185,30 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
     let shift = destination.shift;
     if shift != 0 {
         if !version.is_ps_1_x() {
-            let rule = if version.is_ps_2() { RuleId::V34 } else { RuleId::V17 };
+            let rule = if version.is_ps_2() { RuleId::ShiftedResult } else { RuleId::InvalidInstructionModifier };
             add(rule, &format!("a shift, {version} has none"));
         } else if texture {
-            add(RuleId::V17, "a shift, but only arithmetic can be shifted");
+            add(RuleId::InvalidInstructionModifier, "a shift, but only arithmetic can be shifted");
         } else if !(-3..=3).contains(&shift) || version.is_ps_1_1_to_1_3() && !(-1..=2).contains(&shift) {
             let expected = if version == Version::Ps1_4 { "_x8 to _d8" } else { "_x2, _x4 or _d2" };
-            add(RuleId::V17, &format!("a shift that {version} lacks: it has {expected}"));
+            add(RuleId::InvalidInstructionModifier, &format!("a shift that {version} lacks: it has {expected}"));
         }
     }
     let output = matches!(destination.register.file, RegisterFile::ColorOut | RegisterFile::DepthOut);
     if destination.saturate {
         if matches!(opcode, Opcode::Frc | Opcode::SinCos) && version.is_ps_2() {
-            add(RuleId::V46, "_sat, but its result is in range or its own affair");
+            add(RuleId::InvalidSaturate, "_sat, but its result is in range or its own affair");
         } else if output {
-            add(RuleId::V36, "_sat, but an output is written as it is");
+            add(RuleId::OutputWrite, "_sat, but an output is written as it is");
         } else if texture || version.stage() == Stage::Vertex || !is_arithmetic(opcode) || opcode == Opcode::Setp {
-            add(RuleId::V17, "_sat, but only arithmetic of pixel programs can be saturated");
+            add(RuleId::InvalidInstructionModifier, "_sat, but only arithmetic of pixel programs can be saturated");
         }
     }
     if destination.partial_precision && !version.is_ps_2() {
-        add(RuleId::V17, &format!("_pp, {version} has no partial precision"));
+        add(RuleId::InvalidInstructionModifier, &format!("_pp, {version} has no partial precision"));
     }
     if destination.centroid {
-        add(RuleId::V17, "_centroid, which belongs on a declaration");
+        add(RuleId::InvalidInstructionModifier, "_centroid, which belongs on a declaration");
     }
 }
 
@@ -217,24 +221,29 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
     let (rule, allowed, expected): (RuleId, bool, &str) = match (version, opcode) {
         (Version::Ps1_4, op) if is_texture(op) => {
             let second = context.phase(index) == 2;
-            let rule = if file == F::Temp && op == Opcode::TexLd { RuleId::V22 } else { RuleId::V29 };
+            let rule =
+                if file == F::Temp && op == Opcode::TexLd { RuleId::AddressPhase } else { RuleId::TextureSource };
             let expected = if second { "t# or r#" } else { "t# (in phase 1)" };
             (rule, file == F::Texture || second && file == F::Temp, expected)
         }
-        (Version::Ps1_4, _) if file == F::Texture => (RuleId::V28, false, "r#, c# or v#: load it with texcrd"),
-        (Version::Ps1_4, _) => (RuleId::V47, is_numeric(file), "r#, c# or v#"),
+        (Version::Ps1_4, _) if file == F::Texture => {
+            (RuleId::ArithmeticReadsCoordinates, false, "r#, c# or v#: load it with texcrd")
+        }
+        (Version::Ps1_4, _) => (RuleId::Operands, is_numeric(file), "r#, c# or v#"),
         (v, op) if v.is_ps_1_1_to_1_3() && is_texture(op) => {
             if k == 1 {
-                (RuleId::V31, file == F::Constant, "c# (the eye)")
+                (RuleId::TextureChain, file == F::Constant, "c# (the eye)")
             } else {
-                (RuleId::V31, file == F::Texture, "t#")
+                (RuleId::TextureChain, file == F::Texture, "t#")
             }
         }
-        (_, op) if is_texture(op) && k == 1 => (RuleId::V40, file == F::Sampler, "s#"),
-        (_, op) if is_texture(op) && k == 0 => (RuleId::V40, matches!(file, F::Temp | F::Texture), "t# or r#"),
-        (_, Opcode::SinCos) if k > 0 => (RuleId::V43, file == F::Constant, "c#"),
-        (_, Opcode::Sgn) if k > 0 => (RuleId::V59, file == F::Temp, "r# (a scratch register)"),
-        (_, op) if is_arithmetic(op) || is_texture(op) => (RuleId::V47, is_numeric(file), "a register of numbers"),
+        (_, op) if is_texture(op) && k == 1 => (RuleId::TextureReadOperands, file == F::Sampler, "s#"),
+        (_, op) if is_texture(op) && k == 0 => {
+            (RuleId::TextureReadOperands, matches!(file, F::Temp | F::Texture), "t# or r#")
+        }
+        (_, Opcode::SinCos) if k > 0 => (RuleId::SinCosOperands, file == F::Constant, "c#"),
+        (_, Opcode::Sgn) if k > 0 => (RuleId::MacroOperands, file == F::Temp, "r# (a scratch register)"),
+        (_, op) if is_arithmetic(op) || is_texture(op) => (RuleId::Operands, is_numeric(file), "a register of numbers"),
         _ => return,
     };
     if !allowed {
@@ -248,7 +257,7 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
 fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
     let (version, opcode, swizzle) = (context.version, instruction.opcode, source.swizzle);
     if swizzle.0.iter().any(|c| *c > 3) {
-        context.breach(RuleId::V15, source.span, "a selector names a component beyond the fourth");
+        context.breach(RuleId::InvalidSwizzle, source.span, "a selector names a component beyond the fourth");
         return;
     }
     let identity = swizzle == Swizzle::IDENTITY;
@@ -259,20 +268,20 @@ fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source
         // The two selectors of texld and texcrd are V23's and V24's.
         Version::Ps1_4 if texture => {
             let xyz = matches!(swizzle.0, [0, 1, 2, 2 | 3]);
-            (RuleId::V15, xyz || swizzle.0 == [0, 1, 3, 3], ".xyz or .xyw")
+            (RuleId::InvalidSwizzle, xyz || swizzle.0 == [0, 1, 3, 3], ".xyz or .xyw")
         }
-        Version::Ps1_4 => (RuleId::V15, identity || replicated.is_some(), ".r .g .b or .a"),
-        v if v.is_ps_1_1_to_1_3() && texture => (RuleId::V15, identity, "no selector"),
+        Version::Ps1_4 => (RuleId::InvalidSwizzle, identity || replicated.is_some(), ".r .g .b or .a"),
+        v if v.is_ps_1_1_to_1_3() && texture => (RuleId::InvalidSwizzle, identity, "no selector"),
         v if v.is_ps_1_1_to_1_3() => {
             let blue = replicated == Some(2) && alpha_only;
-            (RuleId::V15, identity || replicated == Some(3) || blue, ".a, or .b where only .a is written")
+            (RuleId::InvalidSwizzle, identity || replicated == Some(3) || blue, ".a, or .b where only .a is written")
         }
-        v if v.is_ps_2() && texture => (RuleId::V40, identity || v == Version::Ps2A, "no swizzle"),
+        v if v.is_ps_2() && texture => (RuleId::TextureReadOperands, identity || v == Version::Ps2A, "no swizzle"),
         Version::Ps2_0 | Version::Ps2B => {
             let rotated = matches!(swizzle.0, [1, 2, 0, 3] | [2, 0, 1, 3] | [3, 2, 1, 0]);
-            (RuleId::V15, identity || replicated.is_some() || rotated, ".x .y .z .w .yzxw .zxyw or .wzyx")
+            (RuleId::InvalidSwizzle, identity || replicated.is_some() || rotated, ".x .y .z .w .yzxw .zxyw or .wzyx")
         }
-        _ => (RuleId::V15, true, ""),
+        _ => (RuleId::InvalidSwizzle, true, ""),
     };
     if !allowed {
         let letters: String = swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w'][usize::from(*c)]).collect();
@@ -289,24 +298,30 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
     let texture = is_texture(instruction.opcode);
     let simple = matches!(modifier, M::None | M::Negate);
     let (rule, allowed, expected): (RuleId, bool, &str) = match version {
-        Version::Ps1_4 if texture => {
-            (RuleId::V16, matches!(modifier, M::None | M::Dz | M::Dw), "none but _dz and _dw on texture instructions")
-        }
-        v if v.is_ps_1_1_to_1_3() && texture => {
-            (RuleId::V16, matches!(modifier, M::None | M::Bx2), "none but _bx2 on texture instructions")
-        }
+        Version::Ps1_4 if texture => (
+            RuleId::InvalidSourceModifier,
+            matches!(modifier, M::None | M::Dz | M::Dw),
+            "none but _dz and _dw on texture instructions",
+        ),
+        v if v.is_ps_1_1_to_1_3() && texture => (
+            RuleId::InvalidSourceModifier,
+            matches!(modifier, M::None | M::Bx2),
+            "none but _bx2 on texture instructions",
+        ),
         Version::Ps1_4 if source.register.file == RegisterFile::Constant => {
-            (RuleId::V16, modifier == M::None, "none on constants")
+            (RuleId::InvalidSourceModifier, modifier == M::None, "none on constants")
         }
         v if v.is_ps_1_x() => {
             let expands = matches!(modifier, M::Invert | M::Bias | M::BiasNegate | M::Bx2 | M::Bx2Negate);
             let doubles = matches!(modifier, M::X2 | M::X2Negate) && v == Version::Ps1_4;
             let all = if v == Version::Ps1_4 { "-, 1-, _bias, _bx2 and _x2" } else { "-, 1-, _bias and _bx2" };
-            (RuleId::V16, simple || expands || doubles, all)
+            (RuleId::InvalidSourceModifier, simple || expands || doubles, all)
         }
-        v if v.is_ps_2() && texture => (RuleId::V40, modifier == M::None, "none on texture instructions"),
-        v if v.is_ps_2() => (RuleId::V35, simple, "- alone"),
-        _ => (RuleId::V16, simple, "- alone"),
+        v if v.is_ps_2() && texture => {
+            (RuleId::TextureReadOperands, modifier == M::None, "none on texture instructions")
+        }
+        v if v.is_ps_2() => (RuleId::OnlyNegation, simple, "- alone"),
+        _ => (RuleId::InvalidSourceModifier, simple, "- alone"),
     };
     if !allowed {
         let message = format!("`{}` carries a source modifier, {version} allows {expected}", source.register);

@@ -18,7 +18,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     // A malformed co-issued instruction was reported for its operands; its `+` is reported all the same.
     for (index, instruction) in context.program.instructions.iter().enumerate() {
         if instruction.coissue && !context.is_sound(index) && !context.version.is_ps_1_x() {
-            context.breach(RuleId::V10, instruction.span, format!("{} has no co-issue", context.version));
+            context.breach(RuleId::MalformedPair, instruction.span, format!("{} has no co-issue", context.version));
         }
     }
 }
@@ -67,7 +67,7 @@ fn ports(context: &mut Context<'_>, instruction: &Instruction) {
         if found > ports {
             let (version, prefix) = (context.version, file.prefix());
             let mut violation = Violation::new(
-                RuleId::V08,
+                RuleId::TooManyReads,
                 instruction.span,
                 format!("instruction reads {found} different `{prefix}#` registers, {version} allows {ports}"),
             )
@@ -83,11 +83,11 @@ fn ports(context: &mut Context<'_>, instruction: &Instruction) {
 fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
     let version = context.version;
     if !version.is_ps_1_x() {
-        context.breach(RuleId::V10, second.span, format!("{version} has no co-issue"));
+        context.breach(RuleId::MalformedPair, second.span, format!("{version} has no co-issue"));
         return;
     }
     let bad = |message: &str, help: &str| {
-        Violation::new(RuleId::V10, second.span, message).label("the second of the pair").help(help)
+        Violation::new(RuleId::MalformedPair, second.span, message).label("the second of the pair").help(help)
     };
     let Some(first) = index.checked_sub(1).map(|i| &context.program.instructions[i]) else {
         context.add(bad("`+` stands on the first instruction", "the first instruction of a pair has no `+`"));
@@ -103,7 +103,7 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
     for one in [first, second] {
         let name = one.opcode.info().mnemonic;
         if one.opcode == Opcode::Bem {
-            context.breach(RuleId::V27, one.span, "`bem` is co-issued");
+            context.breach(RuleId::Bem, one.span, "`bem` is co-issued");
             return;
         }
         if !is_arithmetic(one.opcode) || one.opcode == Opcode::Dp4 {
@@ -129,7 +129,7 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
     pair_ports(context, first, second);
 }
 
-/// V09
+/// V09, [`RuleId::TooManyPairReads`].
 fn pair_ports(context: &mut Context<'_>, first: &Instruction, second: &Instruction) {
     if !context.version_limits() {
         return;
@@ -140,7 +140,7 @@ fn pair_ports(context: &mut Context<'_>, first: &Instruction, second: &Instructi
         if found > 3 {
             let prefix = file.prefix();
             let message = format!("pair reads {found} different `{prefix}#` registers, {} allows 3", context.version);
-            let mut violation = Violation::new(RuleId::V09, first.span.join(second.span), message)
+            let mut violation = Violation::new(RuleId::TooManyPairReads, first.span.join(second.span), message)
                 .help("issue the two one after the other, or share a register");
             violation.limit = Some(3);
             violation.found = Some(found);

@@ -1,4 +1,4 @@
-//! V18, V19, V31, V32, V33: the ways of ps_1_1 to ps_1_3.
+//! V18, V19, V31, V32, V33: rules of ps_1_1 to ps_1_3 alone.
 
 use super::context::{Context, is_texture};
 use super::{RuleId, Violation};
@@ -12,7 +12,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     expansion(context);
 }
 
-/// V18
+/// V18, [`RuleId::CndCondition`].
 fn selects(context: &mut Context<'_>) {
     for (_, instruction) in context.instructions() {
         if instruction.opcode != Opcode::Cnd {
@@ -22,14 +22,14 @@ fn selects(context: &mut Context<'_>) {
         let alpha = source.swizzle == Swizzle::replicate(3) && source.modifier == Modifier::None;
         if source.register != Register::new(RegisterFile::Temp, 0) || !alpha {
             context.add(
-                Violation::new(RuleId::V18, source.span, "the first source of `cnd` is not `r0.a`")
+                Violation::new(RuleId::CndCondition, source.span, "the first source of `cnd` is not `r0.a`")
                     .help("before ps_1_4 cnd compares r0.a with 0.5 and nothing else: mov the value into r0.a"),
             );
         }
     }
 }
 
-/// V19
+/// V19, [`RuleId::CmpOrDp4`].
 fn counts(context: &mut Context<'_>) {
     if context.version == Version::Ps1_1 {
         return;
@@ -39,7 +39,7 @@ fn counts(context: &mut Context<'_>) {
         if let Some(span) = all.get(limit as usize) {
             let (found, name, version) = (all.len() as u32, opcode.info().mnemonic, context.version);
             let mut violation = Violation::new(
-                RuleId::V19,
+                RuleId::CmpOrDp4,
                 *span,
                 format!("program has {found} `{name}` instructions, {version} allows {limit}"),
             );
@@ -52,7 +52,7 @@ fn counts(context: &mut Context<'_>) {
         let Some(destination) = instruction.destination.filter(|_| instruction.opcode == Opcode::Cmp) else { continue };
         if instruction.sources.iter().any(|s| s.register == destination.register) {
             context.add(
-                Violation::new(RuleId::V19, instruction.span, "`cmp` writes one of its own sources")
+                Violation::new(RuleId::CmpOrDp4, instruction.span, "`cmp` writes one of its own sources")
                     .help("before ps_1_4 the destination of cmp differs from its sources"),
             );
         }
@@ -68,7 +68,7 @@ struct Pending {
     span: Span,
 }
 
-/// V31
+/// V31, [`RuleId::TextureChain`].
 fn sequences(context: &mut Context<'_>) {
     let mut pending: Option<Pending> = None;
     for (_, instruction) in context.instructions() {
@@ -84,7 +84,7 @@ fn sequences(context: &mut Context<'_>) {
         {
             let name = instruction.opcode.info().mnemonic;
             let message = format!("`{name}` of stage {stage} reads `{source}`, expected an earlier stage");
-            context.breach(RuleId::V31, instruction.span, message);
+            context.breach(RuleId::TextureChain, instruction.span, message);
         }
         let rows = match instruction.opcode {
             Opcode::TexM3x2Pad | Opcode::TexM3x2Tex | Opcode::TexM3x2Depth => 2,
@@ -100,7 +100,7 @@ fn sequences(context: &mut Context<'_>) {
 
 fn unfinished(context: &mut Context<'_>, span: Span) {
     context.add(
-        Violation::new(RuleId::V31, span, "a pad is not followed by the rest of its matrix")
+        Violation::new(RuleId::TextureChain, span, "a pad is not followed by the rest of its matrix")
             .help("write texm3x2pad then texm3x2tex, or texm3x3pad twice then texm3x3tex, in consecutive stages"),
     );
 }
@@ -125,7 +125,7 @@ fn step(
             let name = instruction.opcode.info().mnemonic;
             let n = rows - 1;
             let message = format!("`{name}` lacks its {n} pad{} before it", if n == 1 { "" } else { "s" });
-            context.breach(RuleId::V31, instruction.span, message);
+            context.breach(RuleId::TextureChain, instruction.span, message);
         }
         None => {}
     }
@@ -133,7 +133,7 @@ fn step(
     Some(Pending { rows, done: 1, next: stage.saturating_add(1), source, span: instruction.span })
 }
 
-/// V32
+/// V32, [`RuleId::BumpMapReused`].
 fn bump_maps(context: &mut Context<'_>) {
     let mut read_by_bump = 0_u64;
     for (_, instruction) in context.instructions() {
@@ -147,13 +147,13 @@ fn bump_maps(context: &mut Context<'_>) {
                 read_by_bump |= 1 << register.index;
             } else if read_by_bump >> register.index & 1 == 1 {
                 let message = format!("`{register}` was read by texbem and is read again");
-                context.breach(RuleId::V32, source.span, message);
+                context.breach(RuleId::BumpMapReused, source.span, message);
             }
         }
     }
 }
 
-/// V33
+/// V33, [`RuleId::ExpandModifier`].
 fn expansion(context: &mut Context<'_>) {
     use Opcode as O;
     for (_, instruction) in context.instructions() {
@@ -168,7 +168,11 @@ fn expansion(context: &mut Context<'_>) {
         let source = instruction.sources.first().filter(|_| is_texture(opcode) && !allowed);
         if let Some(source) = source.filter(|s| s.modifier == Modifier::Bx2) {
             let (name, version) = (opcode.info().mnemonic, context.version);
-            context.breach(RuleId::V33, source.span, format!("`{name}` of {version} can not expand with `_bx2`"));
+            context.breach(
+                RuleId::ExpandModifier,
+                source.span,
+                format!("`{name}` of {version} can not expand with `_bx2`"),
+            );
         }
     }
 }

@@ -1,4 +1,4 @@
-//! V21 to V27, V30: the ways of ps_1_4. V28 and V29 are among the operands.
+//! V21 to V27, V30: rules of ps_1_4 alone. V28 and V29 are among the operands.
 
 use std::collections::BTreeMap;
 
@@ -18,21 +18,25 @@ pub(super) fn check(context: &mut Context<'_>) {
     stages(context);
 }
 
-/// V21
+/// V21, [`RuleId::ColorReadInPhase1`].
 fn colors(context: &mut Context<'_>) {
     for (index, instruction) in context.instructions() {
         for source in &instruction.sources {
             if source.register.file == RegisterFile::Input && context.phase(index) == 1 {
                 context.add(
-                    Violation::new(RuleId::V21, source.span, format!("`{}` is read in phase 1", source.register))
-                        .help("colours arrive in phase 2: move the instruction behind `phase`"),
+                    Violation::new(
+                        RuleId::ColorReadInPhase1,
+                        source.span,
+                        format!("`{}` is read in phase 1", source.register),
+                    )
+                    .help("colours arrive in phase 2: move the instruction behind `phase`"),
                 );
             }
         }
     }
 }
 
-/// V23
+/// V23, [`RuleId::MixedSelectors`].
 fn selectors(context: &mut Context<'_>) {
     let mut chosen: BTreeMap<u16, bool> = BTreeMap::new();
     for (_, instruction) in context.instructions() {
@@ -42,7 +46,7 @@ fn selectors(context: &mut Context<'_>) {
         if *chosen.entry(source.register.index).or_insert(third_is_w) != third_is_w {
             let message = format!("`{}` is read as .xyz and as .xyw", source.register);
             context.add(
-                Violation::new(RuleId::V23, source.span, message)
+                Violation::new(RuleId::MixedSelectors, source.span, message)
                     .label("the other selector")
                     .help("choose one of .xyz and .xyw for all reads of a coordinate set"),
             );
@@ -50,7 +54,7 @@ fn selectors(context: &mut Context<'_>) {
     }
 }
 
-/// V24
+/// V24, [`RuleId::DivideModifier`].
 fn projections(context: &mut Context<'_>) {
     let mut by_z = 0;
     for (_, instruction) in context.instructions() {
@@ -70,12 +74,12 @@ fn projections(context: &mut Context<'_>) {
             _ => None,
         };
         if let Some(problem) = problem {
-            context.breach(RuleId::V24, source.span, problem);
+            context.breach(RuleId::DivideModifier, source.span, problem);
         }
     }
 }
 
-/// V26
+/// V26, [`RuleId::TexDepth`].
 fn depth(context: &mut Context<'_>) {
     let mut spent: Option<Span> = None;
     for (index, instruction) in context.instructions() {
@@ -85,7 +89,7 @@ fn depth(context: &mut Context<'_>) {
             let written = instruction.destination.filter(|d| d.register == R5).map(|d| d.span);
             if let Some(span) = read.or(written) {
                 context.add(
-                    Violation::new(RuleId::V26, span, "`r5` is used after texdepth")
+                    Violation::new(RuleId::TexDepth, span, "`r5` is used after texdepth")
                         .help("texdepth spends r5: pass its value on with texcrd before"),
                 );
             }
@@ -99,7 +103,7 @@ fn depth(context: &mut Context<'_>) {
             _ => None,
         };
         if let Some(message) = message {
-            context.breach(RuleId::V26, instruction.span, message);
+            context.breach(RuleId::TexDepth, instruction.span, message);
         }
         spent = spent.or(Some(instruction.span));
     }
@@ -115,12 +119,12 @@ fn bump(context: &mut Context<'_>) {
         found += 1;
         if context.phase(index) != 1 {
             context.add(
-                Violation::new(RuleId::V27, instruction.span, "`bem` stands in phase 2")
+                Violation::new(RuleId::Bem, instruction.span, "`bem` stands in phase 2")
                     .help("a program without `phase` is all phase 2: put the marker behind bem"),
             );
         }
         if found == 2 {
-            context.breach(RuleId::V27, instruction.span, "program has a second `bem`, ps_1_4 allows 1");
+            context.breach(RuleId::Bem, instruction.span, "program has a second `bem`, ps_1_4 allows 1");
         }
     }
 }
@@ -153,7 +157,7 @@ fn loads(context: &mut Context<'_>) {
             if loaded.contains(&number) {
                 context.add(
                     Violation::new(
-                        RuleId::V30,
+                        RuleId::LoadedTwice,
                         instruction.span,
                         format!("`{}` is loaded twice in phase {phase}", destination.register),
                     )
@@ -177,7 +181,7 @@ fn address(context: &mut Context<'_>, instruction: &Instruction, late: bool) {
         format!("`{register}` is an address, but phase 1 did not write its x, y and z")
     };
     context.add(
-        Violation::new(RuleId::V22, source.span, message)
+        Violation::new(RuleId::AddressPhase, source.span, message)
             .label("the address")
             .help("compute the address in phase 1 and read it in phase 2"),
     );
@@ -196,7 +200,15 @@ fn stages(context: &mut Context<'_>) {
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);
             let advice = "texld samples the stage of its destination's number: load a lower register";
-            context.exceed(RuleId::V07, instruction.span, stage, &allowed, message, "this stage".to_owned(), advice);
+            context.exceed(
+                RuleId::NoSuchRegister,
+                instruction.span,
+                stage,
+                &allowed,
+                message,
+                "this stage".to_owned(),
+                advice,
+            );
         }
     }
 }

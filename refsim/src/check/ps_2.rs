@@ -1,4 +1,4 @@
-//! V36, V38, V39, V42 to V44, V50, V59: the ways of ps_2_0 and up. What vertex programs share with them is here too.
+//! V36, V38, V39, V42 to V44, V50, V59: rules of ps_2_0 and up, some of them shared with vertex programs.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(super) fn shared(context: &mut Context<'_>, instruction: &Instruction) {
     steps(context, instruction);
 }
 
-/// V39
+/// V39, [`RuleId::TooManyConstants`].
 fn tokens(context: &mut Context<'_>, instruction: &Instruction) {
     if !context.version_limits() || instruction.opcode == Opcode::SinCos {
         return;
@@ -35,7 +35,7 @@ fn tokens(context: &mut Context<'_>, instruction: &Instruction) {
     let found = instruction.sources.iter().filter(|s| s.register.file == RegisterFile::Constant).count();
     if found > 2 {
         let mut violation = Violation::new(
-            RuleId::V39,
+            RuleId::TooManyConstants,
             instruction.span,
             format!("instruction names {found} constants, {} allows 2", context.version),
         )
@@ -50,7 +50,7 @@ fn one_component(source: &Source) -> bool {
     source.swizzle.replicated().is_some()
 }
 
-/// V42, V44
+/// V42, [`RuleId::ScalarSource`] and V44, [`RuleId::Dp2AddSource`].
 fn scalars(context: &mut Context<'_>, instruction: &Instruction) {
     let opcode = instruction.opcode;
     let name = opcode.info().mnemonic;
@@ -60,33 +60,37 @@ fn scalars(context: &mut Context<'_>, instruction: &Instruction) {
         _ => &[],
     };
     for source in scalar.iter().filter(|s| !one_component(s)) {
-        let rule = if opcode == Opcode::Dp2Add { RuleId::V44 } else { RuleId::V42 };
+        let rule = if opcode == Opcode::Dp2Add { RuleId::Dp2AddSource } else { RuleId::ScalarSource };
         let message = format!("`{name}` reads several components of `{}`", source.register);
         context.add(Violation::new(rule, source.span, message).help("choose one: .x, .y, .z or .w"));
     }
 }
 
-/// V43
+/// V43, [`RuleId::SinCosOperands`].
 fn sincos(context: &mut Context<'_>, instruction: &Instruction) {
     if let Some(destination) = instruction.destination
         && !matches!(destination.mask.0, 0b0001..=0b0011)
     {
-        context.breach(RuleId::V43, destination.span, "`sincos` writes other components than .x (cos) and .y (sin)");
+        context.breach(
+            RuleId::SinCosOperands,
+            destination.span,
+            "`sincos` writes other components than .x (cos) and .y (sin)",
+        );
     }
     let [angle, first, second] = instruction.sources.as_slice() else { return };
     if !one_component(angle) {
-        context.breach(RuleId::V43, angle.span, "`sincos` reads several components of its angle");
+        context.breach(RuleId::SinCosOperands, angle.span, "`sincos` reads several components of its angle");
     }
     if first.register == second.register {
-        context.breach(RuleId::V43, second.span, "`sincos` takes both its constants from one register");
+        context.breach(RuleId::SinCosOperands, second.span, "`sincos` takes both its constants from one register");
     }
     let plain = |s: &Source| s.swizzle == Swizzle::IDENTITY && s.modifier == Modifier::None;
     for source in [first, second].into_iter().filter(|s| !plain(s)) {
-        context.breach(RuleId::V43, source.span, "a constant of `sincos` is swizzled or negated");
+        context.breach(RuleId::SinCosOperands, source.span, "a constant of `sincos` is swizzled or negated");
     }
 }
 
-/// V50
+/// V50, [`RuleId::MatrixRows`].
 fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
     let (Some(rows), Some(source)) = (matrix_rows(instruction.opcode), instruction.sources.get(1)) else { return };
     let name = instruction.opcode.info().mnemonic;
@@ -98,21 +102,21 @@ fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
     if u32::from(register.index) < count && last >= count {
         let message =
             format!("`{name}` reads `{prefix}{last}` for its last row, the last one is `{prefix}{}`", count - 1);
-        context.breach(RuleId::V50, source.span, message);
+        context.breach(RuleId::MatrixRows, source.span, message);
     }
     if source.swizzle != Swizzle::IDENTITY || source.modifier != Modifier::None {
-        context.breach(RuleId::V50, source.span, format!("the matrix of `{name}` is swizzled or negated"));
+        context.breach(RuleId::MatrixRows, source.span, format!("the matrix of `{name}` is swizzled or negated"));
     }
     if !matches!(register.file, RegisterFile::Constant | RegisterFile::Temp) {
         context.breach(
-            RuleId::V50,
+            RuleId::MatrixRows,
             source.span,
             format!("the matrix of `{name}` is in `{prefix}#`, expected c# or r#"),
         );
     }
 }
 
-/// V59
+/// V59, [`RuleId::MacroOperands`].
 fn steps(context: &mut Context<'_>, instruction: &Instruction) {
     let opcode = instruction.opcode;
     let Some(destination) = instruction.destination else { return };
@@ -130,13 +134,13 @@ fn steps(context: &mut Context<'_>, instruction: &Instruction) {
             && (first..first.saturating_add(count)).contains(&destination.register.index);
         if hit {
             let message = format!("`{name}` writes `{}`, which it still reads", destination.register);
-            context.add(Violation::new(RuleId::V59, source.span, message).help("write another register"));
+            context.add(Violation::new(RuleId::MacroOperands, source.span, message).help("write another register"));
         }
     }
     if let (Opcode::Sgn, [_, a, b]) = (opcode, instruction.sources.as_slice())
         && a.register == b.register
     {
-        context.breach(RuleId::V59, b.span, "`sgn` has one scratch register twice");
+        context.breach(RuleId::MacroOperands, b.span, "`sgn` has one scratch register twice");
     }
     let mask = destination.mask;
     let (fits, expected) = match (opcode, rows) {
@@ -146,11 +150,11 @@ fn steps(context: &mut Context<'_>, instruction: &Instruction) {
         _ => (true, ""),
     };
     if !fits && mask.0 != 0 {
-        context.breach(RuleId::V59, destination.span, format!("`{name}` has another mask than {expected}"));
+        context.breach(RuleId::MacroOperands, destination.span, format!("`{name}` has another mask than {expected}"));
     }
 }
 
-/// V36
+/// V36, [`RuleId::OutputWrite`].
 fn outputs(context: &mut Context<'_>) {
     let mut written: [Option<Span>; 4] = [None; 4];
     let mut depth: Option<Span> = None;
@@ -166,7 +170,7 @@ fn outputs(context: &mut Context<'_>) {
             _ => continue,
         };
         let mut bad = |what: &str| {
-            context.breach(RuleId::V36, instruction.span, format!("`{register}` {what}"));
+            context.breach(RuleId::OutputWrite, instruction.span, format!("`{register}` {what}"));
         };
         if before.is_some() {
             bad("is written twice");
@@ -187,14 +191,14 @@ fn outputs(context: &mut Context<'_>) {
     }
     let span = context.program.version_span;
     if written[0].is_none() {
-        let violation = Violation::new(RuleId::V36, span, "program does not write `oC0`")
+        let violation = Violation::new(RuleId::OutputWrite, span, "program does not write `oC0`")
             .label("this program")
             .help("end with `mov oC0, r0`");
         context.add(violation);
     } else if let Some(gap) = (1..4).find(|i| written[*i].is_none())
         && let Some(later) = written[gap..].iter().flatten().next()
     {
-        context.breach(RuleId::V36, *later, format!("`oC{gap}` is skipped"));
+        context.breach(RuleId::OutputWrite, *later, format!("`oC{gap}` is skipped"));
     }
 }
 
@@ -230,6 +234,14 @@ fn dependent_reads(context: &mut Context<'_>) {
             allowed.owner, allowed.value
         );
         let label = "the first read that is too deep".to_owned();
-        context.exceed(RuleId::V38, span, level, &allowed, message, label, "read earlier, or use a further pass");
+        context.exceed(
+            RuleId::DependentReads,
+            span,
+            level,
+            &allowed,
+            message,
+            label,
+            "read earlier, or use a further pass",
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! Which components an instruction looks at. The checker and the executors read the same table.
+//! Which components an instruction reads. The checker and the executors read the same table.
 
 use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
 

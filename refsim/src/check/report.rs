@@ -1,10 +1,10 @@
-//! What is wrong with a program, as data; a renderer is somebody else's.
+//! Violations and warnings as data, without rendering.
 
 use std::fmt;
 
 use miette::{Diagnostic, LabeledSpan, SourceSpan};
 
-use super::RuleId;
+use super::{RuleId, WarningId};
 use crate::isa::{Span, Version};
 
 /// One breach of one rule.
@@ -81,8 +81,8 @@ impl Diagnostic for Violation {
 /// Something legal that does not do what its text says. The program runs as the card would run it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// `W01`, for example; docs/devices.md lists them.
-    pub code: &'static str,
+    /// Which warning.
+    pub id: WarningId,
     /// The place in the program text.
     pub span: Span,
     /// The sentence: what was found, and what becomes of it.

@@ -1,102 +1,116 @@
-//! The rules by number.
+//! THE tables of rules and warnings: name, code in messages and documents, sentence.
 
-use std::fmt;
+use strum::VariantArray;
 
 macro_rules! rules {
-    ($($id:ident $text:literal;)*) => {
-        /// A rule of the checker. V01 to V46 are Direct3D's and the cards'; from V47 on they are what the executors need
-        /// besides to run a program without surprises, from V60 on OpenGL's. docs/devices.md has them with examples.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub enum RuleId { $(#[doc = $text] $id),* }
+    ($(#[$doc:meta])* $Id:ident: $($name:ident $code:ident $text:literal;)*) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
+        pub enum $Id {
+            $(
+                #[doc = concat!(stringify!($code), ": ", $text)]
+                $name
+            ),*
+        }
 
-        impl RuleId {
-            /// Every rule.
-            pub const ALL: &'static [Self] = &[$(Self::$id),*];
+        impl $Id {
+            /// Every one, in the order of the codes.
+            pub const ALL: &'static [Self] = Self::VARIANTS;
 
-            /// `V07`, for example.
+            /// The code in messages and documents.
             pub const fn code(self) -> &'static str {
-                match self { $(Self::$id => stringify!($id)),* }
+                match self { $(Self::$name => stringify!($code)),* }
             }
 
-            /// The rule in a sentence.
+            /// What it says, in a sentence.
             pub const fn text(self) -> &'static str {
-                match self { $(Self::$id => $text),* }
+                match self { $(Self::$name => $text),* }
+            }
+        }
+
+        impl std::fmt::Display for $Id {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.code())
             }
         }
     };
 }
 
 rules! {
-    V01 "the device runs the program's version";
-    V02 "constants are defined before the first instruction, once each";
-    V03 "the version has the instruction";
-    V04 "the program fits into the instruction slots";
-    V05 "texture instructions come before arithmetic ones in every phase (ps_1_x)";
-    V06 "there is one phase marker at most";
-    V07 "the version and the device have the register";
-    V08 "an instruction reads no more different registers of a file than the file has read ports";
-    V09 "a co-issued pair reads at most three different registers of a file";
-    V10 "a co-issued pair is one instruction writing within .rgb and one writing .a, neither of them dp4 (ps_1_x)";
-    V11 "only what was written is read; a phase marker unwrites all alpha components";
-    V12 "the program writes all of r0 (ps_1_x)";
-    V13 "the destination can be written by the instruction";
-    V14 "the version and the instruction allow the write mask";
-    V15 "the version allows the selector or swizzle";
-    V16 "the version allows the source modifier there";
-    V17 "the version and the instruction allow the instruction modifier";
-    V18 "cnd decides by r0.a (ps_1_1 to 1_3)";
-    V19 "at most three cmp, none onto its own source, and at most four dp4 (ps_1_2, ps_1_3)";
-    V20 "dp3 writes .rgb or .rgba (ps_1_1 to 1_3)";
-    V21 "colours v# are read in phase 2 only (ps_1_4)";
-    V22 "a texture address in r# was computed in phase 1 and is used in phase 2 (ps_1_4)";
-    V23 "all reads of a t# choose .xyz or all choose .xyw (ps_1_4)";
-    V24 "_dz stands on r# of texld, twice a program at most; _dw stands on t#.xyw (ps_1_4)";
-    V25 "texcrd writes .rgb, or .rg with _dw; texld writes all components (ps_1_4)";
-    V26 "texdepth takes r5 in phase 2, and r5 is not used again (ps_1_4)";
-    V27 "bem stands in phase 1, once, alone, and writes .rg (ps_1_4)";
-    V28 "arithmetic reads no t# (ps_1_4)";
-    V29 "texld, texcrd and texkill read t#, in phase 2 also r# (ps_1_4)";
-    V30 "no register is loaded twice in a phase (ps_1_4)";
-    V31 "texture instructions that use an earlier result name it, and pads, in order (ps_1_1 to 1_3)";
-    V32 "what texbem or texbeml read is read by nothing else later (ps_1_1 to 1_3)";
-    V33 "_bx2 stands only on the texture instructions that can expand (ps_1_1 to 1_3)";
-    V34 "results are not shifted (ps_2_0 and up)";
-    V35 "negation is the only source modifier (ps_2_0 and up)";
-    V36 "outputs are written by a plain mov of all components, once each, oC0 and no gap (ps_2_0 and up)";
-    V37 "inputs and samplers are declared, once each, before the first instruction (ps_2_0 and up)";
-    V38 "texture reads depend on one another over so many levels at most (ps_2_0, ps_2_b)";
-    V39 "an instruction names two constants at most (ps_2_0 and up)";
-    V40 "texture reads take plain coordinates and a sampler and write all components (ps_2_0 and up)";
-    V41 "texkill takes all of an r# or a t# (ps_2_0 and up)";
-    V42 "scalar instructions read one component";
-    V43 "sincos writes .x, .y or .xy and reads one component and two different constants";
-    V44 "dp2add adds one component";
-    V45 "addresses are relative only in vertex programs, and only those of constants";
-    V46 "frc and sincos are not saturated (ps_2_0 and up)";
-    V47 "the instruction has its operands, of files that it can read";
-    V48 "the program writes all of oPos (vertex)";
-    V49 "a0 and aL are set before they address (vertex)";
-    V50 "the rows of a matrix exist and stand there plainly";
-    V51 "attributes are declared, once each, before the first instruction (vertex)";
-    V52 "blocks close in the order in which they were opened";
-    V53 "flow control is nested no deeper than allowed";
-    V54 "subroutines follow the main program, end with ret and call only later ones";
-    V55 "flow control has the operands and the place that it needs";
-    V56 "gradients are not taken where fragments may part";
-    V57 "p0 is set before it decides, and decides only what it can (ps_2_a)";
-    V58 "oFog and oPts are written through .x (vertex)";
-    V59 "what works in several steps does not overwrite its own sources, and has its mask";
-    V60 "the instruction can have its suffixes (!!FP1.0)";
-    V61 "packed words are of full precision (!!FP1.0)";
-    V62 "an instruction reads one attribute and one constant at most (!!FP1.0)";
-    V63 "the program writes colour in one precision, or depth through z (OpenGL)";
-    V64 "an image unit is read as one kind of texture (OpenGL)";
-    V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
-    V66 "texture reads depend on one another over so many levels at most (!!ARBfp1.0)";
+    /// A rule of the checker, named after its breach or what it is about. V01 to V46 are Direct3D's and the cards';
+    /// from V47 on they are what the executors need besides to run a program without surprises, from V60 on OpenGL's.
+    /// docs/devices.md has them with examples.
+    RuleId:
+    UnsupportedVersion V01 "the device runs the program's version";
+    MisplacedDefinition V02 "constants are defined before the first instruction, once each";
+    UnsupportedInstruction V03 "the version has the instruction";
+    TooManyInstructions V04 "the program fits into the instruction slots";
+    TextureAfterArithmetic V05 "texture instructions come before arithmetic ones in every phase (ps_1_x)";
+    RepeatedPhase V06 "there is one phase marker at most";
+    NoSuchRegister V07 "the version and the device have the register";
+    TooManyReads V08 "an instruction reads no more different registers of a file than the file has read ports";
+    TooManyPairReads V09 "a co-issued pair reads at most three different registers of a file";
+    MalformedPair V10 "a co-issued pair is one instruction writing within .rgb and one writing .a, neither of them dp4 (ps_1_x)";
+    UnwrittenRead V11 "only what was written is read; a phase marker unwrites all alpha components";
+    UnwrittenResult V12 "the program writes all of r0 (ps_1_x)";
+    InvalidDestination V13 "the destination can be written by the instruction";
+    InvalidMask V14 "the version and the instruction allow the write mask";
+    InvalidSwizzle V15 "the version allows the selector or swizzle";
+    InvalidSourceModifier V16 "the version allows the source modifier there";
+    InvalidInstructionModifier V17 "the version and the instruction allow the instruction modifier";
+    CndCondition V18 "cnd decides by r0.a (ps_1_1 to 1_3)";
+    CmpOrDp4 V19 "at most three cmp, none onto its own source, and at most four dp4 (ps_1_2, ps_1_3)";
+    Dp3Mask V20 "dp3 writes .rgb or .rgba (ps_1_1 to 1_3)";
+    ColorReadInPhase1 V21 "colours v# are read in phase 2 only (ps_1_4)";
+    AddressPhase V22 "a texture address in r# was computed in phase 1 and is used in phase 2 (ps_1_4)";
+    MixedSelectors V23 "all reads of a t# choose .xyz or all choose .xyw (ps_1_4)";
+    DivideModifier V24 "_dz stands on r# of texld, twice a program at most; _dw stands on t#.xyw (ps_1_4)";
+    TextureLoadMask V25 "texcrd writes .rgb, or .rg with _dw; texld writes all components (ps_1_4)";
+    TexDepth V26 "texdepth takes r5 in phase 2, and r5 is not used again (ps_1_4)";
+    Bem V27 "bem stands in phase 1, once, alone, and writes .rg (ps_1_4)";
+    ArithmeticReadsCoordinates V28 "arithmetic reads no t# (ps_1_4)";
+    TextureSource V29 "texld, texcrd and texkill read t#, in phase 2 also r# (ps_1_4)";
+    LoadedTwice V30 "no register is loaded twice in a phase (ps_1_4)";
+    TextureChain V31 "texture instructions that use an earlier result name it, and pads, in order (ps_1_1 to 1_3)";
+    BumpMapReused V32 "what texbem or texbeml read is read by nothing else later (ps_1_1 to 1_3)";
+    ExpandModifier V33 "_bx2 stands only on the texture instructions that can expand (ps_1_1 to 1_3)";
+    ShiftedResult V34 "results are not shifted (ps_2_0 and up)";
+    OnlyNegation V35 "negation is the only source modifier (ps_2_0 and up)";
+    OutputWrite V36 "outputs are written by a plain mov of all components, once each, oC0 and no gap (ps_2_0 and up)";
+    Declaration V37 "inputs and samplers are declared, once each, before the first instruction (ps_2_0 and up)";
+    DependentReads V38 "texture reads depend on one another over so many levels at most (ps_2_0, ps_2_b)";
+    TooManyConstants V39 "an instruction names two constants at most (ps_2_0 and up)";
+    TextureReadOperands V40 "texture reads take plain coordinates and a sampler and write all components (ps_2_0 and up)";
+    TexKillOperand V41 "texkill takes all of an r# or a t# (ps_2_0 and up)";
+    ScalarSource V42 "scalar instructions read one component";
+    SinCosOperands V43 "sincos writes .x, .y or .xy and reads one component and two different constants";
+    Dp2AddSource V44 "dp2add adds one component";
+    RelativeAddress V45 "addresses are relative only in vertex programs, and only those of constants";
+    InvalidSaturate V46 "frc and sincos are not saturated (ps_2_0 and up)";
+    Operands V47 "the instruction has its operands, of files that it can read";
+    UnwrittenPosition V48 "the program writes all of oPos (vertex)";
+    UnsetAddress V49 "a0 and aL are set before they address (vertex)";
+    MatrixRows V50 "the rows of a matrix exist and stand there plainly";
+    AttributeDeclaration V51 "attributes are declared, once each, before the first instruction (vertex)";
+    UnclosedBlock V52 "blocks close in the order in which they were opened";
+    NestingDepth V53 "flow control is nested no deeper than allowed";
+    Subroutines V54 "subroutines follow the main program, end with ret and call only later ones";
+    FlowOperands V55 "flow control has the operands and the place that it needs";
+    DivergentGradient V56 "gradients are not taken where fragments may part";
+    PredicateUse V57 "p0 is set before it decides, and decides only what it can (ps_2_a)";
+    FogAndPointSizeMask V58 "oFog and oPts are written through .x (vertex)";
+    MacroOperands V59 "what works in several steps does not overwrite its own sources, and has its mask";
+    InvalidSuffix V60 "the instruction can have its suffixes (!!FP1.0)";
+    PackedPrecision V61 "packed words are of full precision (!!FP1.0)";
+    TooManyOperandReads V62 "an instruction reads one attribute and one constant at most (!!FP1.0)";
+    FragmentOutputs V63 "the program writes colour in one precision, or depth through z (OpenGL)";
+    ImageUnitTarget V64 "an image unit is read as one kind of texture (OpenGL)";
+    RegisterWeight V65 "registers weigh 64 at most: R# and outputs 2, H# and o[COLH] 1 (!!FP1.0)";
+    Indirections V66 "texture reads depend on one another over so many levels at most (!!ARBfp1.0)";
 }
 
-impl fmt::Display for RuleId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.code())
-    }
+rules! {
+    /// A warning: something legal that does not do what its text says.
+    WarningId:
+    ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
 }

@@ -1,7 +1,7 @@
 //! V01, V02, V03, V06, V12 and the operand counts of V47: what can be seen without looking into instructions.
 
 use super::context::Context;
-use super::{RuleId, Violation, Warning};
+use super::{RuleId, Violation, Warning, WarningId};
 use crate::isa::{ConstantValue, DestinationRule, Opcode, OpcodeClass, RegisterFile, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -21,7 +21,7 @@ pub(super) fn version(context: &mut Context<'_>) {
     }
     let tokens: Vec<&str> = profile.limits.versions.iter().map(|v| v.token()).collect();
     let mut violation = Violation::new(
-        RuleId::V01,
+        RuleId::UnsupportedVersion,
         program.version_span,
         format!("program is {}, `{}` runs {}", context.version, profile.name, tokens.join(" ")),
     )
@@ -40,8 +40,12 @@ fn constants(context: &mut Context<'_>) {
         let register = def.register;
         if def.position > 0 {
             context.add(
-                Violation::new(RuleId::V02, def.span, format!("`{register}` is defined after an instruction"))
-                    .help("move every def in front of the first instruction"),
+                Violation::new(
+                    RuleId::MisplacedDefinition,
+                    def.span,
+                    format!("`{register}` is defined after an instruction"),
+                )
+                .help("move every def in front of the first instruction"),
             );
         }
         let wanted = match def.value {
@@ -51,18 +55,18 @@ fn constants(context: &mut Context<'_>) {
         };
         if register.file != wanted || register.relative.is_some() {
             let message = format!("the definition is for `{register}`, expected a `{}#` register", wanted.prefix());
-            context.breach(RuleId::V02, def.span, message);
+            context.breach(RuleId::MisplacedDefinition, def.span, message);
             continue;
         }
         super::operands::number_in_range(context, register, def.span);
         if !seen.insert((register.file, register.index)) {
-            context.breach(RuleId::V02, def.span, format!("`{register}` is defined twice"));
+            context.breach(RuleId::MisplacedDefinition, def.span, format!("`{register}` is defined twice"));
         }
         if let (ConstantValue::Float(values), true) = (def.value, context.version.is_ps_1_x()) {
             // The bits of a magnitude above 1, infinity or NaN.
             if values.iter().any(|v| v & 0x7fff_ffff > 0x3f80_0000) {
                 context.warnings.push(Warning {
-                    code: "W01",
+                    id: WarningId::ClampedConstant,
                     span: def.span,
                     message: format!("`{register}` is defined beyond -1 to 1 and clamped"),
                     help: "constants of ps_1_x lie in -1 to 1: scale the value and undo it with _x2, _x4 or _x8",
@@ -81,10 +85,10 @@ fn instructions(context: &mut Context<'_>) {
             let has: Vec<&str> = Version::ALL.iter().filter(|v| info.available(**v)).map(|v| v.token()).collect();
             let message = format!("{version} has no `{name}`");
             let help = format!("`{name}` is in {}", has.join(" "));
-            context.add(Violation::new(RuleId::V03, instruction.span, message).help(help));
+            context.add(Violation::new(RuleId::UnsupportedInstruction, instruction.span, message).help(help));
             continue;
         };
-        let wrong = |what: String| Violation::new(RuleId::V47, instruction.span, what);
+        let wrong = |what: String| Violation::new(RuleId::Operands, instruction.span, what);
         if instruction.sources.len() != usize::from(sources) {
             let found = instruction.sources.len();
             context.add(wrong(format!("`{name}` has {found} sources, expected {sources} in {version}")));
@@ -109,7 +113,7 @@ fn phases(context: &mut Context<'_>) {
     let markers = context.program.instructions.iter().filter(|i| i.opcode == Opcode::Phase);
     for marker in markers.skip(1) {
         context.add(
-            Violation::new(RuleId::V06, marker.span, "program has a second `phase`, ps_1_4 allows 1")
+            Violation::new(RuleId::RepeatedPhase, marker.span, "program has a second `phase`, ps_1_4 allows 1")
                 .label("the second marker")
                 .help("a program has two phases at most: use a further pass"),
         );
@@ -128,7 +132,7 @@ fn order(context: &mut Context<'_>) {
                 let name = instruction.opcode.info().mnemonic;
                 context.add(
                     Violation::new(
-                        RuleId::V05,
+                        RuleId::TextureAfterArithmetic,
                         program.instructions[index].span,
                         format!("`{name}` follows arithmetic"),
                     )

@@ -12,11 +12,13 @@ pub(super) fn check(context: &mut Context<'_>) {
         match destination.register.file {
             RegisterFile::FogOut | RegisterFile::PointSizeOut if !x_or_all => {
                 let message = format!("`{}` is written through other components than .x", destination.register);
-                context
-                    .add(Violation::new(RuleId::V58, destination.span, message).help("write it without a mask, or .x"));
+                context.add(
+                    Violation::new(RuleId::FogAndPointSizeMask, destination.span, message)
+                        .help("write it without a mask, or .x"),
+                );
             }
             RegisterFile::Address if context.version == Version::Vs1_1 && destination.mask != Mask(1) => {
-                context.breach(RuleId::V49, destination.span, "`a0` of vs_1_1 has no component but .x");
+                context.breach(RuleId::UnsetAddress, destination.span, "`a0` of vs_1_1 has no component but .x");
             }
             _ => {}
         }

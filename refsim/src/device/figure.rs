@@ -10,7 +10,7 @@ use super::DeviceError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Confidence {
-    /// A maker's document or a specification says so.
+    /// From a maker's document or a specification.
     Documented,
     /// Somebody measured it on the card.
     Measured,

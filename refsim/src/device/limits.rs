@@ -149,7 +149,7 @@ figures! {
         memory_clock_hz,
         /// Width of the memory bus, in bits.
         memory_bus_bits,
-        /// Peak memory bandwidth, in bytes a second.
+        /// Peak memory bandwidth, in bytes per second.
         memory_bytes_per_s,
         /// Pixel pipelines (scalar processors on a unified card).
         pixel_pipes,
@@ -161,15 +161,15 @@ figures! {
         raster_pixels_per_clock,
         /// Pixels without colour (depth or stencil only) in a clock.
         depth_only_pixels_per_clock,
-        /// Peak fill rate, in pixels a second.
+        /// Peak fill rate, in pixels per second.
         fill_pixels_per_s,
-        /// Peak texture rate, in texels a second.
+        /// Peak texture rate, in texels per second.
         fill_texels_per_s,
-        /// Fill rate that a paper measured with its own program, in pixels a second.
+        /// Fill rate that a paper measured with its own program, in pixels per second.
         measured_fill_pixels_per_s,
         /// Vertex units.
         vertex_units,
-        /// Vertices a second, peak.
+        /// Vertices per second, peak.
         vertices_per_s,
         /// Pairs of one colour and one alpha instruction that a pipeline issues in a clock.
         alu_pairs_per_clock,
@@ -183,8 +183,8 @@ figures! {
         trilinear_clocks,
         /// 1 if a pipeline that reads a texture cannot do arithmetic in that clock, 0 if both go on side by side.
         texture_blocks_arithmetic,
-        /// Units for fixed point (X of `!!FP1.0`) behind the float unit of a pipeline: each does an operation a clock, or two
-        /// multiplications.
+        /// Units for fixed point (X of `!!FP1.0`) behind the float unit of a pipeline: each does one operation per
+        /// clock, or two multiplications.
         fixed_units,
         /// 1 if neighbours of ps_2_x that write colour and alpha apart are issued as pairs, 0 if not.
         automatic_pairs,
@@ -212,9 +212,9 @@ figures! {
         texture_cache_ways,
         /// 1 if textures lie in tiles, 0 if row by row.
         textures_tiled,
-        /// Ray-triangle tests a second that a paper measured.
+        /// Ray-triangle tests per second that a paper measured.
         measured_tests_per_s,
-        /// Ray-triangle tests a second that a paper measured on the vertex units.
+        /// Ray-triangle tests per second that a paper measured on the vertex units.
         measured_vertex_tests_per_s,
     }
     extra {
@@ -226,11 +226,11 @@ figures! {
 figures! {
     /// The way between the host and the card.
     Bus: u64 {
-        /// Nominal bandwidth, in bytes a second.
+        /// Nominal bandwidth, in bytes per second.
         nominal_bytes_per_s,
-        /// Upload to the card, in bytes a second.
+        /// Upload to the card, in bytes per second.
         upload_bytes_per_s,
-        /// Read-back from the card, in bytes a second.
+        /// Read-back from the card, in bytes per second.
         readback_bytes_per_s,
         /// From the start of an upload to its first byte, in nanoseconds.
         upload_latency_ns,

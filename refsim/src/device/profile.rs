@@ -51,18 +51,18 @@ struct RawProfile {
     bus: BTreeMap<String, RawFigure>,
 }
 
-/// A device: how it computes, what it allows, how fast it is.
+/// A device: its arithmetic, its limits, its speed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Profile {
     /// Name on the command line, `r200` for example.
     pub name: String,
     /// Full name of the card.
     pub title: String,
-    /// What executors obey.
+    /// Arithmetic, for the executors.
     pub rules: Rules,
-    /// What [`crate::check`] obeys.
+    /// Limits, for [`crate::check`].
     pub limits: Limits,
-    /// What the timing model obeys.
+    /// Speeds, for the timing model.
     pub rates: Rates,
     /// The way to the host.
     pub bus: Bus,
@@ -74,8 +74,8 @@ impl Profile {
     /// The profile of a card, or `ideal-<format>` for any number format string.
     ///
     /// # Errors
-    /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-` is
-    /// no format.
+    /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-`
+    /// is no format.
     pub fn named(name: &str) -> Result<Self, DeviceError> {
         if let Some((_, text)) = CARDS.iter().find(|(card, _)| *card == name) {
             return Self::from_toml(name, text);
@@ -127,8 +127,8 @@ impl Profile {
     /// Sets a switch.
     ///
     /// # Errors
-    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with what is allowed. The profile is unchanged
-    /// then.
+    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with what is allowed. The profile is
+    /// unchanged then.
     pub fn set_switch(&mut self, name: &str, value: &str) -> Result<(), DeviceError> {
         let Some(index) = self.switches.iter().position(|s| s.name == name) else {
             let allowed: Vec<&str> = self.switches.iter().map(|s| s.name.as_str()).collect();

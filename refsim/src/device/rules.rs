@@ -1,4 +1,4 @@
-//! What executors obey: the resolved rules of a device, as plain values.
+//! The rules of a device for executors, resolved to plain values.
 
 use crate::num::{DotOrder, Format};
 

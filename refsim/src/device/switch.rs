@@ -18,7 +18,7 @@ pub struct Switch {
     pub current: String,
     /// The value of the profile's file.
     pub default: String,
-    /// Why the default is what it is.
+    /// The reason for the default.
     pub source: String,
     /// How sure we are of the default.
     pub confidence: Confidence,
@@ -26,7 +26,8 @@ pub struct Switch {
     pub meaning: String,
 }
 
-/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters it.
+/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters
+/// it.
 pub(super) const RULES: [&str; 20] = [
     "format",
     "result-range",

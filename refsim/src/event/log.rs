@@ -47,8 +47,8 @@ pub enum Event {
     },
     /// The next draw runs under other state than the last.
     StateChange {
-        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth buffer,
-        /// depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
+        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth
+        /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
         changes: u32,
     },
     /// A target or depth buffer was filled with one value.
@@ -152,13 +152,13 @@ pub struct DepthRecord {
     pub replaced: bool,
 }
 
-/// One draw: what it did, and with what.
+/// One draw: its counts, programs, textures and targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DrawRecord {
     /// What happened.
     pub counts: DrawEvents,
-    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades whole
-    /// quads: the lanes outside the triangle cost what the others do.
+    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades
+    /// whole quads: the lanes outside the triangle cost what the others do.
     pub quads: u64,
     /// The pixel program.
     pub pixel: Arc<ProgramWork>,

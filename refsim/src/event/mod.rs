@@ -4,8 +4,8 @@
 //! much work a card would have had, never how long it took: that is the timing model's question.
 //!
 //! A machine that is asked to ([`crate::machine`]'s `record`) writes down every upload, draw, read-back and fence as an
-//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] says what its programs are made of ([`ProgramWork`]), what
-//! it read and wrote, and, if textures were observed, what became of every texel that its fragments touched
+//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] says what its programs are made of ([`ProgramWork`]),
+//! what it read and wrote, and, if textures were observed, what became of every texel that its fragments touched
 //! ([`SamplerTraffic`]).
 
 mod counts;

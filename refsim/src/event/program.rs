@@ -8,18 +8,18 @@ use crate::isa::{
 };
 
 /// Passes through a loop, at most: as executors have it.
-const MOST_PASSES: u64 = 255;
+const MAX_PASSES: u64 = 255;
 
 /// One arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ArithmeticSlot {
     /// The instruction (the first of the pair).
     pub opcode: Opcode,
-    /// The second instruction of the pair: what the program says (ps_1_x), or what a card with a vector and a scalar unit
-    /// could pair by itself ([`Self::independent`]).
+    /// The second instruction of the pair: what the program says (ps_1_x), or what a card with a vector and a scalar
+    /// unit could pair by itself ([`Self::independent`]).
     pub partner: Option<Opcode>,
-    /// Whether the pair is not the program's own: two neighbours, one writing colour alone, the other alpha alone, that do
-    /// not need each other.
+    /// Whether the pair is not the program's own: two neighbours, one writing colour alone, the other alpha alone, that
+    /// do not need each other.
     pub independent: bool,
     /// Whether it is computed in fixed point: X of `!!FP1.0`.
     pub fixed: bool,
@@ -75,8 +75,8 @@ pub struct FlowConstants<'a> {
 }
 
 impl ProgramWork {
-    /// Takes a program apart. Loops are unrolled by their constants and calls followed; of branches on a constant the one
-    /// taken counts, of branches on a computed value both, as on cards that predicate.
+    /// Takes a program apart. Loops are unrolled by their constants and calls followed; of branches on a constant the
+    /// one taken counts, of branches on a computed value both, as on cards that predicate.
     pub fn new(program: &Program, constants: FlowConstants<'_>) -> Self {
         let times = executions(program, constants);
         let marker = program.phase_marker();
@@ -195,7 +195,7 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
     let mut times = vec![0u64; code.len()];
     // How often each subroutine is called, by its label. Calls lead forward: all are known when the walk comes there.
     let mut called = vec![0u64; code.len()];
-    let (mut now, mut open) = (1u64, Vec::<Block>::new());
+    let (mut now, mut open) = (1u64, Vec::<OpenBranch>::new());
     for (at, instruction) in code.iter().enumerate() {
         match instruction.opcode {
             Opcode::Label => (now, open) = (called[at], Vec::new()),
@@ -214,11 +214,11 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
             Opcode::If | Opcode::IfC => {
                 let truth = || truth(program, constants, instruction.sources.first());
                 let taken = if instruction.opcode == Opcode::If { truth() } else { None };
-                open.push(Block { outside: now, taken });
+                open.push(OpenBranch { outside: now, taken });
                 now = if taken == Some(false) { 0 } else { now };
             }
             Opcode::Rep | Opcode::Loop => {
-                open.push(Block { outside: now, taken: None });
+                open.push(OpenBranch { outside: now, taken: None });
                 now = now.saturating_mul(passes(program, constants, instruction));
             }
             Opcode::Call | Opcode::CallNz => {
@@ -236,7 +236,7 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
 }
 
 /// An open block: how often what is around it is executed; of `if`, the branch taken if a constant decides.
-struct Block {
+struct OpenBranch {
     outside: u64,
     taken: Option<bool>,
 }
@@ -250,7 +250,7 @@ fn passes(program: &Program, constants: FlowConstants<'_>, instruction: &Instruc
         _ => None,
     });
     let set = constants.int.get(usize::from(register.index)).map(|v| v[0]);
-    u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MOST_PASSES)
+    u64::try_from(defined.or(set).unwrap_or(0)).unwrap_or(0).min(MAX_PASSES)
 }
 
 /// The value of a boolean operand; `None` if it is computed.

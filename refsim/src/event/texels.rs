@@ -1,4 +1,4 @@
-//! The texels that fragments touch, one after the other, and who is told of them.
+//! Texel reads in order, and the interface of their observers.
 
 use std::fmt;
 
@@ -31,7 +31,7 @@ pub struct SamplerTraffic {
 /// Told of every texel that the covered fragments of a draw touch, in the order of the card: primitive by primitive,
 /// tile by tile within, quad by quad, instruction by instruction, lane by lane.
 ///
-/// The timing model's texture cache is one. Nothing that it does can change a pixel: it is told, never asked.
+/// The timing model's texture cache is one. An observer cannot change a pixel.
 pub trait TexelObserver: fmt::Debug + Send + Sync {
     /// A draw begins.
     fn begin(&mut self);

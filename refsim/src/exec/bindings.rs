@@ -46,10 +46,12 @@ pub struct BumpStage {
 /// Projected textures of a texture stage (`D3DTTFF_PROJECTED`): what `tex`, `texbem` and `texbeml` divide the
 /// coordinates of their stage by before anything else, in single precision. ps_1_4 has `_dz` and `_dw` instead,
 /// ps_2_0 `texldp`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Projection {
     /// Nothing.
     #[default]
+    #[serde(skip)]
     None,
     /// The third (`D3DTTFF_COUNT3`): the first two are divided.
     Z,

@@ -1,8 +1,11 @@
-//! What OpenGL's fragment programs say besides Direct3D's words: precision, condition codes, texture targets, spellings.
+//! What OpenGL's fragment programs say besides Direct3D's words: precision, condition codes, texture targets,
+//! spellings.
 //!
 //! Sources: the extension specifications GL_NV_fragment_program (`!!FP1.0`) and GL_ARB_fragment_program (`!!ARBfp1.0`).
-//! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]` is
-//! `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
+//! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]`
+//! is `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
+
+use strum::{EnumString, IntoStaticStr};
 
 use super::{Opcode, Span, Swizzle};
 
@@ -39,7 +42,8 @@ impl Precision {
 }
 
 /// What is asked of a condition code: less than, equal to, greater than zero, or unordered (NaN).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EnumString, IntoStaticStr)]
+#[strum(serialize_all = "UPPERCASE")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]
 pub enum ConditionTest {
     Eq,
@@ -62,22 +66,13 @@ impl ConditionTest {
     pub const ALL: [Self; 8] = [Self::Eq, Self::Ge, Self::Gt, Self::Le, Self::Lt, Self::Ne, Self::Tr, Self::Fl];
 
     /// The name in programs.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Eq => "EQ",
-            Self::Ge => "GE",
-            Self::Gt => "GT",
-            Self::Le => "LE",
-            Self::Lt => "LT",
-            Self::Ne => "NE",
-            Self::Tr => "TR",
-            Self::Fl => "FL",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 
     /// The test of this name.
     pub fn from_name(text: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|t| t.name() == text)
+        text.parse().ok()
     }
 }
 
@@ -93,11 +88,15 @@ pub struct Condition {
 }
 
 /// Which kind of texture a read asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
+#[strum(serialize_all = "UPPERCASE")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]
 pub enum TextureTarget {
+    #[strum(serialize = "1D")]
     D1,
+    #[strum(serialize = "2D")]
     D2,
+    #[strum(serialize = "3D")]
     D3,
     Cube,
     Rect,
@@ -108,19 +107,13 @@ impl TextureTarget {
     pub const ALL: [Self; 5] = [Self::D1, Self::D2, Self::D3, Self::Cube, Self::Rect];
 
     /// The name in programs.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::D1 => "1D",
-            Self::D2 => "2D",
-            Self::D3 => "3D",
-            Self::Cube => "CUBE",
-            Self::Rect => "RECT",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 
     /// The target of this name.
     pub fn from_name(text: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|t| t.name() == text)
+        text.parse().ok()
     }
 }
 
@@ -156,7 +149,8 @@ pub struct Spelling {
     pub scalar: bool,
 }
 
-/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`; then whether it is scalar.
+/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`; then whether it is
+/// scalar.
 macro_rules! spellings {
     ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal $scalar:literal)*) => {
         &[$(Spelling {

@@ -264,7 +264,8 @@ impl Opcode {
 }
 
 /// The comparison of `if_`, `break_` and `setp_`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 #[expect(missing_docs, reason = "the variants are the suffixes")]
 pub enum Comparison {
     Gt,
@@ -280,14 +281,7 @@ impl Comparison {
     pub const ALL: [Self; 6] = [Self::Gt, Self::Lt, Self::Ge, Self::Le, Self::Eq, Self::Ne];
 
     /// The suffix, without the underscore.
-    pub const fn suffix(self) -> &'static str {
-        match self {
-            Self::Gt => "gt",
-            Self::Lt => "lt",
-            Self::Ge => "ge",
-            Self::Le => "le",
-            Self::Eq => "eq",
-            Self::Ne => "ne",
-        }
+    pub fn suffix(self) -> &'static str {
+        self.into()
     }
 }

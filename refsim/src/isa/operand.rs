@@ -116,7 +116,7 @@ pub struct Destination {
 pub struct Predicate {
     /// Whether the predicate is inverted.
     pub not: bool,
-    /// Which predicate component each lane obeys.
+    /// The predicate component of each lane.
     pub swizzle: Swizzle,
     /// Where it stands in the program text.
     pub span: Span,

@@ -125,8 +125,8 @@ impl Program {
 }
 
 impl Instruction {
-    /// The precision that an arithmetic instruction of an OpenGL program computes in: the suffix's, or the destination's.
-    /// Operands `f[TEX#]` and `f[FOGC]` ask for full precision whatever the suffix says.
+    /// The precision that an arithmetic instruction of an OpenGL program computes in: the suffix's, or the
+    /// destination's. Operands `f[TEX#]` and `f[FOGC]` ask for full precision whatever the suffix says.
     pub fn precision(&self) -> Precision {
         let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
         if self.sources.iter().any(|s| interpolated(s.register.file)) {

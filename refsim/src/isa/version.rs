@@ -5,9 +5,9 @@ use std::{fmt, str::FromStr};
 /// Which programmable stage a program runs on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
-    /// Runs once a vertex.
+    /// Runs once per vertex.
     Vertex,
-    /// Runs once a fragment.
+    /// Runs once per fragment.
     Pixel,
 }
 
@@ -119,7 +119,8 @@ pub struct UnknownVersion(pub String);
 impl FromStr for Version {
     type Err = UnknownVersion;
 
-    /// Accepts Direct3D's tokens in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
+    /// Accepts Direct3D's tokens in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8
+    /// spelling).
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         if let Some(version) = Self::FRAGMENT.into_iter().find(|v| v.token() == text) {
             return Ok(version);

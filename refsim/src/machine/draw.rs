@@ -3,7 +3,7 @@
 use super::{DepthId, TextureId};
 use crate::event::SAMPLERS;
 use crate::exec::{BUMP_STAGES, BumpStage, CheckedProgram, Constants, Projection};
-use crate::output::{AlphaTest, BlendState, DepthState, MOST_TARGETS, OutputState, WriteMask};
+use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, OutputState, WriteMask};
 use crate::raster::{ClipSpace, Cull, PixelCenter, Primitive, Provoking, Vertex, Viewport};
 use crate::texture::{Region, SamplerState};
 
@@ -26,7 +26,7 @@ pub struct AttributeStream<'a> {
     pub register: usize,
     /// How often it moves on.
     pub step: StepRate,
-    /// The values, single precision patterns: one a vertex or one an instance.
+    /// The values, single precision patterns: one per vertex or one per instance.
     pub data: &'a [[u32; 4]],
 }
 
@@ -107,7 +107,7 @@ pub struct DrawCall<'a> {
     /// Blending, if on.
     pub blend: Option<BlendState>,
     /// Write masks of the targets.
-    pub masks: [WriteMask; MOST_TARGETS],
+    pub masks: [WriteMask; MAX_TARGETS],
     /// Colour targets, `oC0` first.
     pub targets: Vec<TextureId>,
     /// Depth buffer.
@@ -141,7 +141,7 @@ impl<'a> DrawCall<'a> {
             alpha_test: None,
             depth: DepthState::default(),
             blend: None,
-            masks: [WriteMask::ALL; MOST_TARGETS],
+            masks: [WriteMask::ALL; MAX_TARGETS],
             targets: vec![target],
             depth_buffer: None,
         }

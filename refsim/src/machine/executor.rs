@@ -1,4 +1,4 @@
-//! An executor with what it needs to make machines.
+//! An executor from which machines can be made.
 
 use super::{ExecutorKind, Machine, MachineError};
 use crate::device::Profile;
@@ -7,7 +7,7 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::{gpu::Gpu, wgsl::NumberMode};
 use std::sync::Arc;
 
-/// An executor with what it needs, for code that makes machines of its own: they share what it has decoded.
+/// An executor with its GPU, if it needs one: for code that makes machines of its own. They share what it has decoded.
 #[derive(Clone, Debug)]
 pub enum Executor {
     /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has, in integer mode.

@@ -95,8 +95,9 @@ impl Machine {
         self.executor
     }
 
-    /// Which vector instructions the batch executor uses: `None`, as in a new machine, for the widest that the processor
-    /// has; a level that it lacks stands for what it has of it. The level changes nothing but the time a draw takes.
+    /// Which vector instructions the batch executor uses: `None`, as in a new machine, for the widest that the
+    /// processor has; a level that it lacks stands for what it has of it. The level changes nothing but the time a draw
+    /// takes.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.batch.set_simd_level(level);
     }

@@ -1,7 +1,7 @@
 //! Drawing in the order of the hardware, so that an observer sees texel reads in their real order.
 //!
-//! The bits are those of any draw: the scalar executor makes them. What differs is the order in which fragments come: primitive
-//! by primitive over the whole target, tile by tile within a primitive, quad by quad, on one thread.
+//! The bits are those of any draw: the scalar executor makes them. What differs is the order in which fragments come:
+//! primitive by primitive over the whole target, tile by tile within a primitive, quad by quad, on one thread.
 
 use super::recorder::Recorder;
 use super::tiles::tile_draw;
@@ -48,9 +48,10 @@ impl Observer for TexelReporter<'_> {
 }
 
 impl Machine {
-    /// From now on every draw is made in the order of the hardware, by the scalar executor, and the observer is told of each
-    /// texel that a fragment touches; what it makes of them goes into the draw's record in the log ([`Machine::record`]). The
-    /// bits stay the same, drawing takes longer. `None` goes back to the machine's own executor.
+    /// From now on every draw is made in the order of the hardware, by the scalar executor, and the observer is told of
+    /// each texel that a fragment touches; what it makes of them goes into the draw's record in the log
+    /// ([`Machine::record`]). The bits stay the same, drawing takes longer. `None` goes back to the machine's own
+    /// executor.
     pub fn observe_textures(&mut self, observer: Option<Box<dyn TexelObserver>>) {
         self.recorder.observer = observer;
     }

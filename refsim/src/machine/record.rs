@@ -1,7 +1,7 @@
 //! The machine's log: what was asked of it, in order, for the timing model to read.
 //!
-//! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits of
-//! one that does not, and the log is the same whichever executor draws, on any number of threads.
+//! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits
+//! of one that does not, and the log is the same whichever executor draws, on any number of threads.
 
 use super::state::StateMarks;
 use super::validate::Plan;
@@ -36,8 +36,8 @@ impl Machine {
         std::mem::take(&mut log.events)
     }
 
-    /// Reads a texture or target back without making the host wait: in the log the host goes on, and the fence is passed
-    /// when the last byte has come. The image is that of [`Machine::read_back`]: time changes no value.
+    /// Reads a texture or target back without making the host wait: in the log the host goes on, and the fence is
+    /// passed when the last byte has come. The image is that of [`Machine::read_back`]: time changes no value.
     ///
     /// # Errors
     /// If the handle is dead.
@@ -70,8 +70,8 @@ impl Machine {
         fence
     }
 
-    /// The host looks whether a fence is passed (`TestFenceNV`). What it sees is the timeline's business: the machine itself
-    /// is always done with everything.
+    /// The host looks whether a fence is passed (`TestFenceNV`). What it sees is the timeline's business: the machine
+    /// itself is always done with everything.
     pub fn test_fence(&self, fence: FenceId) {
         self.recorder.push(|| Event::TestFence(fence));
     }
@@ -205,7 +205,8 @@ impl Machine {
         })
     }
 
-    /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading them.
+    /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading
+    /// them.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
         let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), ComponentMask::NONE);
         let mut outlines = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The log that a machine keeps, and who observes its texels.
+//! The log of a machine, and the observer of its texel reads.
 
 use super::TextureId;
 use super::state::StateMarks;
@@ -6,7 +6,7 @@ use crate::event::{Event, TexelObserver};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The log and what it compares the next draw with.
+/// The log, and the state of the last draw to compare the next one with.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     pub(super) on: bool,

@@ -1,4 +1,4 @@
-//! The tile executor of a draw, and what it is given.
+//! The tile executor of a draw, and its input.
 
 use super::memory::Memory;
 use super::{BoundTexture, DrawCall, ExecutorKind};
@@ -8,7 +8,7 @@ use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use crate::isa::Stage;
 
-/// Who shades the tiles of a draw.
+/// The executor of the tiles of a draw.
 pub(super) enum Tiles<'a> {
     Scalar(Box<ScalarTiles<'a>>),
     Batch(Box<BatchTiles<'a>>),

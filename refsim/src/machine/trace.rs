@@ -11,7 +11,7 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
 use crate::isa::Stage;
-use crate::output::{MOST_TARGETS, TargetTile};
+use crate::output::{MAX_TARGETS, TargetTile};
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 #[cfg(feature = "wgpu")]
 const ON_GPU: usize = 512;
 
-/// A fragment of one pixel: where it came from, what the program did with it, what it did to the targets.
+/// A fragment of one pixel: its triangle, the execution of the program, the targets before and after.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FragmentTrace {
     /// The instance, from 0.
@@ -41,7 +41,7 @@ pub struct FragmentTrace {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelState {
     /// The texel of each colour target, a little-endian integer.
-    pub colors: [Option<u128>; MOST_TARGETS],
+    pub colors: [Option<u128>; MAX_TARGETS],
     /// The pattern in the depth buffer.
     pub depth: Option<u32>,
 }
@@ -56,8 +56,9 @@ impl PixelState {
 }
 
 impl Machine {
-    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every triangle
-    /// that covers the pixel, in the order of submission; what they find in the targets is what those before them left.
+    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every
+    /// triangle that covers the pixel, in the order of submission; what they find in the targets is what those before
+    /// them left.
     ///
     /// # Errors
     /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
@@ -102,7 +103,8 @@ impl Machine {
         Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
-    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such triangle.
+    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such
+    /// triangle.
     ///
     /// # Errors
     /// As [`Machine::draw`].
@@ -172,7 +174,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Who processes vertices: for a GPU the batch executor.
+    /// The executor of vertex programs: for a GPU the batch executor.
     fn vertex_executor(&self) -> (ExecutorKind, &BatchExecutor) {
         match self.executor {
             #[cfg(feature = "wgpu")]
@@ -253,7 +255,7 @@ impl Followed {
     }
 }
 
-/// Who follows fragments for an executor.
+/// The pixel tracer of an executor.
 fn tracer<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),

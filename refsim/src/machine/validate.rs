@@ -5,7 +5,7 @@ use super::{BoundTexture, DrawCall, MachineError, StepRate, VertexSource};
 use crate::device::Profile;
 use crate::event::SAMPLERS;
 use crate::isa::{Program, Stage};
-use crate::output::{MOST_TARGETS, TargetTile};
+use crate::output::{MAX_TARGETS, TargetTile};
 use crate::raster::{RasterState, Vertex, Viewport, assemble, provoking};
 use crate::texture::{Filter, MipFilter, Region};
 use std::ops::Range;
@@ -93,7 +93,7 @@ fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {
 /// Targets: live, of formats the device has, planes of one size, none twice, not too many.
 fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Region, MachineError> {
     let found = call.targets.len();
-    let limit = profile.limits.render_targets.map_or(MOST_TARGETS, |n| n as usize).min(MOST_TARGETS);
+    let limit = profile.limits.render_targets.map_or(MAX_TARGETS, |n| n as usize).min(MAX_TARGETS);
     if found > limit {
         return Err(MachineError::TooManyTargets { device: profile.name.clone(), found, limit });
     }

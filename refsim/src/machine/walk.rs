@@ -16,7 +16,7 @@ use crate::texture::Region;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// What a draw leaves behind.
+/// The result of a draw.
 pub(super) struct DrawResult {
     /// Tiles that triangles touched, to be copied back.
     pub(super) tiles: Vec<TargetTile>,

@@ -21,3 +21,16 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
         Unpacked::Finite { sign, sig, exp } => from_parts(to, sign, sig.into(), exp, false),
     }
 }
+
+/// 2 to a power as a host double, for code of the host; the exponent is clamped to those of normal doubles.
+pub const fn power_of_two(exponent: i32) -> f64 {
+    let field = exponent + 1023;
+    let field = if field < 1 {
+        1
+    } else if field > 2046 {
+        2046
+    } else {
+        field
+    };
+    f64::from_bits((field.unsigned_abs() as u64) << 52)
+}

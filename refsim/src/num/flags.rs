@@ -1,4 +1,4 @@
-//! What an operation returns: bits, and what happened on the way.
+//! The result of an operation: bits and exception flags.
 
 use bitflags::bitflags;
 

@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 /// A number format: layout and the four rules that decide what becomes of an exact result.
 ///
 /// Written `s3.12`, `e5m10`, `fp24:rtz:ftz`; see [`FromStr`](std::str::FromStr) below and the room's essay.
-/// Fields may be changed freely as long as the layout stays within the ranges of [`Kind`]; a rule that has no
+/// Fields may be changed freely as long as the layout stays within the ranges of [`FormatKind`]; a rule that has no
 /// meaning for the kind (a float that wraps, a fixed-point infinity) acts as the kind's default overflow rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Format {
     /// The layout.
-    pub kind: Kind,
+    pub kind: FormatKind,
     /// Which neighbour an inexact result goes to.
     pub rounding: Rounding,
     /// What becomes of a result that is too large.
@@ -24,7 +24,7 @@ pub struct Format {
 
 /// The layout of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum FormatKind {
     /// Two's complement, `1 + int_bits + frac_bits` bits (at most 32), in units of `2^-frac_bits`: `sI.F`.
     Fixed {
         /// Integer bits without the sign.
@@ -107,7 +107,7 @@ impl Format {
 
     const fn fixed_unchecked(int_bits: u8, frac_bits: u8) -> Format {
         Format {
-            kind: Kind::Fixed { int_bits, frac_bits },
+            kind: FormatKind::Fixed { int_bits, frac_bits },
             rounding: Rounding::NearestEven,
             overflow: Overflow::Saturate,
             denormals: Denormals::Keep,
@@ -117,7 +117,7 @@ impl Format {
 
     const fn float_unchecked(exp_bits: u8, man_bits: u8) -> Format {
         Format {
-            kind: Kind::Float { exp_bits, man_bits },
+            kind: FormatKind::Float { exp_bits, man_bits },
             rounding: Rounding::NearestEven,
             overflow: Overflow::Infinity,
             denormals: Denormals::Keep,
@@ -166,14 +166,14 @@ impl Format {
 
     /// Whether this is a fixed-point format.
     pub const fn is_fixed(&self) -> bool {
-        matches!(self.kind, Kind::Fixed { .. })
+        matches!(self.kind, FormatKind::Fixed { .. })
     }
 
     /// Width in bits, 2 to 32.
     pub const fn width(&self) -> u32 {
         match self.kind {
-            Kind::Fixed { int_bits, frac_bits } => 1 + int_bits as u32 + frac_bits as u32,
-            Kind::Float { exp_bits, man_bits } => 1 + exp_bits as u32 + man_bits as u32,
+            FormatKind::Fixed { int_bits, frac_bits } => 1 + int_bits as u32 + frac_bits as u32,
+            FormatKind::Float { exp_bits, man_bits } => 1 + exp_bits as u32 + man_bits as u32,
         }
     }
 
@@ -195,25 +195,25 @@ impl Format {
     /// One; in `s0.F`, which has none, the largest number.
     pub const fn one(&self) -> u32 {
         match self.kind {
-            Kind::Fixed { int_bits: 0, .. } => self.max_finite(),
-            Kind::Fixed { frac_bits, .. } => 1 << frac_bits,
-            Kind::Float { exp_bits, man_bits } => ((1 << (exp_bits - 1)) - 1) << man_bits,
+            FormatKind::Fixed { int_bits: 0, .. } => self.max_finite(),
+            FormatKind::Fixed { frac_bits, .. } => 1 << frac_bits,
+            FormatKind::Float { exp_bits, man_bits } => ((1 << (exp_bits - 1)) - 1) << man_bits,
         }
     }
 
     /// The largest finite number.
     pub const fn max_finite(&self) -> u32 {
         match self.kind {
-            Kind::Fixed { .. } => self.sign_bit() - 1,
-            Kind::Float { man_bits, .. } => self.sign_bit() - 1 - (1 << man_bits),
+            FormatKind::Fixed { .. } => self.sign_bit() - 1,
+            FormatKind::Float { man_bits, .. } => self.sign_bit() - 1 - (1 << man_bits),
         }
     }
 
     /// The most negative finite number.
     pub const fn min_finite(&self) -> u32 {
         match self.kind {
-            Kind::Fixed { .. } => self.sign_bit(),
-            Kind::Float { .. } => self.sign_bit() | self.max_finite(),
+            FormatKind::Fixed { .. } => self.sign_bit(),
+            FormatKind::Float { .. } => self.sign_bit() | self.max_finite(),
         }
     }
 
@@ -225,8 +225,8 @@ impl Format {
     /// The pattern of an infinity; `None` in fixed point.
     pub const fn infinity(&self, negative: bool) -> Option<u32> {
         match self.kind {
-            Kind::Fixed { .. } => None,
-            Kind::Float { man_bits, .. } => {
+            FormatKind::Fixed { .. } => None,
+            FormatKind::Float { man_bits, .. } => {
                 let inf = self.sign_bit() - (1 << man_bits);
                 Some(if negative { inf | self.sign_bit() } else { inf })
             }
@@ -236,16 +236,16 @@ impl Format {
     /// The one NaN that operations return: positive, quiet, rest of the payload zero. `None` in fixed point.
     pub const fn canonical_nan(&self) -> Option<u32> {
         match self.kind {
-            Kind::Fixed { .. } => None,
-            Kind::Float { man_bits, .. } => Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1))),
+            FormatKind::Fixed { .. } => None,
+            FormatKind::Float { man_bits, .. } => Some((self.sign_bit() - (1 << man_bits)) | (1 << (man_bits - 1))),
         }
     }
 
     /// Whether the pattern is a NaN. Bits above the width are ignored.
     pub const fn is_nan(&self, bits: u32) -> bool {
         match self.kind {
-            Kind::Fixed { .. } => false,
-            Kind::Float { man_bits, .. } => {
+            FormatKind::Fixed { .. } => false,
+            FormatKind::Float { man_bits, .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude > self.sign_bit() - (1 << man_bits)
             }
@@ -255,8 +255,8 @@ impl Format {
     /// Whether the pattern is an infinity.
     pub const fn is_infinite(&self, bits: u32) -> bool {
         match self.kind {
-            Kind::Fixed { .. } => false,
-            Kind::Float { man_bits, .. } => bits & (self.sign_bit() - 1) == self.sign_bit() - (1 << man_bits),
+            FormatKind::Fixed { .. } => false,
+            FormatKind::Float { man_bits, .. } => bits & (self.sign_bit() - 1) == self.sign_bit() - (1 << man_bits),
         }
     }
 
@@ -273,8 +273,8 @@ impl Format {
     /// Whether the pattern is zero of either sign, as operations see it (a flushed subnormal is zero).
     pub const fn is_zero(&self, bits: u32) -> bool {
         match self.kind {
-            Kind::Fixed { .. } => bits & self.mask() == 0,
-            Kind::Float { .. } => {
+            FormatKind::Fixed { .. } => bits & self.mask() == 0,
+            FormatKind::Float { .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude == 0 || (self.is_subnormal(bits) && matches!(self.denormals, Denormals::Flush))
             }
@@ -284,8 +284,8 @@ impl Format {
     /// Whether the pattern is a subnormal float, whatever the denormal rule.
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {
-            Kind::Fixed { .. } => false,
-            Kind::Float { man_bits, .. } => {
+            FormatKind::Fixed { .. } => false,
+            FormatKind::Float { man_bits, .. } => {
                 let magnitude = bits & (self.sign_bit() - 1);
                 magnitude != 0 && magnitude < (1 << man_bits)
             }

@@ -1,6 +1,6 @@
 //! Number formats, and arithmetic in them with integers alone.
 //!
-//! A [`Format`] is a record: a layout ([`Kind`]) and four rules ([`Rounding`], [`Overflow`], [`Denormals`],
+//! A [`Format`] is a record: a layout ([`FormatKind`]) and four rules ([`Rounding`], [`Overflow`], [`Denormals`],
 //! [`Specials`]). It is written as a string, the same everywhere in Crossbar:
 //!
 //! | string | meaning |
@@ -54,9 +54,10 @@ mod sum;
 mod transcendental;
 mod unpack;
 
+pub use convert::power_of_two;
 pub use env::{Env, Tininess};
 pub use flags::{Flags, Outcome};
-pub use format::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+pub use format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 pub use operation::NumberOperation;
 pub use ops::DotOrder;
 pub use parse::FormatError;

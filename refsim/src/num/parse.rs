@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::format::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use super::format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 /// Names that stand for a layout.
 const ALIASES: [(&str, Format); 6] = [
@@ -171,8 +171,8 @@ fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at:
 impl fmt::Display for Format {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut text = match self.kind {
-            Kind::Fixed { int_bits, frac_bits } => format!("s{int_bits}.{frac_bits}"),
-            Kind::Float { exp_bits, man_bits } => format!("e{exp_bits}m{man_bits}"),
+            FormatKind::Fixed { int_bits, frac_bits } => format!("s{int_bits}.{frac_bits}"),
+            FormatKind::Float { exp_bits, man_bits } => format!("e{exp_bits}m{man_bits}"),
         };
         text.push_str(match self.rounding {
             Rounding::NearestEven => "",

@@ -2,7 +2,7 @@
 
 use super::env::{Env, Tininess};
 use super::flags::{Flags, Outcome};
-use super::format::{Denormals, Format, Kind, Overflow, Rounding};
+use super::format::{Denormals, Format, FormatKind, Overflow, Rounding};
 
 /// Exponents beyond this are beyond every format; clamping them keeps the arithmetic below in range.
 const FAR: i32 = 1 << 20;
@@ -17,10 +17,10 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
     }
     let exp = exp.clamp(-FAR, FAR);
     match env.format.kind {
-        Kind::Fixed { int_bits, frac_bits } => {
+        FormatKind::Fixed { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, sig, exp, sticky)
         }
-        Kind::Float { exp_bits, man_bits } => {
+        FormatKind::Float { exp_bits, man_bits } => {
             // 64 leading bits and the knowledge whether more follow are all that rounding asks for.
             let drop = 64 - sig.leading_zeros();
             let lost = sig & ((1 << drop) - 1) != 0;
@@ -29,15 +29,15 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
     }
 }
 
-/// [`from_parts`] for magnitudes of one word: the way of nearly all results.
+/// [`from_parts`] for magnitudes of one word: the fast path, which nearly all results take.
 #[inline]
 pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let exp = exp.clamp(-FAR, FAR);
     match env.format.kind {
-        Kind::Fixed { int_bits, frac_bits } => {
+        FormatKind::Fixed { int_bits, frac_bits } => {
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, u128::from(sig), exp, sticky)
         }
-        Kind::Float { exp_bits, man_bits } => round_float(env, exp_bits, man_bits, sign, sig, exp, sticky),
+        FormatKind::Float { exp_bits, man_bits } => round_float(env, exp_bits, man_bits, sign, sig, exp, sticky),
     }
 }
 

@@ -14,7 +14,7 @@ use num_traits::ToPrimitive;
 use self::enclose::Enclosure;
 use super::env::Env;
 use super::flags::{Flags, Outcome};
-use super::format::{Kind, Overflow, Specials};
+use super::format::{FormatKind, Overflow, Specials};
 use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, infinite, zero};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
@@ -35,7 +35,7 @@ pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
     };
     let whole = floor_clamped(sign, sig, exp);
-    if let Kind::Fixed { int_bits, .. } = format.kind
+    if let FormatKind::Fixed { int_bits, .. } = format.kind
         && format.overflow == Overflow::Wrap
         && whole >= i32::from(int_bits)
     {

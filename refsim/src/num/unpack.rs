@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use super::flags::Flags;
-use super::format::{Denormals, Format, Kind};
+use super::format::{Denormals, Format, FormatKind};
 
 /// The number behind a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,11 +34,11 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     let bits = bits & format.mask();
     let sign = format.is_negative(bits);
     match format.kind {
-        Kind::Fixed { frac_bits, .. } => {
+        FormatKind::Fixed { frac_bits, .. } => {
             let sig = if sign { (1u64 << format.width()) - u64::from(bits) } else { u64::from(bits) };
             Unpacked::Finite { sign, sig, exp: -i32::from(frac_bits) }
         }
-        Kind::Float { exp_bits, man_bits } => {
+        FormatKind::Float { exp_bits, man_bits } => {
             let bias = (1 << (exp_bits - 1)) - 1;
             let field = (bits >> man_bits) & ((1 << exp_bits) - 1);
             let man = bits & ((1 << man_bits) - 1);
@@ -61,7 +61,7 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
 /// A value moved unchanged: NaN made canonical, subnormals flushed where the format says so, no exception.
 pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
     let bits = bits & format.mask();
-    if let Kind::Float { .. } = format.kind {
+    if let FormatKind::Float { .. } = format.kind {
         if format.is_nan(bits) {
             return nan_bits(format);
         }
@@ -93,8 +93,8 @@ pub(crate) fn key(format: &Format, bits: u32) -> i64 {
     let bits = pass(format, bits);
     let negative = format.is_negative(bits);
     match format.kind {
-        Kind::Fixed { .. } if negative => i64::from(bits) - (1i64 << format.width()),
-        Kind::Float { .. } if negative => -i64::from(bits & (format.sign_bit() - 1)),
+        FormatKind::Fixed { .. } if negative => i64::from(bits) - (1i64 << format.width()),
+        FormatKind::Float { .. } if negative => -i64::from(bits & (format.sign_bit() - 1)),
         _ => i64::from(bits),
     }
 }

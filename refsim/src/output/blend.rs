@@ -4,6 +4,9 @@
 //! target's channels first; `source * factor op destination * factor` is then exact and rounded once more into the
 //! channel. In floating-point targets each product and the sum is one FP32 operation, and the result is converted once.
 
+use serde::Deserialize;
+use strum::VariantArray;
+
 use crate::num::{self, Format};
 use crate::texture::{
     Channel, ChannelClass, ChannelValue, SignedTexelMinimum, TargetRounding, TexelFormat, decode, decode_channel,
@@ -11,51 +14,50 @@ use crate::texture::{
 };
 
 /// What a colour is multiplied by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, VariantArray)]
+#[serde(rename_all = "kebab-case")]
 pub enum BlendFactor {
     /// 0
     Zero,
     /// 1
     One,
     /// The source component.
+    #[serde(rename = "source-color")]
     SrcColor,
     /// 1 - the source component
+    #[serde(rename = "inverse-source-color")]
     InvSrcColor,
     /// Source alpha.
+    #[serde(rename = "source-alpha")]
     SrcAlpha,
     /// 1 - source alpha
+    #[serde(rename = "inverse-source-alpha")]
     InvSrcAlpha,
     /// Destination alpha; 1 if the target stores none.
+    #[serde(rename = "destination-alpha")]
     DestAlpha,
     /// 1 - destination alpha
+    #[serde(rename = "inverse-destination-alpha")]
     InvDestAlpha,
     /// The destination component.
+    #[serde(rename = "destination-color")]
     DestColor,
     /// 1 - the destination component
+    #[serde(rename = "inverse-destination-color")]
     InvDestColor,
     /// `min(source alpha, 1 - destination alpha)` for colours, 1 for alpha.
+    #[serde(rename = "source-alpha-saturate")]
     SrcAlphaSat,
 }
 
 impl BlendFactor {
     /// Every factor.
-    pub const ALL: &'static [Self] = &[
-        Self::Zero,
-        Self::One,
-        Self::SrcColor,
-        Self::InvSrcColor,
-        Self::SrcAlpha,
-        Self::InvSrcAlpha,
-        Self::DestAlpha,
-        Self::InvDestAlpha,
-        Self::DestColor,
-        Self::InvDestColor,
-        Self::SrcAlphaSat,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 }
 
 /// How the two products are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum BlendOp {
     /// source + destination
     #[default]

@@ -1,39 +1,41 @@
 //! Depth: formats, comparisons, surfaces.
 
+use serde::Deserialize;
+use strum::{Display, IntoStaticStr, VariantArray};
+
 use super::OutputError;
 use crate::num::Format;
 use crate::texture::TargetRounding;
 use crate::texture::value::{self, Exact};
 
 /// How depth is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray, IntoStaticStr, Display)]
 pub enum DepthFormat {
     /// `k / (2^16 - 1)`
+    #[strum(serialize = "d16")]
     Unorm16,
     /// `k / (2^24 - 1)`
+    #[strum(serialize = "d24")]
     Unorm24,
     /// `k / (2^32 - 1)`
+    #[strum(serialize = "d32")]
     Unorm32,
     /// FP32
+    #[strum(serialize = "d32f")]
     Float32,
     /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
     /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; nearest even.
+    #[strum(serialize = "d24f")]
     Float24,
 }
 
 impl DepthFormat {
     /// Every format.
-    pub const ALL: &'static [Self] = &[Self::Unorm16, Self::Unorm24, Self::Unorm32, Self::Float32, Self::Float24];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// The name in profiles and case files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Unorm16 => "d16",
-            Self::Unorm24 => "d24",
-            Self::Unorm32 => "d32",
-            Self::Float32 => "d32f",
-            Self::Float24 => "d24f",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 
     /// Bytes of a depth in the card's memory.
@@ -101,12 +103,6 @@ impl std::str::FromStr for DepthFormat {
     }
 }
 
-impl std::fmt::Display for DepthFormat {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
 /// `min(significand * 2^exponent, 1)` as an unsigned float whose bias makes 1.0 the exponent field
 /// `2^(exponent_bits-1) - 1` (8 bits) or 15 (4 bits).
 fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_bits: u32) -> u32 {
@@ -136,7 +132,8 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
 }
 
 /// The eight comparisons, of the new value with the stored one (or the alpha reference).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
+#[serde(rename_all = "kebab-case")]
 pub enum CompareFunction {
     /// Never passes.
     Never,
@@ -159,16 +156,7 @@ pub enum CompareFunction {
 
 impl CompareFunction {
     /// Every comparison.
-    pub const ALL: &'static [Self] = &[
-        Self::Never,
-        Self::Less,
-        Self::Equal,
-        Self::LessEqual,
-        Self::Greater,
-        Self::NotEqual,
-        Self::GreaterEqual,
-        Self::Always,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Whether the comparison holds for an order; `None` is unordered (a NaN), where only `NotEqual` and `Always` do.
     pub fn holds(self, order: Option<std::cmp::Ordering>) -> bool {
@@ -195,7 +183,7 @@ pub struct DepthState {
     pub write: bool,
 }
 
-/// A depth buffer: one pattern of the format a pixel, row by row.
+/// A depth buffer: one pattern of the format per pixel, row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DepthSurface {
     format: DepthFormat,

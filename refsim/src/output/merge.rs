@@ -1,6 +1,6 @@
 //! The way of one fragment into the targets.
 
-use super::MOST_TARGETS;
+use super::MAX_TARGETS;
 use super::blend::{BlendState, blend_texel};
 use super::depth::{CompareFunction, DepthState};
 use super::tile::{ColorTile, TargetTile};
@@ -66,14 +66,14 @@ pub struct OutputState {
     /// Blending, if on.
     pub blend: Option<BlendState>,
     /// Write masks of the targets.
-    pub masks: [WriteMask; MOST_TARGETS],
+    pub masks: [WriteMask; MAX_TARGETS],
 }
 
 /// What a pixel program leaves behind; numbers in the register format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentOutput {
     /// A colour for each target.
-    pub colors: [[u32; 4]; MOST_TARGETS],
+    pub colors: [[u32; 4]; MAX_TARGETS],
     /// Bit `i` is set if colour `i` was written; targets without a colour stay as they are.
     pub written: u8,
     /// A depth of the program's own, instead of the interpolated one.

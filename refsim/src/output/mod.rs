@@ -16,4 +16,4 @@ pub use merge::{AlphaTest, FragmentFate, FragmentOutput, OutputRules, OutputStat
 pub use tile::{ColorTile, DepthTile, TargetTile};
 
 /// Colour targets a draw can have.
-pub const MOST_TARGETS: usize = 4;
+pub const MAX_TARGETS: usize = 4;

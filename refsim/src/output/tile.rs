@@ -1,7 +1,7 @@
 //! A rectangle of all targets in a buffer of its own, so that tiles can be worked on side by side.
 
 use super::depth::{DepthFormat, DepthSurface};
-use super::{MOST_TARGETS, OutputError};
+use super::{MAX_TARGETS, OutputError};
 use crate::texture::{Image, Region, TexelFormat, TextureError, TextureKind, image};
 
 /// The texels of one colour target within a tile.
@@ -28,7 +28,7 @@ pub struct TargetTile {
     /// The pixels.
     pub region: Region,
     /// Colour targets in order; a gap is `None`.
-    pub colors: [Option<ColorTile>; MOST_TARGETS],
+    pub colors: [Option<ColorTile>; MAX_TARGETS],
     /// The depth buffer.
     pub depth: Option<DepthTile>,
 }
@@ -39,8 +39,8 @@ impl TargetTile {
     /// # Errors
     /// If there are more than four colour targets, one is not a plane, or sizes differ.
     pub fn check(colors: &[Option<&Image>], depth: Option<&DepthSurface>) -> Result<Region, OutputError> {
-        if colors.len() > MOST_TARGETS {
-            return Err(OutputError::TooManyTargets { most: MOST_TARGETS, found: colors.len() });
+        if colors.len() > MAX_TARGETS {
+            return Err(OutputError::TooManyTargets { most: MAX_TARGETS, found: colors.len() });
         }
         let mut sizes = Vec::new();
         for (index, image) in colors.iter().enumerate().filter_map(|(i, c)| c.map(|c| (i, c))) {
@@ -64,7 +64,7 @@ impl TargetTile {
     /// As [`TargetTile::check`]; a rectangle that leaves the targets is cut to them.
     pub fn load(colors: &[Option<&Image>], depth: Option<&DepthSurface>, region: Region) -> Result<Self, OutputError> {
         let region = region.intersect(Self::check(colors, depth)?);
-        let mut tile = Self { region, colors: [const { None }; MOST_TARGETS], depth: None };
+        let mut tile = Self { region, colors: [const { None }; MAX_TARGETS], depth: None };
         for (slot, image) in tile.colors.iter_mut().zip(colors) {
             *slot = image.and_then(|image| {
                 let bytes = image.read_region(0, 0, region).ok()?;

@@ -1,4 +1,4 @@
-//! Values of a fragment: weights, then one fixed sequence of rounded steps a component.
+//! Values of a fragment: weights, then one fixed sequence of rounded steps per component.
 
 use super::plane::{Plane, plane};
 use super::state::PixelCenter;
@@ -7,7 +7,7 @@ use super::vertex::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMP
 use crate::num::{self, Format};
 use crate::texture::value;
 
-/// What the rasteriser hands a pixel program. All numbers are FP32 bits.
+/// The rasteriser's inputs of a pixel program. All numbers are FP32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentInput {
     /// Texture coordinate sets.
@@ -82,8 +82,8 @@ impl TriangleSetup {
         u32::from(self.center == PixelCenter::OpenGl)
     }
 
-    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the reciprocals
-    /// of w with the weights along the screen, each step rounded to FP32.
+    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the
+    /// reciprocals of w with the weights along the screen, each step rounded to FP32.
     fn position_at(&self, x: u32, y: u32, weights: &Weights) -> [u32; 4] {
         let center =
             |n: u32| value::mul(value::from_integer(2 * i64::from(n) + i64::from(self.half_pixels())), value::HALF);

@@ -1,23 +1,31 @@
 //! How vertices make primitives.
 
+use serde::Deserialize;
+
 /// How vertices make primitives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Primitive {
-    /// Each three vertices a triangle.
+    /// Every three vertices make a triangle.
+    #[serde(rename = "triangles")]
     TriangleList,
-    /// Each vertex from the third on a triangle with its two predecessors.
+    /// From the third on, each vertex makes a triangle with its two predecessors.
     TriangleStrip,
-    /// Each vertex from the third on a triangle with its predecessor and the first.
+    /// From the third on, each vertex makes a triangle with its predecessor and the first.
     TriangleFan,
-    /// Each four vertices a quad.
+    /// Every four vertices make a quad.
+    #[serde(rename = "quads")]
     QuadList,
-    /// Each two vertices from the third on a quad with the two before.
+    /// From the third on, every two vertices make a quad with the two before.
     QuadStrip,
     /// Not supported.
+    #[serde(skip)]
     PointList,
     /// Not supported.
+    #[serde(skip)]
     LineList,
     /// Not supported.
+    #[serde(skip)]
     LineStrip,
 }
 

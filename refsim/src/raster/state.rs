@@ -1,12 +1,14 @@
 //! The state of the rasteriser: viewport, conventions, culling, and what a device says about precision.
 
+use serde::Deserialize;
+
 use super::RasterError;
 use crate::device::Rules;
 use crate::num::Format;
 use crate::texture::{Region, value};
 
 /// The largest viewport side, and how far it may lie from the origin.
-const MOST_PIXELS: u32 = 16_384;
+const MAX_PIXELS: u32 = 16_384;
 
 /// What a device says about rasterisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,12 +53,12 @@ impl Viewport {
     /// # Errors
     /// If a side is zero or above 16384, or it lies further than that from the origin.
     pub fn check(&self) -> Result<(), RasterError> {
-        let sides = (1..=MOST_PIXELS).contains(&self.width) && (1..=MOST_PIXELS).contains(&self.height);
-        if sides && self.x.unsigned_abs() <= MOST_PIXELS && self.y.unsigned_abs() <= MOST_PIXELS {
+        let sides = (1..=MAX_PIXELS).contains(&self.width) && (1..=MAX_PIXELS).contains(&self.height);
+        if sides && self.x.unsigned_abs() <= MAX_PIXELS && self.y.unsigned_abs() <= MAX_PIXELS {
             return Ok(());
         }
         let Self { x, y, width, height, .. } = *self;
-        Err(RasterError::Viewport { most: MOST_PIXELS, x, y, width, height })
+        Err(RasterError::Viewport { most: MAX_PIXELS, x, y, width, height })
     }
 
     /// The pixels of the viewport that a target of `region` has.
@@ -91,7 +93,8 @@ pub enum ClipSpace {
 }
 
 /// Which triangles are left out, by their winding as seen with +y up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Cull {
     /// None.
     #[default]

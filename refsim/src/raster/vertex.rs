@@ -1,4 +1,4 @@
-//! What the vertex stage hands over.
+//! Vertices after the vertex stage, and the numbering of their components.
 
 /// Number of interpolated components: 8 coordinate sets, 2 colours, fog.
 pub const COMPONENTS: usize = 41;

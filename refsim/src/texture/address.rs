@@ -10,7 +10,7 @@ pub enum AddressMode {
     Wrap,
     /// The image repeats, every second time mirrored.
     Mirror,
-    /// The texel at the border goes on.
+    /// The texel at the edge repeats.
     Clamp,
     /// The sampler's border colour.
     Border,
@@ -69,8 +69,8 @@ pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) 
 
 /// The two texels of linear filtering and the weight of the second in units of `2^-fraction_bits`.
 ///
-/// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest, halves up); `None` is the border.
-/// With a weight of 0 the second texel has no part in the result.
+/// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest, halves up); `None` is
+/// the border. With a weight of 0 the second texel has no part in the result.
 pub fn linear_taps(
     mode: AddressMode,
     coordinate: u32,

@@ -167,15 +167,15 @@ texel_formats! {
     Bgrx5551 "bgrx5551" "x1r5g5b5" 2 3 channels(Unorm, &[(10, 5, 0), (5, 5, 1), (0, 5, 2)]), RGB;
     /// 5 bits a colour, 1 bit alpha.
     Bgra5551 "bgra5551" "a1r5g5b5" 2 4 channels(Unorm, &[(10, 5, 0), (5, 5, 1), (0, 5, 2), (15, 1, 3)]), RGBA;
-    /// 4 bits a channel.
+    /// 4 bits per channel.
     Bgra4444 "bgra4444" "a4r4g4b4" 2 4 channels(Unorm, &[(8, 4, 0), (4, 4, 1), (0, 4, 2), (12, 4, 3)]), RGBA;
     /// 8-bit red.
     R8 "r8" "" 1 1 channels(Unorm, ONE8), R;
     /// 8-bit red and green.
     Rg8 "rg8" "" 2 2 channels(Unorm, TWO8), RG;
-    /// 8 bits a channel in the byte order red, green, blue, alpha.
+    /// 8 bits per channel in the byte order red, green, blue, alpha.
     Rgba8 "rgba8" "a8b8g8r8" 4 4 channels(Unorm, FOUR8), RGBA;
-    /// 8 bits a channel in the byte order blue, green, red, alpha.
+    /// 8 bits per channel in the byte order blue, green, red, alpha.
     Bgra8 "bgra8" "a8r8g8b8" 4 4 channels(Unorm, &[(16, 8, 0), (8, 8, 1), (0, 8, 2), (24, 8, 3)]), RGBA;
     /// 8 bits a colour in the byte order blue, green, red, unused.
     Bgrx8 "bgrx8" "x8r8g8b8" 4 3 channels(Unorm, &[(16, 8, 0), (8, 8, 1), (0, 8, 2)]), RGB;
@@ -187,19 +187,19 @@ texel_formats! {
     R16 "r16" "" 2 1 channels(Unorm, ONE16), R;
     /// 16-bit red and green.
     Rg16 "rg16" "g16r16" 4 2 channels(Unorm, TWO16), RG;
-    /// 16 bits a channel.
+    /// 16 bits per channel.
     Rgba16 "rgba16" "a16b16g16r16" 8 4 channels(Unorm, FOUR16), RGBA;
     /// Signed 8-bit red.
     R8Snorm "r8s" "" 1 1 channels(Snorm, ONE8), R;
     /// Signed 8-bit red and green.
     Rg8Snorm "rg8s" "v8u8" 2 2 channels(Snorm, TWO8), RG;
-    /// Signed 8 bits a channel.
+    /// Signed 8 bits per channel.
     Rgba8Snorm "rgba8s" "q8w8v8u8" 4 4 channels(Snorm, FOUR8), RGBA;
     /// Signed 16-bit red.
     R16Snorm "r16s" "" 2 1 channels(Snorm, ONE16), R;
     /// Signed 16-bit red and green; the low half is red.
     Rg16Snorm "rg16s" "v16u16" 4 2 channels(Snorm, TWO16), RG;
-    /// Signed 16 bits a channel.
+    /// Signed 16 bits per channel.
     Rgba16Snorm "rgba16s" "q16w16v16u16" 8 4 channels(Snorm, FOUR16), RGBA;
     /// Signed 5-bit red and green, unsigned 6-bit blue.
     L6v5u5 "l6v5u5" "l6v5u5" 2 3 [

@@ -6,9 +6,9 @@ use super::{SignedTexelMinimum, TargetRounding, Texel, TexelFormat, TextureError
 use crate::num::Format;
 
 /// The largest extent, in texels.
-const MOST_TEXELS: u32 = 16_384;
+const MAX_TEXELS: u32 = 16_384;
 /// The largest image, in bytes.
-const MOST_BYTES: u64 = 1 << 31;
+const MAX_BYTES: u64 = 1 << 31;
 
 /// One mip level: extents and its place in the bytes of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,8 +110,8 @@ impl Image {
             let row_bytes = u64::from(w) * format.bytes() as u64;
             let slice_bytes = row_bytes * u64::from(h);
             let next = offset + slice_bytes * u64::from(slices);
-            if next > MOST_BYTES {
-                return Err(TextureError::TooLarge { most: MOST_BYTES, found: next });
+            if next > MAX_BYTES {
+                return Err(TextureError::TooLarge { most: MAX_BYTES, found: next });
             }
             levels.push(Level {
                 width: w,
@@ -230,7 +230,8 @@ impl Image {
         }
     }
 
-    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same format.
+    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same
+    /// format.
     pub(crate) fn contents_name(&self) -> Option<u64> {
         Some(self.stamp.0).filter(|&name| name != 0)
     }
@@ -352,7 +353,7 @@ pub(crate) fn read_le(bytes: &[u8]) -> u128 {
 }
 
 fn check_extents(kind: TextureKind, width: u32, height: u32, depth: u32) -> Result<(), TextureError> {
-    let range = 1..=MOST_TEXELS;
+    let range = 1..=MAX_TEXELS;
     let (fits, expected) = match kind {
         TextureKind::D1 => (height == 1 && depth == 1, "1 to 16384 x 1 x 1 texels"),
         TextureKind::D2 | TextureKind::Rectangle => (depth == 1, "1 to 16384 texels a side and depth 1"),

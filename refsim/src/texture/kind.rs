@@ -1,28 +1,27 @@
 //! The kinds of texture.
 
+use serde::Deserialize;
+
 /// The kinds of texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, strum::Display)]
+#[serde(rename_all = "lowercase")]
 pub enum TextureKind {
     /// A row of texels; height 1.
+    #[serde(rename = "1d")]
+    #[strum(serialize = "1-D")]
     D1,
     /// A plane.
+    #[default]
+    #[serde(rename = "2d")]
+    #[strum(serialize = "2-D")]
     D2,
     /// A plane addressed in texels (not 0 to 1), without mip levels.
+    #[strum(serialize = "rectangle")]
     Rectangle,
     /// Six square faces.
+    #[strum(serialize = "cube")]
     Cube,
     /// A block.
+    #[strum(serialize = "volume")]
     Volume,
-}
-
-impl std::fmt::Display for TextureKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::D1 => "1-D",
-            Self::D2 => "2-D",
-            Self::Rectangle => "rectangle",
-            Self::Cube => "cube",
-            Self::Volume => "volume",
-        })
-    }
 }

@@ -1,7 +1,7 @@
 //! Where texels lie in the memory of a card.
 //!
-//! Values never depend on it: an [`Image`] keeps its texels row by row. The texture cache of the timing model does, because a
-//! line of it holds what lies together in memory.
+//! Values never depend on it: an [`Image`] keeps its texels row by row. The texture cache of the timing model does,
+//! because a line of it holds what lies together in memory.
 
 use super::Image;
 
@@ -16,9 +16,9 @@ pub enum Layout {
     /// Row by row, rows padded to 32 bytes.
     #[default]
     Rows,
-    /// In micro tiles of 32 bytes (8-bit texels 8x4, 16-bit 8x2, 32-bit 4x2, 64-bit 2x2, 128-bit 2x1), those in macro tiles of
-    /// 8x8 (2 KiB), both row by row; R300 by its open driver. A level smaller than a macro tile along either side has micro
-    /// tiles only.
+    /// In micro tiles of 32 bytes (8-bit texels 8x4, 16-bit 8x2, 32-bit 4x2, 64-bit 2x2, 128-bit 2x1), those in macro
+    /// tiles of 8x8 (2 KiB), both row by row; R300 by its open driver. A level smaller than a macro tile along either
+    /// side has micro tiles only.
     Tiles,
 }
 

@@ -10,7 +10,7 @@ pub enum Lod {
     /// Level 0: a read that has no derivatives.
     #[default]
     Base,
-    /// FP32 bits: the logarithm to base 2 of texels a pixel, from [`lod_from_derivatives`] plus the bias of the
+    /// FP32 bits: the logarithm to base 2 of texels per pixel, from [`lod_from_derivatives`] plus the bias of the
     /// instruction, or an explicit level. NaN counts as 0.
     Level(u32),
 }

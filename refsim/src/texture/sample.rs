@@ -1,5 +1,7 @@
 //! Samplers: from coordinates to a filtered value in the register format.
 
+use serde::Deserialize;
+
 use super::address::{AddressMode, cube_coordinates, linear_taps, nearest_index};
 use super::lod::Lod;
 use super::texel::ChannelValue;
@@ -9,7 +11,8 @@ use crate::device::Rules;
 use crate::num::{self, Format};
 
 /// How texels of one level are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// The texel that holds the point.
     #[default]
@@ -19,7 +22,8 @@ pub enum Filter {
 }
 
 /// How levels are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum MipFilter {
     /// Only the largest level allowed.
     #[default]
@@ -113,7 +117,7 @@ pub fn sample(
 ) -> [u32; 4] {
     let Some(image) = image else { return unbound(rules.format) };
     let pick = pick_levels(image, state, rules, lod);
-    let place = Place::new(image, coordinates);
+    let place = SamplePlace::new(image, coordinates);
     if pick.filter == Filter::Nearest && pick.weight == 0 {
         return match place.nearest(image, state, pick.levels[0]) {
             Some((slice, y, x)) => {
@@ -140,11 +144,11 @@ pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, c
 
 /// Slice, row and column of the texel of level 0 that a nearest read takes; `None` is the border.
 pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4]) -> Option<(u32, u32, u32)> {
-    Place::new(image, coordinates).nearest(image, state, 0)
+    SamplePlace::new(image, coordinates).nearest(image, state, 0)
 }
 
-/// Names the texels that [`sample`] combines with a weight above 0: level, slice, row and column of each, in a fixed order. The
-/// border has none.
+/// Names the texels that [`sample`] combines with a weight above 0: level, slice, row and column of each, in a fixed
+/// order. The border has none.
 pub fn touched(
     image: &Image,
     state: &SamplerState,
@@ -154,7 +158,7 @@ pub fn touched(
     mut each: impl FnMut(u32, u32, u32, u32),
 ) {
     let pick = pick_levels(image, state, rules, lod);
-    let place = Place::new(image, coordinates);
+    let place = SamplePlace::new(image, coordinates);
     let bits = rules.filter_fraction_bits.min(12);
     let levels = if pick.weight == 0 { &pick.levels[..1] } else { &pick.levels[..] };
     for &level in levels {
@@ -210,13 +214,13 @@ fn pick_levels(image: &Image, state: &SamplerState, rules: &SampleRules, lod: Lo
 }
 
 /// A point on an image: coordinates along up to three axes, and the face of a cube.
-struct Place {
+struct SamplePlace {
     coordinates: [u32; 3],
     face: u32,
     kind: TextureKind,
 }
 
-impl Place {
+impl SamplePlace {
     fn new(image: &Image, [x, y, z, _]: [u32; 4]) -> Self {
         let kind = image.kind();
         let (coordinates, face) = match kind {
@@ -299,7 +303,13 @@ fn corner_texel(
 }
 
 /// The exact weighted sum, rounded once.
-fn filter_integers(image: &Image, state: &SamplerState, rules: &SampleRules, place: &Place, pick: &Pick) -> [u32; 4] {
+fn filter_integers(
+    image: &Image,
+    state: &SamplerState,
+    rules: &SampleRules,
+    place: &SamplePlace,
+    pick: &Pick,
+) -> [u32; 4] {
     let bits = rules.filter_fraction_bits.min(12);
     let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
     let border = border_texel(image, state, rules);
@@ -333,7 +343,13 @@ fn filter_integers(image: &Image, state: &SamplerState, rules: &SampleRules, pla
 }
 
 /// FP32 steps along x, y, z and between the levels.
-fn filter_floats(image: &Image, state: &SamplerState, rules: &SampleRules, place: &Place, pick: &Pick) -> [u32; 4] {
+fn filter_floats(
+    image: &Image,
+    state: &SamplerState,
+    rules: &SampleRules,
+    place: &SamplePlace,
+    pick: &Pick,
+) -> [u32; 4] {
     let bits = rules.filter_fraction_bits.min(12);
     let border = border_texel(image, state, rules);
     let at_level = |level: u32| {

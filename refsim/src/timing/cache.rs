@@ -1,7 +1,8 @@
 //! The texture cache: set-associative, the line that was used longest ago makes room.
 //!
-//! No geometry of these cards' caches has been published, so all of it is a guess of the profile; [`TextureCaches`] watches a
-//! draw with half, with all and with twice the stated size, so that the effect can be shown without drawing again.
+//! No geometry of these cards' caches has been published, so all of it is a guess of the profile; [`TextureCaches`]
+//! watches a draw with half, with all and with twice the stated size, so that the effect can be shown without drawing
+//! again.
 
 use super::TimingError;
 use crate::device::Profile;
@@ -11,7 +12,7 @@ use std::collections::BTreeSet;
 /// The smallest line: the largest texel fits.
 const LEAST_LINE: u64 = 16;
 /// The largest cache: more would be no cache of these cards.
-const MOST_BYTES: u64 = 1 << 26;
+const MAX_BYTES: u64 = 1 << 26;
 
 /// One cache. It is empty at first.
 #[derive(Clone, Debug)]
@@ -27,12 +28,12 @@ impl TextureCache {
     /// A cache of `bytes` in lines of `line_bytes`, of which an address can choose among `ways`.
     ///
     /// # Errors
-    /// [`TimingError::CacheShape`] unless lines are a power of two of at least 16 bytes and the size, at most 64 MiB, is a whole
-    /// number of sets.
+    /// [`TimingError::CacheShape`] unless lines are a power of two of at least 16 bytes and the size, at most 64 MiB,
+    /// is a whole number of sets.
     pub fn new(bytes: u64, line_bytes: u64, ways: u64) -> Result<Self, TimingError> {
         let error = TimingError::CacheShape { bytes, line_bytes, ways };
         let set = line_bytes.checked_mul(ways).filter(|&set| set > 0).ok_or(error.clone())?;
-        let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MOST_BYTES;
+        let fits = line_bytes.is_power_of_two() && line_bytes >= LEAST_LINE && bytes <= MAX_BYTES;
         if !fits || bytes == 0 || !bytes.is_multiple_of(set) {
             return Err(error);
         }
@@ -65,8 +66,9 @@ impl TextureCache {
     }
 }
 
-/// Watches draws through a card's texture cache, at half its size, at its size and at twice its size. All samplers share it. It is
-/// empty when a draw begins: what the draw before left could be stale, and a driver of the time emptied it with the state.
+/// Watches draws through a card's texture cache, at half its size, at its size and at twice its size. All samplers
+/// share it. It is empty when a draw begins: what the draw before left could be stale, and a driver of the time emptied
+/// it with the state.
 #[derive(Clone, Debug)]
 pub struct TextureCaches {
     caches: [TextureCache; 3],

@@ -2,7 +2,8 @@
 
 use super::{Clocks, Picoseconds};
 
-/// How long one draw keeps each unit busy, were it alone; and how long the draw takes, with all of them at work at once.
+/// How long one draw keeps each unit busy, were it alone; and how long the draw takes, with all of them at work at
+/// once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct DrawCost {
     /// Command processor, vertex units and triangle set-up: before the first fragment, and beside the others after it.

@@ -1,8 +1,8 @@
-//! What the host's own work costs: counted operations, times a weight a kind, times one scale.
+//! What the host's own work costs: counted operations, times one weight per kind, times one scale.
 //!
-//! The weights are relative and guessed; the scale is found from one printed figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and the counts of
-//! the run that it was printed for, and then left alone. So the model can be wrong about where the host's time goes, but not
-//! about how much of it there is in that run.
+//! The weights are relative and guessed; the scale is found from one printed figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and
+//! the counts of the run that it was printed for, and then left alone. So the model can be wrong about where the host's
+//! time goes, but not about how much of it there is in that run.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -10,7 +10,7 @@ use std::ops::AddAssign;
 use super::Picoseconds;
 use crate::device::{Confidence, FigureRow};
 
-/// Rays a second of the host alone on the teapot room: Ray Engine paper, Table 3, first row. The one figure that the
+/// Rays per second of the host alone on the teapot room: Ray Engine paper, Table 3, first row. The one figure that the
 /// scale of [`HostModel`] is calibrated on.
 pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 
@@ -18,11 +18,11 @@ macro_rules! operations {
     ($($(#[$doc:meta])* $variant:ident = $name:literal, $weight:literal, $source:literal;)*) => {
         /// A kind of operation of the host.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Operation {
+        pub enum HostOperation {
             $($(#[$doc])* $variant,)*
         }
 
-        impl Operation {
+        impl HostOperation {
             /// All kinds.
             pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
 
@@ -71,8 +71,8 @@ operations! {
     Shade = "shade", 100, "a normal, a light, a material; no source was found";
 }
 
-impl Operation {
-    /// The place in [`Operation::ALL`].
+impl HostOperation {
+    /// The place in [`HostOperation::ALL`].
     const fn index(self) -> usize {
         self as usize
     }
@@ -89,7 +89,7 @@ impl Operation {
     }
 }
 
-impl fmt::Display for Operation {
+impl fmt::Display for HostOperation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
     }
@@ -123,31 +123,31 @@ pub enum HostError {
 
 /// How often each operation happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct HostCounts([u64; Operation::ALL.len()]);
+pub struct HostCounts([u64; HostOperation::ALL.len()]);
 
 impl HostCounts {
     /// `count` more of an operation.
-    pub const fn add(&mut self, operation: Operation, count: u64) {
+    pub const fn add(&mut self, operation: HostOperation, count: u64) {
         let held = &mut self.0[operation.index()];
         *held = held.saturating_add(count);
     }
 
     /// The same with `count` more of an operation.
     #[must_use]
-    pub const fn with(mut self, operation: Operation, count: u64) -> Self {
+    pub const fn with(mut self, operation: HostOperation, count: u64) -> Self {
         self.add(operation, count);
         self
     }
 
     /// How often it happened.
-    pub const fn of(&self, operation: Operation) -> u64 {
+    pub const fn of(&self, operation: HostOperation) -> u64 {
         self.0[operation.index()]
     }
 }
 
 impl AddAssign for HostCounts {
     fn add_assign(&mut self, other: Self) {
-        for operation in Operation::ALL {
+        for operation in HostOperation::ALL {
             self.add(*operation, other.of(*operation));
         }
     }
@@ -155,12 +155,12 @@ impl AddAssign for HostCounts {
 
 /// What an operation costs, relative to the others: about so many additions of a processor of 2002. All guesses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HostWeights([u64; Operation::ALL.len()]);
+pub struct HostWeights([u64; HostOperation::ALL.len()]);
 
 impl Default for HostWeights {
     fn default() -> Self {
-        let mut weights = [0; Operation::ALL.len()];
-        for operation in Operation::ALL {
+        let mut weights = [0; HostOperation::ALL.len()];
+        for operation in HostOperation::ALL {
             weights[operation.index()] = operation.weight();
         }
         Self(weights)
@@ -169,32 +169,32 @@ impl Default for HostWeights {
 
 impl HostWeights {
     /// The weight of an operation.
-    pub const fn of(&self, operation: Operation) -> u64 {
+    pub const fn of(&self, operation: HostOperation) -> u64 {
         self.0[operation.index()]
     }
 
     /// The weights with source and confidence; keys start with `host.`.
     pub fn rows(&self) -> Vec<FigureRow> {
-        let row = |operation: &Operation| FigureRow {
+        let row = |operation: &HostOperation| FigureRow {
             key: format!("host.{operation}"),
             value: self.of(*operation).to_string(),
             unit: String::new(),
             source: operation.source().to_owned(),
             confidence: Confidence::Guess,
         };
-        Operation::ALL.iter().map(row).collect()
+        HostOperation::ALL.iter().map(row).collect()
     }
 
     /// The weight of this key, to be changed; `None` if there is no such key.
     pub fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
-        let operation = Operation::named(key.strip_prefix("host.")?).ok()?;
+        let operation = HostOperation::named(key.strip_prefix("host.")?).ok()?;
         Some(&mut self.0[operation.index()])
     }
 
     /// All operations, each by its weight.
     fn total(&self, counts: &HostCounts) -> u128 {
-        let weighted = |kind: &Operation| u128::from(counts.of(*kind)) * u128::from(self.of(*kind));
-        Operation::ALL.iter().map(weighted).fold(0, u128::saturating_add)
+        let weighted = |kind: &HostOperation| u128::from(counts.of(*kind)) * u128::from(self.of(*kind));
+        HostOperation::ALL.iter().map(weighted).fold(0, u128::saturating_add)
     }
 }
 
@@ -202,7 +202,8 @@ impl HostWeights {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HostModel {
     weights: HostWeights,
-    /// A unit of weight lasts so many picoseconds, as a fraction: exact, so that the run of the calibration takes its printed time.
+    /// A unit of weight lasts so many picoseconds, as a fraction: exact, so that the run of the calibration takes its
+    /// printed time.
     picoseconds: u128,
     units: u128,
 }
@@ -253,7 +254,7 @@ impl HostModel {
     }
 
     /// How long so many operations of one kind take, rounded up to the next picosecond.
-    pub fn time_of(&self, operation: Operation, count: u64) -> Picoseconds {
+    pub fn time_of(&self, operation: HostOperation, count: u64) -> Picoseconds {
         self.time_of_all(&HostCounts::default().with(operation, count))
     }
 

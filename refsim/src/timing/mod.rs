@@ -1,10 +1,10 @@
 //! When it happened: counts and a profile in, clocks out.
 //!
-//! The room sees what the machine wrote down ([`crate::event`]) and what a device can do ([`crate::device`]); it never sees a
-//! value, so a change in here changes no pixel. [`DrawCost`] is what one draw keeps busy, and how long.
+//! The room sees what the machine wrote down ([`crate::event`]) and what a device can do ([`crate::device`]); it never
+//! sees a value, so a change in here changes no pixel. [`DrawCost`] is what one draw keeps busy, and how long.
 //!
-//! All of it is whole numbers: clocks of a unit, and picoseconds on the common axis. The same events on the same profile
-//! give the same timeline to the last clock.
+//! All of it is whole numbers: clocks of a unit, and picoseconds on the common axis. The same events on the same
+//! profile give the same timeline to the last clock.
 
 pub mod cache;
 mod cost;

@@ -8,7 +8,7 @@ use crate::event::{DrawRecord, ProgramWork};
 /// How deep a model looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Level {
-    /// The paper's equation 11: a fill rate, measured where somebody has, and the rates of the bus.
+    /// The paper's equation 11: a fill rate (the measured one, where there is one) and the rates of the bus.
     Rates,
     /// From first principles: clocks of the units, memory traffic, latencies.
     Pipeline,
@@ -133,7 +133,8 @@ impl Model {
         }
     }
 
-    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of it.
+    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of
+    /// it.
     pub fn clear(&self, bytes: u64) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -160,8 +161,8 @@ impl Model {
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half and at
-    /// twice the cache's size; between those the nearest is taken.
+    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half
+    /// and at twice the cache's size; between those the nearest is taken.
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::host::{HostError, HostModel, Operation};
+use super::host::{HostError, HostModel, HostOperation};
 use super::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ResourceId};
 use super::timeline::Timeline;
 use super::{DrawCost, Level, Model, Picoseconds};
@@ -27,10 +27,11 @@ pub trait Costs {
 pub struct Options<'a> {
     /// What commands cost the host.
     pub queue: QueueFigures,
-    /// Instead of what the log says of each read-back. Asynchronous, in a log in which nobody then waits for the data, is what
-    /// asynchrony could gain at most.
+    /// Instead of what the log says of each read-back. Asynchronous, in a log in which nobody then waits for the data,
+    /// is what asynchrony could gain at most.
     pub read_back: Option<ReadBackMode>,
-    /// Two copies behind every resource: an upload or clear, both of which overwrite all of it, takes the one not used last.
+    /// Two copies behind every resource: an upload or clear, both of which overwrite all of it, takes the one not used
+    /// last.
     pub double_buffered: bool,
     /// What host work costs; without a model it costs nothing, and [`Replay::uncosted`] counts it.
     pub host: Option<&'a HostModel>,
@@ -170,7 +171,7 @@ impl Player<'_> {
             }
             Event::Host(work) => {
                 let operation =
-                    Operation::named(&work.kind).map_err(|source| ReplayError::Host { event: place, source })?;
+                    HostOperation::named(&work.kind).map_err(|source| ReplayError::Host { event: place, source })?;
                 match self.options.host {
                     Some(model) => {
                         let label = format!("{} {operation}", work.operations);

@@ -14,7 +14,7 @@ pub struct Clocks(pub u64);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Picoseconds(pub u64);
 
-/// Things a second: clocks, bytes, pixels, operations. Never 0.
+/// Things per second: clocks, bytes, pixels, operations. Never 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hertz(u64);
 
@@ -27,12 +27,13 @@ impl Hertz {
         if per_second == 0 { None } else { Some(Self(per_second)) }
     }
 
-    /// Things a second.
+    /// Things per second.
     pub const fn per_second(self) -> u64 {
         self.0
     }
 
-    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be longer.
+    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be
+    /// longer.
     pub fn time_of(self, count: u64) -> Picoseconds {
         let exact = (u128::from(count) * PICO).div_ceil(u128::from(self.0));
         Picoseconds(u64::try_from(exact).unwrap_or(u64::MAX))

@@ -1,5 +1,5 @@
-//! The batch executor draws what the scalar one draws: random programs of both languages in several formats. The long form,
-//! with every state around a program, is `tests/agree` of the root package.
+//! The batch executor draws what the scalar one draws: random programs of both languages in several formats. The long
+//! form, with every state around a program, is `tests/agree` of the root package.
 
 use super::text::{Choices, statement};
 use proptest::prelude::*;

@@ -12,8 +12,8 @@ use refsim::texture::TexelFormat;
 const WIDTH: u32 = 20;
 const HEIGHT: u32 = 6;
 
-/// What a program leaves in a target that a quad fills, whose left corners have the first w and depth, and whose right ones
-/// the second.
+/// What a program leaves in a target that a quad fills, whose left corners have the first w and depth, and whose right
+/// ones the second.
 fn drawn(kind: ExecutorKind, text: &str, center: PixelCenter, w: [f32; 2], depth: [f32; 2]) -> Vec<[f32; 4]> {
     let profile = Profile::named("nv35").unwrap();
     let program = check(assemble(text).unwrap(), &profile).unwrap();

@@ -1,5 +1,5 @@
-//! The longest program that the card takes: a block of 254 texels of a matrix times a vector, as GPU radiosity of the time
-//! had it: two reads, a multiply-add and a step of the coordinates for each, and 1024 instructions.
+//! The longest program that the card takes: a block of 254 texels of a matrix times a vector, as GPU radiosity of the
+//! time had it: two reads, a multiply-add and a step of the coordinates for each, and 1024 instructions.
 
 use crate::nv35;
 use refsim::asm::assemble;
@@ -46,7 +46,7 @@ fn a_block_is_as_long_as_the_instructions_allow() {
     // 255 texels and three instructions more are 1023; 256 are too many.
     verdict(BLOCK + 1).unwrap();
     let report = verdict(BLOCK + 2).unwrap_err();
-    assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::V04]);
+    assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::TooManyInstructions]);
     assert!(report.violations[0].message.contains("1027"), "{report}");
     let work = ProgramWork::new(&program, FlowConstants::default());
     assert_eq!((work.texture_slots(), work.arithmetic_slots()), (2 * BLOCK as u64, 2 * BLOCK as u64 + 3));

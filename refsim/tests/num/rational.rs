@@ -5,7 +5,7 @@
 
 use std::cmp::Ordering;
 
-use refsim::num::{Denormals, Flags, Format, Kind, Outcome, Overflow, Rounding, Tininess};
+use refsim::num::{Denormals, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Tininess};
 
 /// A fraction `n / d` with `d > 0`, reduced by twos only.
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +59,8 @@ impl Q {
 /// The magnitude of the `i`th non-negative number of a format; the one after the last finite float is `2^(emax+1)`.
 pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     match f.kind {
-        Kind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
-        Kind::Float { exp_bits, man_bits } => {
+        FormatKind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
+        FormatKind::Float { exp_bits, man_bits } => {
             let bias = (1 << (exp_bits - 1)) - 1;
             let (field, man) = ((i >> man_bits).cast_signed(), i128::from(i & ((1 << man_bits) - 1)));
             let hidden = if field == 0 { 0 } else { 1 << man_bits };
@@ -88,8 +88,8 @@ fn below(f: &Format, end: u64, against: &impl Fn(Q) -> Ordering) -> u64 {
     while high - low > 1 {
         let middle = low + (high - low) / 2;
         let candidate = match f.kind {
-            Kind::Fixed { frac_bits, .. } => Q::scaled(middle.into(), -i32::from(frac_bits)),
-            Kind::Float { .. } => magnitude(f, middle as u32),
+            FormatKind::Fixed { frac_bits, .. } => Q::scaled(middle.into(), -i32::from(frac_bits)),
+            FormatKind::Float { .. } => magnitude(f, middle as u32),
         };
         if against(candidate).is_lt() { high = middle } else { low = middle }
     }
@@ -127,7 +127,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
 }
 
 fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
-    let Kind::Float { man_bits, .. } = f.kind else { unreachable!("a float") };
+    let FormatKind::Float { man_bits, .. } = f.kind else { unreachable!("a float") };
     let sign = if negative { f.sign_bit() } else { 0 };
     let infinity = f.max_finite() + 1;
     let beyond = against(magnitude(f, infinity)).is_ge();

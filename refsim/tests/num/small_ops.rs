@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_traits::Pow;
-use refsim::num::{Denormals, DotOrder, Flags, Format, Kind, Outcome, Overflow, Rounding, Specials, Tininess};
+use refsim::num::{Denormals, DotOrder, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Specials, Tininess};
 
 use crate::rational::{self, Q, magnitude};
 
@@ -37,7 +37,7 @@ fn signed(negative: bool, q: Q) -> Q {
 pub(crate) fn decode(f: &Format, bits: u32) -> Val {
     let negative = bits & f.sign_bit() != 0;
     let low = bits & (f.sign_bit() - 1);
-    let Kind::Float { man_bits, .. } = f.kind else {
+    let FormatKind::Float { man_bits, .. } = f.kind else {
         let index = if negative { f.sign_bit() - low } else { low };
         return Num(negative, magnitude(f, index));
     };
@@ -205,7 +205,7 @@ impl Reference {
             Inf(false) => return self.infinity(false),
             Num(negative, q) => (negative, q),
         };
-        if let (Kind::Fixed { int_bits, .. }, Overflow::Wrap) = (self.f.kind, self.f.overflow)
+        if let (FormatKind::Fixed { int_bits, .. }, Overflow::Wrap) = (self.f.kind, self.f.overflow)
             && signed(negative, q).floor() >= i128::from(int_bits)
         {
             return Outcome::new(self.f.max_finite(), Flags::OVERFLOW | Flags::INEXACT);

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
 use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetup, Vertex, Viewport, setup};
 
-/// Single precision patterns about the edges of the definition: zeros, planes, the guard band, the least w, denormals, the
-/// ends of the range, and what is not finite.
+/// Single precision patterns about the edges of the definition: zeros, planes, the guard band, the least w, denormals,
+/// the ends of the range, and what is not finite.
 const EDGES: [u32; 28] = [
     0,
     0x8000_0000,

@@ -2,15 +2,15 @@
 
 use proptest::prelude::*;
 use refsim::timing::Picoseconds;
-use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostError, HostModel, HostWeights, Operation};
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostError, HostModel, HostOperation, HostWeights};
 
 /// Made-up counts of a run of the host alone.
 fn counts() -> HostCounts {
     HostCounts::default()
-        .with(Operation::RayGenerated, 1000)
-        .with(Operation::OctreeCell, 12_000)
-        .with(Operation::RayTriangleTest, 9000)
-        .with(Operation::Shade, 700)
+        .with(HostOperation::RayGenerated, 1000)
+        .with(HostOperation::OctreeCell, 12_000)
+        .with(HostOperation::RayTriangleTest, 9000)
+        .with(HostOperation::Shade, 700)
 }
 
 #[test]
@@ -20,18 +20,18 @@ fn the_run_of_the_calibration_takes_its_printed_time() {
     assert_eq!(model.time_of_all(&counts()), Picoseconds(7_363_119_607));
     // 40 + 300 + 450 + 70 units a ray are 860,000 in all.
     assert!((model.picoseconds_a_unit() - 8561.766).abs() < 1e-3, "{}", model.picoseconds_a_unit());
-    assert_eq!(model.time_of(Operation::RayTriangleTest, 1), Picoseconds(428_089));
-    assert_eq!(model.time_of(Operation::RayTriangleTest, 0), Picoseconds::ZERO);
+    assert_eq!(model.time_of(HostOperation::RayTriangleTest, 1), Picoseconds(428_089));
+    assert_eq!(model.time_of(HostOperation::RayTriangleTest, 0), Picoseconds::ZERO);
 }
 
 #[test]
 fn a_round_figure_by_hand() {
-    // Ten tests of weight 50 in ten rays at 1000 rays a second: 10 ms for 500 units.
-    let counts = HostCounts::default().with(Operation::RayTriangleTest, 10);
+    // Ten tests of weight 50 in ten rays at 1000 rays per second: 10 ms for 500 units.
+    let counts = HostCounts::default().with(HostOperation::RayTriangleTest, 10);
     let model = HostModel::calibrate(&counts, 10, 1000).expect("good counts");
-    assert_eq!(model.time_of(Operation::RayTriangleTest, 1), Picoseconds(1_000_000_000));
-    assert_eq!(model.time_of(Operation::OctreeCell, 1), Picoseconds(500_000_000));
-    assert_eq!(model.time_of(Operation::OctreeCell, u64::MAX), Picoseconds(u64::MAX), "no wrapping");
+    assert_eq!(model.time_of(HostOperation::RayTriangleTest, 1), Picoseconds(1_000_000_000));
+    assert_eq!(model.time_of(HostOperation::OctreeCell, 1), Picoseconds(500_000_000));
+    assert_eq!(model.time_of(HostOperation::OctreeCell, u64::MAX), Picoseconds(u64::MAX), "no wrapping");
 }
 
 #[test]
@@ -49,10 +49,10 @@ fn nothing_to_calibrate_on_is_an_error() {
 
 #[test]
 fn operations_are_known_by_name() {
-    for operation in Operation::ALL {
-        assert_eq!(Operation::named(operation.name()), Ok(*operation));
+    for operation in HostOperation::ALL {
+        assert_eq!(HostOperation::named(operation.name()), Ok(*operation));
     }
-    let error = Operation::named("juggling").unwrap_err();
+    let error = HostOperation::named("juggling").unwrap_err();
     assert!(
         error.to_string().starts_with("unknown host operation `juggling`; expected one of octree-cell "),
         "{error}"
@@ -60,9 +60,9 @@ fn operations_are_known_by_name() {
 }
 
 fn some_counts() -> impl Strategy<Value = HostCounts> {
-    proptest::collection::vec(0..1_000_000_000_u64, Operation::ALL.len()).prop_map(|counts| {
+    proptest::collection::vec(0..1_000_000_000_u64, HostOperation::ALL.len()).prop_map(|counts| {
         let mut all = HostCounts::default();
-        for (operation, count) in Operation::ALL.iter().zip(counts) {
+        for (operation, count) in HostOperation::ALL.iter().zip(counts) {
             all.add(*operation, count);
         }
         all

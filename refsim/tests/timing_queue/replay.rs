@@ -7,7 +7,7 @@ use refsim::event::{
     DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork, ReadBackMode,
     ResourceId, SamplerRecord, TargetRecord,
 };
-use refsim::timing::host::{HostCounts, HostError, HostModel, Operation};
+use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, Replay, ReplayError, replay};
 use refsim::timing::timeline::Unit;
@@ -92,7 +92,7 @@ fn two_buckets(mode: ReadBackMode) -> Vec<Event> {
 
 /// A made ray costs a picosecond.
 fn picosecond_a_ray() -> HostModel {
-    let counts = HostCounts::default().with(Operation::RayGenerated, 1_000_000_000_000);
+    let counts = HostCounts::default().with(HostOperation::RayGenerated, 1_000_000_000_000);
     HostModel::calibrate(&counts, 1, 1).expect("good counts")
 }
 

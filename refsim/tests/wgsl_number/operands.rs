@@ -1,6 +1,6 @@
 //! Formats and operands: edges, patterns near them, and many others drawn from a fixed seed.
 
-use refsim::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 /// A generator of words (splitmix64), so that every run sees the same.
 pub(crate) struct Words(pub(crate) u64);
@@ -30,7 +30,7 @@ pub(crate) fn edges(format: &Format) -> Vec<u32> {
         vec![0, 1, format.one(), format.max_finite(), format.min_finite(), format.one() / 2, format.sign_bit()];
     bits.extend(format.infinity(false));
     bits.extend(format.canonical_nan());
-    if let Kind::Float { man_bits, .. } = format.kind {
+    if let FormatKind::Float { man_bits, .. } = format.kind {
         bits.push(1 << man_bits);
         bits.push(format.one() - (1 << man_bits));
         bits.push(format.one() + (1 << man_bits));

@@ -1,7 +1,7 @@
 //! What the shader's operations must give, by `refsim::num`.
 
 use refsim::exec::unorm_steps;
-use refsim::num::{Format, Kind, NumberOperation, Unpacked, from_ratio, ops, unpack};
+use refsim::num::{Format, FormatKind, NumberOperation, Unpacked, from_ratio, ops, unpack};
 
 /// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for what
 /// is no operation on numbers.
@@ -32,8 +32,8 @@ pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: 
     })
 }
 
-/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. Doubles hold the product, and the sum where
-/// it comes near an integer.
+/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. Doubles hold the product, and the sum
+/// where it comes near an integer.
 fn signed_byte(bits: u32) -> u32 {
     let x = f64::from(f32::from_bits(bits));
     if x.is_nan() { 128 } else { (128.0 + (127.0 * x).clamp(-128.0, 127.0) + 0.5).floor() as u32 }
@@ -59,7 +59,7 @@ fn factor(format: &Format, a: u32, b: u32) -> u32 {
     let zero = format.is_zero(a) || format.is_zero(b);
     let finite = format.is_finite(a) && format.is_finite(b);
     match format.kind {
-        Kind::Float { .. } if zero && !finite => 0,
+        FormatKind::Float { .. } if zero && !finite => 0,
         _ => passed,
     }
 }

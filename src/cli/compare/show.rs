@@ -11,7 +11,7 @@ use super::super::{
 };
 use crate::{
     case::{Comparison, First, Setup, Side},
-    compare::{Compared, Difference, Operand, Pass, Stage, SurfaceDifference},
+    compare::{Compared, FragmentPass, Operand, SurfaceDifference, TraceDifference, TraceStage},
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
@@ -39,12 +39,12 @@ fn ulps_cell(values: &Compared) -> Cell {
     values.ulps.map_or_else(|| "none".into(), Cell::Real)
 }
 
-fn pass_text(pass: &Pass) -> String {
+fn pass_text(pass: &FragmentPass) -> String {
     let part = if pass.part > 0 { format!(", part {}", pass.part) } else { String::new() };
     format!("instance {}, triangle {}{part}", pass.instance, pass.triangle)
 }
 
-fn pass_json(pass: &Pass) -> Value {
+fn pass_json(pass: &FragmentPass) -> Value {
     json!({ "index": pass.index, "instance": pass.instance, "triangle": pass.triangle, "part": pass.part })
 }
 
@@ -174,7 +174,7 @@ impl Shown<'_> {
         Ok(())
     }
 
-    fn print_difference(&self, difference: &Difference, out: &mut Out) -> miette::Result<()> {
+    fn print_difference(&self, difference: &TraceDifference, out: &mut Out) -> miette::Result<()> {
         let (text, instruction) = self.stage(difference);
         match instruction.and_then(|index| self.quote(index, text.clone())) {
             Some(quote) => out.finding(&quote)?,
@@ -198,40 +198,40 @@ impl Shown<'_> {
     }
 
     /// The stage in words, and the instruction it is about.
-    fn stage(&self, difference: &Difference) -> (String, Option<usize>) {
+    fn stage(&self, difference: &TraceDifference) -> (String, Option<usize>) {
         let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
         match &difference.stage {
-            Stage::Vertex { corner } => {
+            TraceStage::Vertex { corner } => {
                 (format!("stage: vertices: {name} of corner {corner} of the triangle, before set-up"), None)
             }
-            Stage::Coverage { left, right } => {
-                let side = |pass: &Option<Pass>| pass.as_ref().map_or("none".to_owned(), pass_text);
+            TraceStage::Coverage { left, right } => {
+                let side = |pass: &Option<FragmentPass>| pass.as_ref().map_or("none".to_owned(), pass_text);
                 let sides = format!("{} on the left, {} on the right", side(left), side(right));
                 (format!("stage: coverage, from the set-up of triangles: {sides}"), None)
             }
-            Stage::Input => (format!("stage: interpolation of {name}, before the program"), None),
-            Stage::Delivered => {
+            TraceStage::Input => (format!("stage: interpolation of {name}, before the program"), None),
+            TraceStage::Delivered => {
                 (format!("stage: input register {name}, the interpolated value in the register format"), None)
             }
-            Stage::Instruction { index } => (format!("instruction {index} writes another {name}"), Some(*index)),
-            Stage::Mask { index, left, right } => {
+            TraceStage::Instruction { index } => (format!("instruction {index} writes another {name}"), Some(*index)),
+            TraceStage::Mask { index, left, right } => {
                 let sides = format!("`{}` on the left, `{}` on the right", letters(*left), letters(*right));
                 (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))
             }
-            Stage::Flow { left, right } => {
+            TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
                 let sides = format!("{} on the left, {} on the right", side(left), side(right));
                 (format!("stage: flow control: what runs next is {sides}"), left.or(*right))
             }
-            Stage::Output { instruction } => {
+            TraceStage::Output { instruction } => {
                 let text = format!("stage: what the program leaves behind: {name}");
                 (text, *instruction)
             }
-            Stage::Test { left, right } => {
+            TraceStage::Test { left, right } => {
                 let sides = format!("the fragment {} on the left and {} on the right", fate(*left), fate(*right));
                 (format!("stage: output tests, after equal results of the program: {sides}"), None)
             }
-            Stage::Merge => {
+            TraceStage::Merge => {
                 let text = "stage: output merge (quantising, blending, masking), after equal results of the program";
                 (format!("{text}: {name}"), None)
             }
@@ -275,7 +275,7 @@ impl Shown<'_> {
         })
     }
 
-    fn difference_json(&self, difference: &Difference) -> Value {
+    fn difference_json(&self, difference: &TraceDifference) -> Value {
         let (text, instruction) = self.stage(difference);
         let mut value = json!({
             "pass": pass_json(&difference.pass),
@@ -289,19 +289,19 @@ impl Shown<'_> {
             }).collect::<Vec<_>>(),
         });
         match &difference.stage {
-            Stage::Vertex { corner } => value["corner"] = (*corner).into(),
-            Stage::Coverage { left, right } => {
+            TraceStage::Vertex { corner } => value["corner"] = (*corner).into(),
+            TraceStage::Coverage { left, right } => {
                 value["left"] = json!(left.as_ref().map(pass_json));
                 value["right"] = json!(right.as_ref().map(pass_json));
             }
-            Stage::Mask { left, right, .. } => {
+            TraceStage::Mask { left, right, .. } => {
                 (value["left"], value["right"]) = (letters(*left).into(), letters(*right).into());
             }
-            Stage::Flow { left, right } => {
+            TraceStage::Flow { left, right } => {
                 value["left"] = json!(left.map(|index| self.instruction_json(index)));
                 value["right"] = json!(right.map(|index| self.instruction_json(index)));
             }
-            Stage::Test { left, right } => {
+            TraceStage::Test { left, right } => {
                 (value["left"], value["right"]) = (fate(*left).into(), fate(*right).into());
             }
             _ => {}
@@ -320,18 +320,18 @@ impl Shown<'_> {
 }
 
 /// The stage in one word.
-const fn stage_name(stage: &Stage) -> &'static str {
+const fn stage_name(stage: &TraceStage) -> &'static str {
     match stage {
-        Stage::Vertex { .. } => "vertices",
-        Stage::Coverage { .. } => "coverage",
-        Stage::Input => "interpolation",
-        Stage::Delivered => "input",
-        Stage::Instruction { .. } => "instruction",
-        Stage::Mask { .. } => "predicate",
-        Stage::Flow { .. } => "flow",
-        Stage::Output { .. } => "output",
-        Stage::Test { .. } => "test",
-        Stage::Merge => "merge",
+        TraceStage::Vertex { .. } => "vertices",
+        TraceStage::Coverage { .. } => "coverage",
+        TraceStage::Input => "interpolation",
+        TraceStage::Delivered => "input",
+        TraceStage::Instruction { .. } => "instruction",
+        TraceStage::Mask { .. } => "predicate",
+        TraceStage::Flow { .. } => "flow",
+        TraceStage::Output { .. } => "output",
+        TraceStage::Test { .. } => "test",
+        TraceStage::Merge => "merge",
     }
 }
 

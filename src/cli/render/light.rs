@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
-use refsim::num::{Format, Kind, Rounding};
+use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::scene::{LitScene, camera};
@@ -146,8 +146,8 @@ const SINGLE: f64 = 1.0 / 16_777_216.0;
 /// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are single precision.
 fn unit_roundoff(format: Format) -> f64 {
     let bits = match format.kind {
-        Kind::Fixed { frac_bits, .. } => frac_bits,
-        Kind::Float { man_bits, .. } => man_bits,
+        FormatKind::Fixed { frac_bits, .. } => frac_bits,
+        FormatKind::Float { man_bits, .. } => man_bits,
     };
     let nearest = matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway);
     let step = 1.0 / f64::from(1_u32 << bits.min(31));

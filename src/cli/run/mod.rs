@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::executor::{DeviceExecutor, GpuArgs};
 use super::{Out, Problem, error, memory, pixel, view};
 use crate::{
-    case::{self, Found, Outcome, Overrides, PixelTrace, ProbeResult, Setup},
+    case::{self, CaseOutcome, Found, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
     report::{Cell, Table, Verdict, visible::visible_line},
 };
@@ -110,7 +110,7 @@ fn default_folder(case: &Path) -> PathBuf {
     Path::new("out").join(case.file_stem().unwrap_or_else(|| "case".as_ref()))
 }
 
-fn print(setup: &Setup, outcome: &Outcome, written: &[PathBuf], out: &mut Out) -> miette::Result<()> {
+fn print(setup: &Setup, outcome: &CaseOutcome, written: &[PathBuf], out: &mut Out) -> miette::Result<()> {
     if let Some(title) = &setup.title {
         out.line(visible_line(title))?;
     }
@@ -130,7 +130,7 @@ fn print(setup: &Setup, outcome: &Outcome, written: &[PathBuf], out: &mut Out) -
     Ok(())
 }
 
-fn counts(outcome: &Outcome) -> Table {
+fn counts(outcome: &CaseOutcome) -> Table {
     let mut table = Table::new("Counts", &["count", "number"]);
     for (name, number) in count_list(outcome) {
         table.push([Cell::from(name), number.into()]);
@@ -138,7 +138,7 @@ fn counts(outcome: &Outcome) -> Table {
     table
 }
 
-fn count_list(outcome: &Outcome) -> Vec<(&'static str, u64)> {
+fn count_list(outcome: &CaseOutcome) -> Vec<(&'static str, u64)> {
     let (events, slots) = (&outcome.events, &outcome.slots);
     let mut list = vec![
         ("vertices", events.vertices),
@@ -178,7 +178,7 @@ fn probes(results: &[ProbeResult]) -> Table {
     table
 }
 
-fn document(setup: &Setup, args: &Args, outcome: &Outcome, written: &[PathBuf]) -> Value {
+fn document(setup: &Setup, args: &Args, outcome: &CaseOutcome, written: &[PathBuf]) -> Value {
     let counts: serde_json::Map<String, Value> =
         count_list(outcome).into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
     let switches: serde_json::Map<String, Value> =

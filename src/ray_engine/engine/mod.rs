@@ -23,7 +23,7 @@ use std::collections::{BTreeMap, VecDeque};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
-use refsim::timing::host::Operation;
+use refsim::timing::host::HostOperation;
 
 use super::barycentrics::plane_point;
 use super::host_tracer::HostTracer;
@@ -167,7 +167,7 @@ impl<'a> RayEngine<'a> {
         };
         let hits = rays.iter().zip(answers).map(&mut locate).collect();
         self.counts.host_tests += tests;
-        self.note(Operation::RayTriangleTest, tests);
+        self.note(HostOperation::RayTriangleTest, tests);
         Ok(hits)
     }
 
@@ -214,7 +214,7 @@ impl<'a> RayEngine<'a> {
     }
 
     /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine records.
-    pub fn note_host(&mut self, operation: Operation, count: u64) {
+    pub fn note_host(&mut self, operation: HostOperation, count: u64) {
         self.note(operation, count);
     }
 

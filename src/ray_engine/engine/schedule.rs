@@ -1,7 +1,7 @@
 //! Who does what next.
 
 use refsim::event::{Event, HostWork};
-use refsim::timing::host::Operation;
+use refsim::timing::host::HostOperation;
 
 use super::flight::{Answered, Cache, Waiting};
 use super::{RayEngine, Ticket};
@@ -17,8 +17,8 @@ impl RayEngine<'_> {
         let before = self.tree.counts().nodes_passed;
         let flight = self.flights.start(ticket, ray, self.tracer.host_ray(&ray));
         self.tree.insert(flight, &ray);
-        self.note(Operation::RayTreeNode, self.tree.counts().nodes_passed - before);
-        self.note(Operation::BucketInsert, 1);
+        self.note(HostOperation::RayTreeNode, self.tree.counts().nodes_passed - before);
+        self.note(HostOperation::BucketInsert, 1);
         while self.tree.len() >= self.parameters.waiting.max(1) {
             self.release_bucket()?;
         }
@@ -44,7 +44,7 @@ impl RayEngine<'_> {
         let Some(beam) = Beam::of(&rays).filter(|_| octree.sees(&rays)) else { return false };
         let reached = octree.reached(&beam, Some(&self.cells), false);
         self.counts.beam_cells += reached.tested;
-        self.note(Operation::OctreeCell, reached.tested);
+        self.note(HostOperation::OctreeCell, reached.tested);
         reached.cells.is_empty()
     }
 
@@ -91,8 +91,8 @@ impl RayEngine<'_> {
         });
         self.counts.traversal += traversal;
         self.counts.host_tests += tests;
-        self.note(Operation::OctreeCell, traversal.cells);
-        self.note(Operation::RayTriangleTest, tests);
+        self.note(HostOperation::OctreeCell, traversal.cells);
+        self.note(HostOperation::RayTriangleTest, tests);
         self.flights.at(flight).best = best;
         match stop {
             None => self.answer(flight),
@@ -102,7 +102,7 @@ impl RayEngine<'_> {
 
     /// A ray joins a cell's cache; each time that makes a whole pass more of it, the cell's turn comes once more.
     fn wait(&mut self, cell: CellId, ray: Waiting) {
-        self.note(Operation::BucketInsert, 1);
+        self.note(HostOperation::BucketInsert, 1);
         let cache = self.caches.entry(cell.index()).or_default();
         cache.rays.push(ray);
         if cache.rays.len() >= (cache.turns + 1) * self.parameters.rays {
@@ -132,9 +132,9 @@ impl RayEngine<'_> {
         let (rays_given, triangles_given) = (waiting.len() as u64, triangles.len() as u64);
         let rays = waiting.iter().map(|w| self.flights.at(w.flight).ray).collect();
         // Section 5.2: the front end converts the cache into texture data.
-        self.note(Operation::RayPacked, rays_given);
-        self.note(Operation::TriangleSent, triangles_given);
-        self.note(Operation::VertexSent, 4 * triangles_given);
+        self.note(HostOperation::RayPacked, rays_given);
+        self.note(HostOperation::TriangleSent, triangles_given);
+        self.note(HostOperation::VertexSent, 4 * triangles_given);
         let drawn = self.passes.issue(self.mesh, &triangles, rays, waiting)?;
         self.log.extend(self.passes.take_log());
         self.counts.passes += 1;
@@ -150,7 +150,7 @@ impl RayEngine<'_> {
     fn take_pass(&mut self) -> bool {
         let Some(pass) = self.passes.take() else { return false };
         self.log.extend(self.passes.take_log());
-        self.note(Operation::ResultRead, pass.waiting.len() as u64);
+        self.note(HostOperation::ResultRead, pass.waiting.len() as u64);
         let (mesh, scale, sides, mut tests) = (self.mesh, self.tracer.scale(), self.parameters.sides, 0);
         for (ray, hit) in pass.waiting.iter().zip(pass.hits) {
             let flight = self.flights.at(ray.flight);
@@ -167,7 +167,7 @@ impl RayEngine<'_> {
             }
         }
         self.counts.host_tests += tests;
-        self.note(Operation::RayTriangleTest, tests);
+        self.note(HostOperation::RayTriangleTest, tests);
         self.go_on(&pass.waiting);
         true
     }
@@ -181,7 +181,7 @@ impl RayEngine<'_> {
             self.tracer.test(triangles, &flight.host, &mut flight.best);
         }
         self.counts.host_tests += tests;
-        self.note(Operation::RayTriangleTest, tests);
+        self.note(HostOperation::RayTriangleTest, tests);
         self.go_on(waiting);
     }
 
@@ -207,7 +207,7 @@ impl RayEngine<'_> {
     }
 
     /// Work of the host, for the log: between two calls of the card, all of one kind is one entry.
-    pub(super) fn note(&mut self, operation: Operation, count: u64) {
+    pub(super) fn note(&mut self, operation: HostOperation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;
         }

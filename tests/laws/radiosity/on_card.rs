@@ -156,7 +156,12 @@ fn programs_are_as_long_as_the_card_takes() {
         let block = kernel.block(1024);
         assert_eq!(verdict(block).expect("it fits").instructions.len(), kernel.overhead() + block * kernel.per_texel());
         let refused = verdict(block + 1).expect_err("too long");
-        assert_eq!(refused.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::V04], "{}", kernel.name);
+        assert_eq!(
+            refused.violations.iter().map(|v| v.rule).collect::<Vec<_>>(),
+            [RuleId::TooManyInstructions],
+            "{}",
+            kernel.name
+        );
         let whole = check(assemble(kernel.text).expect("a program"), &nv35).expect("a file is a program for one texel");
         assert_eq!(whole.instructions.len(), verdict(1).expect("a program").instructions.len());
     }

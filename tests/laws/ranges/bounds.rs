@@ -11,7 +11,7 @@ use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::RayBatch;
 use crossbar::ray_engine::reference::{Vec3, cross, dot, sub};
 use refsim::device::{Rules, TexdepthDenominator};
-use refsim::num::Kind;
+use refsim::num::FormatKind;
 
 use super::power_of_two;
 
@@ -43,7 +43,7 @@ enum Judgement {
 
 /// The bounds of a batch.
 pub(crate) struct Bounds {
-    format: Kind,
+    format: FormatKind,
     /// Whether n.d is a divisor up to 1 only.
     min1: bool,
     one_origin: bool,
@@ -176,10 +176,10 @@ impl Bounds {
         let (o, corners) = (ray.origin().map(f64::from), corners.map(|p| p.map(f64::from)));
         let exact = Exact::new(o, d, corners);
         let errors = match self.format {
-            Kind::Fixed { int_bits, frac_bits } => {
+            FormatKind::Fixed { int_bits, frac_bits } => {
                 self.fixed(&exact, power_of_two(int_bits.into()), power_of_two(-i32::from(frac_bits)))
             }
-            Kind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
+            FormatKind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
         };
         let passes = |sign: f64| {
             // Some number has the wrong sign for sure, or all have the right one.

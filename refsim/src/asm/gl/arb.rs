@@ -14,9 +14,9 @@ use crate::isa::{
 };
 
 /// Names of temporaries that a program can declare; how many it may use is the checker's business.
-const MOST_TEMPORARIES: u16 = 256;
+const MAX_TEMPORARIES: u16 = 256;
 /// The highest `program.local` and `program.env`.
-pub(super) const MOST_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
+pub(super) const MAX_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
 
 /// Options that change nothing here: every instruction is computed in full precision.
 const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nicest"];
@@ -112,7 +112,7 @@ impl<'a> Parser<'a> {
     fn temporaries(&mut self) -> Parsed<()> {
         loop {
             let name = self.new_name()?;
-            if self.temporaries >= MOST_TEMPORARIES {
+            if self.temporaries >= MAX_TEMPORARIES {
                 return Err(self.cursor.unexpected("fewer temporaries", "256 names of temporaries are the most"));
             }
             self.names.insert(name, Name::Register(Register::new(RegisterFile::Temp, self.temporaries)));
@@ -257,7 +257,7 @@ impl<'a> Parser<'a> {
         }
         let mut number = 0;
         if self.cursor.accept_mark("[") {
-            number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            number = operand::index(&mut self.cursor, MAX_PARAMETER)?;
             self.cursor.expect("]", "close the brackets")?;
         }
         let register = Register::new(RegisterFile::Sampler, number);
@@ -298,7 +298,7 @@ impl<'a> Parser<'a> {
         if let Some(Name::Array(all)) = name {
             self.cursor.expect("[", "an element of an array is chosen by its number")?;
             let place = self.cursor.peek();
-            let number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            let number = operand::index(&mut self.cursor, MAX_PARAMETER)?;
             self.cursor.expect("]", "close the brackets")?;
             let Some(element) = all.get(usize::from(number)) else {
                 return Err(unknown(place, &format!("a number below {}", all.len()), "count from 0"));

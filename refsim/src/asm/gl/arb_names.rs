@@ -1,7 +1,7 @@
 //! What names and parameters of `!!ARBfp1.0` stand for.
 
 use super::super::error::{ErrorKind, Parsed, SyntaxError};
-use super::arb::{MOST_PARAMETER, Name, Parser, unknown};
+use super::arb::{MAX_PARAMETER, Name, Parser, unknown};
 use super::operand;
 use crate::isa::{FIRST_ENVIRONMENT, Register, RegisterFile};
 
@@ -16,7 +16,7 @@ impl Parser<'_> {
             return Ok(());
         }
         let counted = self.cursor.peek();
-        let count = if counted.text == "]" { None } else { Some(operand::index(&mut self.cursor, MOST_PARAMETER)?) };
+        let count = if counted.text == "]" { None } else { Some(operand::index(&mut self.cursor, MAX_PARAMETER)?) };
         self.cursor.expect("]", "close the brackets")?;
         self.cursor.expect("=", "an array stands for several constants")?;
         self.cursor.expect("{", "an array's elements stand between braces")?;
@@ -77,11 +77,11 @@ impl Parser<'_> {
             _ => return Err(unknown(token, "local or env", "parameters are program.local[0] or program.env[0]")),
         };
         self.cursor.expect("[", "parameters are numbered")?;
-        let first = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+        let first = operand::index(&mut self.cursor, MAX_PARAMETER)?;
         let mut last = first;
         if self.cursor.accept_mark("..") {
             let place = self.cursor.peek();
-            last = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+            last = operand::index(&mut self.cursor, MAX_PARAMETER)?;
             if last < first {
                 return Err(unknown(place, "a number not below the first", "a range goes up"));
             }

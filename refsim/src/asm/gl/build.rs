@@ -10,8 +10,8 @@ use crate::isa::{
 };
 
 /// Constants of each kind that a text can have.
-const MOST_LITERALS: usize = 4096;
-const MOST_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize;
+const MAX_LITERALS: usize = 4096;
+const MAX_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize;
 
 /// The parts of a program.
 #[derive(Default)]
@@ -29,11 +29,11 @@ impl Build {
         if let Some(&index) = self.literals.get(&value) {
             return Ok(Register::new(RegisterFile::Constant, index));
         }
-        if count >= MOST_LITERALS {
+        if count >= MAX_LITERALS {
             return Err(SyntaxError::new(
                 ErrorKind::ValueCount,
                 span,
-                format!("at most {MOST_LITERALS} different constants in the text"),
+                format!("at most {MAX_LITERALS} different constants in the text"),
                 "another one",
                 "set constants from outside, as `p[0]` or `program.local[0]`",
             ));
@@ -48,11 +48,11 @@ impl Build {
     /// A constant that the host sets by name.
     pub(super) fn parameter(&mut self, name: Token<'_>, default: [u32; 4]) -> Parsed<Register> {
         let count = self.parameters.len();
-        if count >= MOST_NAMED {
+        if count >= MAX_NAMED {
             return Err(SyntaxError::new(
                 ErrorKind::ValueCount,
                 name.span,
-                format!("at most {MOST_NAMED} names that the host can set"),
+                format!("at most {MAX_NAMED} names that the host can set"),
                 quote(name.text),
                 "use numbered parameters",
             ));

@@ -13,9 +13,9 @@ use crate::isa::{
 };
 
 /// The highest number that can be written for a register; what there is is the checker's business.
-const MOST_REGISTER: u16 = 999;
+const MAX_REGISTER: u16 = 999;
 /// The highest local parameter.
-const MOST_PARAMETER: u16 = 255;
+const MAX_PARAMETER: u16 = 255;
 
 /// Reads a program whose first word is `!!FP1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
@@ -190,7 +190,7 @@ impl<'a> Parser<'a> {
     /// `TEX3`, the image unit.
     fn unit(&mut self) -> Parsed<Source> {
         let token = self.cursor.next();
-        let number = operand::numbered(token, "TEX", MOST_REGISTER)
+        let number = operand::numbered(token, "TEX", MAX_REGISTER)
             .unwrap_or_else(|| Err(unknown(token, "TEX0 to TEX15", "texture image units are numbered")))?;
         Ok(plain(Register::new(RegisterFile::Sampler, number), token.span))
     }
@@ -228,7 +228,7 @@ impl<'a> Parser<'a> {
             "f" => return self.attribute(),
             "p" if !self.names.contains_key("p") => {
                 self.cursor.expect("[", "parameters are p[0], p[1] and so on")?;
-                let number = operand::index(&mut self.cursor, MOST_PARAMETER)?;
+                let number = operand::index(&mut self.cursor, MAX_PARAMETER)?;
                 self.cursor.expect("]", "close the brackets")?;
                 return Ok(Register::new(RegisterFile::Constant, number));
             }
@@ -275,8 +275,8 @@ fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
 }
 
 fn temporary(token: Token<'_>) -> Option<Parsed<Register>> {
-    let full = operand::numbered(token, "R", MOST_REGISTER).map(|n| (RegisterFile::Temp, n));
-    let (file, number) = full.or_else(|| Some((RegisterFile::Half, operand::numbered(token, "H", MOST_REGISTER)?)))?;
+    let full = operand::numbered(token, "R", MAX_REGISTER).map(|n| (RegisterFile::Temp, n));
+    let (file, number) = full.or_else(|| Some((RegisterFile::Half, operand::numbered(token, "H", MAX_REGISTER)?)))?;
     Some(number.map(|n| Register::new(file, n)))
 }
 

@@ -1,4 +1,5 @@
-//! What the two languages share: the loop over statements, masks, swizzles, numbers, constants in braces, the names of instructions.
+//! What the two languages share: the loop over statements, masks, swizzles, numbers, constants in braces, the names of
+//! instructions.
 
 use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote};
 use super::super::number;

@@ -3,7 +3,7 @@
 //! A fixed-point number is its two's complement integer, sign-extended. A float is the binary32 pattern of the same number,
 //! which exists for every format; NaN is always `0x7fc0_0000`.
 
-use crate::num::{Denormals, Format, Kind};
+use crate::num::{Denormals, Format, FormatKind};
 
 /// `2^e`, `e` of a normal double.
 #[inline(always)]
@@ -81,11 +81,11 @@ impl FloatLayout {
 /// The raw value of a bit pattern of a format.
 pub(super) fn decode(format: &Format, bits: u32) -> u32 {
     match format.kind {
-        Kind::Fixed { .. } => {
+        FormatKind::Fixed { .. } => {
             let spare = 32 - format.width();
             (bits.cast_signed() << spare >> spare).cast_unsigned()
         }
-        Kind::Float { exp_bits, man_bits } => {
+        FormatKind::Float { exp_bits, man_bits } => {
             FloatLayout::new(exp_bits, man_bits, format.denormals).decode(bits).to_bits()
         }
     }
@@ -94,8 +94,8 @@ pub(super) fn decode(format: &Format, bits: u32) -> u32 {
 /// The bit pattern of a raw value.
 pub(super) fn encode(format: &Format, raw: u32) -> u32 {
     match format.kind {
-        Kind::Fixed { .. } => raw & format.mask(),
-        Kind::Float { exp_bits, man_bits } => {
+        FormatKind::Fixed { .. } => raw & format.mask(),
+        FormatKind::Float { exp_bits, man_bits } => {
             FloatLayout::new(exp_bits, man_bits, format.denormals).encode(f32::from_bits(raw))
         }
     }

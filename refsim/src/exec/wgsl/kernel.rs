@@ -4,7 +4,7 @@ use super::number::{format_words, source_word};
 use super::{INTERFACE, target};
 use crate::device::Rules;
 use crate::exec::FragmentFormats;
-use crate::num::{Format, Kind, NumberOperation, Overflow, ops};
+use crate::num::{Format, FormatKind, NumberOperation, Overflow, ops};
 use crate::output::{BlendEquation, BlendFactor, BlendOp, CompareFunction, DepthFormat, OutputRules, OutputState};
 use crate::raster::{COMPONENTS, ComponentMask, POSITION_COMPONENT, TriangleSetup};
 use crate::texture::TargetRounding;
@@ -387,10 +387,10 @@ fn orders(function: CompareFunction) -> u32 {
 /// number with the one NaN.
 pub fn raw(format: &Format, bits: u32) -> u32 {
     match format.kind {
-        Kind::Fixed { .. } => {
+        FormatKind::Fixed { .. } => {
             let spare = 32 - format.width();
             ((bits << spare).cast_signed() >> spare).cast_unsigned()
         }
-        Kind::Float { .. } => ops::convert(format, Format::FP32, bits).bits,
+        FormatKind::Float { .. } => ops::convert(format, Format::FP32, bits).bits,
     }
 }

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use bitflags::bitflags;
 use serde::{Deserialize, Serialize};
 
-use crate::num::{Denormals, Format, Kind, NumberOperation, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
 
 /// How a shader computes in single precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -72,8 +72,8 @@ impl NumberOperation {
 /// Rules without meaning for the kind are replaced by the kind's default, as [`Format`] has it.
 pub fn format_words(format: &Format) -> [u32; 8] {
     let (kind, upper, frac) = match format.kind {
-        Kind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
-        Kind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
+        FormatKind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
+        FormatKind::Float { exp_bits, man_bits } => (1, exp_bits, man_bits),
     };
     let rounding = match format.rounding {
         Rounding::NearestEven => 0,
@@ -95,8 +95,8 @@ pub fn format_words(format: &Format) -> [u32; 8] {
 /// The operand `b` by which [`NumberOperation::Convert`] knows the format that `a` comes from.
 pub fn source_word(format: &Format) -> u32 {
     match format.kind {
-        Kind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
-        Kind::Float { .. } => 0,
+        FormatKind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
+        FormatKind::Float { .. } => 0,
     }
 }
 

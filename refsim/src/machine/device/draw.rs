@@ -20,7 +20,7 @@ use crate::machine::validate::ROUND;
 use crate::machine::vertices::{VertexStage, set_up};
 use crate::machine::walk::bytes;
 use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError, VertexSource, executor, tile_draw, walk};
-use crate::output::MOST_TARGETS;
+use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
 use std::sync::Arc;
 
@@ -185,7 +185,7 @@ impl Card {
         call: &DrawCall<'_>,
         step_budget: Option<u32>,
     ) -> Result<DrawWords, MachineError> {
-        let mut targets = [None; MOST_TARGETS];
+        let mut targets = [None; MAX_TARGETS];
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let image = memory.texture(id)?;
             let base = self.place_texture(id.0, image)? as u32;

@@ -15,7 +15,7 @@ use crate::exec::{Shading, colors_written, inputs_read, output_rules, program};
 use crate::isa::OpcodeClass;
 use crate::machine::trace::PixelState;
 use crate::machine::{DrawCall, Machine, MachineError};
-use crate::output::MOST_TARGETS;
+use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
 use crate::texture::{Image, TextureKind};
 use std::ops::Range;
@@ -54,7 +54,7 @@ pub(in crate::machine) struct Follower<'a> {
 }
 
 /// A pixel's way through one pass.
-struct Way {
+struct PixelWay {
     triangles: Vec<u32>,
     /// How many of them it is past.
     at: usize,
@@ -76,7 +76,7 @@ impl<'a> Follower<'a> {
         };
         let (shader, samplers) = shader(&mut card, memory, profile, call, true)?;
         let width = pixels.len() as u32 + 1;
-        let (mut targets, mut colors) = ([None; MOST_TARGETS], Vec::new());
+        let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let format = memory.texture(id)?.format();
             let image = Image::new(format, TextureKind::Rectangle, [width, 1, 1], 1)?;
@@ -155,8 +155,8 @@ impl<'a> Follower<'a> {
         let mut packed = Vec::with_capacity(setups.len() * self.words.setup_words());
         setups.iter().for_each(|setup| self.words.setup(setup, &mut packed));
         self.card.board.set_setups(&packed)?;
-        let mut ways: Vec<Way> =
-            self.pixels.iter().map(|&pixel| Way { triangles: near(setups, pixel), at: 0 }).collect();
+        let mut ways: Vec<PixelWay> =
+            self.pixels.iter().map(|&pixel| PixelWay { triangles: near(setups, pixel), at: 0 }).collect();
         let mut out: Vec<Vec<Followed>> = self.pixels.iter().map(|_| Vec::new()).collect();
         loop {
             let jobs: Vec<usize> = (0..ways.len()).filter(|&p| ways[p].at < ways[p].triangles.len()).collect();
@@ -168,7 +168,7 @@ impl<'a> Follower<'a> {
     }
 
     /// Takes pixels to the next triangle that covers each.
-    fn round(&mut self, jobs: &[usize], ways: &mut [Way], out: &mut [Vec<Followed>]) -> Result<(), MachineError> {
+    fn round(&mut self, jobs: &[usize], ways: &mut [PixelWay], out: &mut [Vec<Followed>]) -> Result<(), MachineError> {
         let lists: Vec<_> = jobs.iter().map(|&p| (p, p, ways[p].at..ways[p].triangles.len())).collect();
         let words = self.run(&lists, ways, 0)?;
         let size = HEAD + TRACE_WORDS * self.room;
@@ -193,7 +193,13 @@ impl<'a> Follower<'a> {
     }
 
     /// The words of all steps: those that a record had no room for are found by running the pixel again.
-    fn steps(&mut self, record: &Record<'_>, p: usize, place: usize, ways: &[Way]) -> Result<Vec<u32>, MachineError> {
+    fn steps(
+        &mut self,
+        record: &Record<'_>,
+        p: usize,
+        place: usize,
+        ways: &[PixelWay],
+    ) -> Result<Vec<u32>, MachineError> {
         let mut steps = record.kept(0).to_vec();
         while steps.len() < TRACE_WORDS * record.steps() {
             let skipped = steps.len() / TRACE_WORDS;
@@ -211,7 +217,7 @@ impl<'a> Follower<'a> {
     fn run(
         &mut self,
         jobs: &[(usize, usize, Range<usize>)],
-        ways: &[Way],
+        ways: &[PixelWay],
         skipped: usize,
     ) -> Result<Vec<u32>, MachineError> {
         let (mut told, mut lists) = (Vec::new(), Vec::new());

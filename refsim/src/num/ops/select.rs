@@ -5,7 +5,7 @@
 use super::compare::order;
 use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
-use crate::num::format::{Kind, Specials};
+use crate::num::format::{FormatKind, Specials};
 use crate::num::unpack::{key, nan_bits, pass};
 
 /// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
@@ -43,8 +43,8 @@ pub fn cmp(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
 pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     let format = env.into().format;
     let first = match format.kind {
-        Kind::Fixed { frac_bits, .. } => 2 * key(&format, cond) > 1 << frac_bits,
-        Kind::Float { .. } => !format.is_nan(cond) && key(&format, cond) > i64::from(half(&format)),
+        FormatKind::Fixed { frac_bits, .. } => 2 * key(&format, cond) > 1 << frac_bits,
+        FormatKind::Float { .. } => !format.is_nan(cond) && key(&format, cond) > i64::from(half(&format)),
     };
     Outcome::exact(pass(&format, if first { a } else { b }))
 }
@@ -52,8 +52,8 @@ pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
 /// The pattern of 0.5 in a float; `eXmY` always has it, `e2mY` as a subnormal.
 fn half(format: &crate::num::Format) -> u32 {
     match format.kind {
-        Kind::Float { exp_bits: 2, man_bits } => 1 << (man_bits - 1),
-        Kind::Float { man_bits, .. } => format.one() - (1 << man_bits),
-        Kind::Fixed { .. } => 0,
+        FormatKind::Float { exp_bits: 2, man_bits } => 1 << (man_bits - 1),
+        FormatKind::Float { man_bits, .. } => format.one() - (1 << man_bits),
+        FormatKind::Fixed { .. } => 0,
     }
 }

@@ -28,7 +28,7 @@ impl FragmentClocks {
 
 /// What a phase asks of arithmetic, in clocks of a unit that issues one slot a clock.
 #[derive(Clone, Copy, Debug, Default)]
-struct Work {
+struct FragmentWork {
     /// Of the float unit.
     float: u64,
     /// Of a fixed point unit: multiplications, of which it does two a clock, and the rest.
@@ -36,8 +36,8 @@ struct Work {
     operations: u64,
 }
 
-/// The clocks of a fragment. A phase is a pass through the units, and takes whole clocks of each; a program takes at least
-/// one. Of samplers that are not named, plain 32-bit texels are taken.
+/// The clocks of a fragment. A phase is a pass through the units, and takes whole clocks of each; a program takes at
+/// least one. Of samplers that are not named, plain 32-bit texels are taken.
 pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates: &Rates) -> FragmentClocks {
     let takes_turns = rates.texture_blocks_arithmetic == Some(1);
     let (mut arithmetic, mut textures) = (0_u64, 0_u64);
@@ -51,11 +51,11 @@ pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates:
     FragmentClocks { arithmetic: Clocks(pressed(arithmetic).max(1)), textures: Clocks(pressed(textures)), takes_turns }
 }
 
-/// Slots over slots a clock. Fixed point goes to its own units, where there are any, while the float unit is busy (reading
-/// textures for `blocked` clocks too); what is left over is shared with the float unit.
+/// Slots over slots per clock. Fixed point goes to its own units, where there are any, while the float unit is busy
+/// (reading textures for `blocked` clocks too); what is left over is shared with the float unit.
 fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     let units = rates.fixed_units.unwrap_or(0);
-    let mut work = Work::default();
+    let mut work = FragmentWork::default();
     for slot in &phase.arithmetic {
         let clocks = slot_clocks(slot, rates).saturating_mul(slot.times);
         let sum = match (slot.fixed && units > 0, slot.opcode) {
@@ -69,9 +69,9 @@ fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     float.saturating_add(taken_over(&work, float.saturating_add(blocked), units))
 }
 
-/// Clocks that the float unit spends on fixed point so that the fixed point units get done with the rest meanwhile; it is
-/// busy for `busy` clocks before. An operation is worth two multiplications, so operations are taken over first.
-fn taken_over(work: &Work, busy: u64, units: u64) -> u64 {
+/// Clocks that the float unit spends on fixed point so that the fixed point units get done with the rest meanwhile; it
+/// is busy for `busy` clocks before. An operation is worth two multiplications, so operations are taken over first.
+fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
     // In multiplications, of which the units do this many a clock.
     let [operations, multiplications, done] =
         [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);

@@ -1,7 +1,7 @@
 //! A draw through the units of a card: what keeps each of them busy, in clocks of the core.
 //!
-//! All units work at once on different parts of the draw, so the draw takes as long as the busiest of them, and the time
-//! in which the pipeline fills and drains. docs/timing.md has the formulas with a worked example.
+//! All units work at once on different parts of the draw, so the draw takes as long as the busiest of them, and the
+//! time in which the pipeline fills and drains. docs/timing.md has the formulas with a worked example.
 
 mod fragment;
 mod traffic;
@@ -109,8 +109,8 @@ pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: CacheSize
     }
 }
 
-/// Clocks of the core that one instruction takes a pipeline, as a fraction: 1 on cards whose pipelines are four components
-/// wide; on those of scalar processors four of their own clocks.
+/// Clocks of the core that one instruction takes a pipeline, as a fraction: 1 on cards whose pipelines are four
+/// components wide; on those of scalar processors four of their own clocks.
 struct Shaders {
     numerator: u128,
     denominator: u128,

@@ -52,9 +52,9 @@ impl Traffic {
     }
 }
 
-/// The traffic of a draw. Depth, colour and vertices move once an access: these cards' compression and early rejection are
-/// not modelled. Textures move by cache lines that the simulated cache missed; of a draw that was not observed an estimate is
-/// taken: compulsory misses.
+/// The traffic of a draw. Depth, colour and vertices move once an access: these cards' compression and early rejection
+/// are not modelled. Textures move by cache lines that the simulated cache missed; of a draw that was not observed an
+/// estimate is taken: compulsory misses.
 pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
@@ -70,8 +70,9 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> Traffic {
     }
 }
 
-/// Without a cache each read fetches a line. With one there are compulsory misses: if all textures that the draw reads fit into the cache, each of their texels comes once; if not, each
-/// comes once for every primitive. Never more than one texel for each read: a filter finds its neighbours in the cache.
+/// Without a cache each read fetches a line. With one there are compulsory misses: if all textures that the draw reads
+/// fit into the cache, each of their texels comes once; if not, each comes once for every primitive. Never more than
+/// one texel for each read: a filter finds its neighbours in the cache.
 fn estimate(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> u64 {
     if cache == CacheSize::None {
         let line = rates.texture_cache_line_bytes.unwrap_or(1);

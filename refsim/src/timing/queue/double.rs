@@ -2,8 +2,8 @@
 
 use super::ResourceId;
 
-/// A texture or target with two copies. What overwrites all of it goes into the copy that was not used last, so that it need not wait
-/// for draws that read the other one.
+/// A texture or target with two copies. What overwrites all of it goes into the copy that was not used last, so that it
+/// need not wait for draws that read the other one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DoubleBuffer {
     copies: [ResourceId; 2],

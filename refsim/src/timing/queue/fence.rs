@@ -1,7 +1,8 @@
 //! Fences, after `NV_fence`: a mark in the command stream that the host can test or wait for.
 //!
-//! There is one condition, `ALL_COMPLETED`: a fence is passed when every command before it, transfers included, is done. A name
-//! that was made but never set can be neither tested nor waited for. A fence can be set again; the old mark is forgotten.
+//! There is one condition, `ALL_COMPLETED`: a fence is passed when every command before it, transfers included, is
+//! done. A name that was made but never set can be neither tested nor waited for. A fence can be set again; the old
+//! mark is forgotten.
 
 use crate::timing::timeline::Mark;
 

@@ -2,7 +2,8 @@
 //!
 //! The simulator is online: each call places its command at once, from what was placed before it. A start is always the
 //! latest of some ends, so that making anything shorter, or taking away a reason to wait, never makes the whole longer.
-//! All durations are given from outside; nothing here knows what a draw is. docs/timing.md has the rules one by one, and an example.
+//! All durations are given from outside; nothing here knows what a draw is. docs/timing.md has the rules one by one,
+//! and an example.
 
 mod double;
 mod fence;
@@ -20,15 +21,15 @@ pub use crate::event::ReadBackMode;
 use super::timeline::{Label, Mark, SpanKind, Timeline, Unit, WaitReason};
 use super::{DrawCost, Picoseconds};
 use fence::Fences;
-use schedule::{Schedule, Work};
+use schedule::{Schedule, SpanWork};
 
-/// The name of a texture, target or depth buffer; who gives the commands chooses the numbers.
+/// The name of a texture, target or depth buffer; the caller chooses the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ResourceId(pub u64);
 
 /// When a resource is free to be read and to be written.
 #[derive(Clone, Copy, Debug, Default)]
-struct Use {
+struct ResourceUse {
     written: Mark,
     read: Mark,
 }
@@ -44,12 +45,12 @@ pub struct Queue {
     bodies: VecDeque<Mark>,
     /// The end of everything that the card was given, transfers included.
     done: Mark,
-    resources: BTreeMap<ResourceId, Use>,
+    resources: BTreeMap<ResourceId, ResourceUse>,
     fences: Fences,
     commands: u32,
 }
 
-/// A command on its way: when the card has it, and what its spans are called.
+/// A submitted command: when it reaches the card, and the label of its spans.
 struct Given {
     ready: Mark,
     label: Label,
@@ -57,8 +58,8 @@ struct Given {
 }
 
 impl Given {
-    fn work(&self, kind: SpanKind) -> Work<'_> {
-        Work { kind, label: &self.label, command: self.command }
+    fn work(&self, kind: SpanKind) -> SpanWork<'_> {
+        SpanWork { kind, label: &self.label, command: self.command }
     }
 }
 
@@ -93,7 +94,8 @@ impl Queue {
         self.on_host(SpanKind::HostWork, duration, &given);
     }
 
-    /// Data for the whole of a resource go to the card, beside its work. The bus waits for draws before that read or write the resource.
+    /// Data for the whole of a resource go to the card, beside its work. The bus waits for draws before that read or
+    /// write the resource.
     pub fn upload(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
         let given = self.give(self.figures.upload_ps, label.into());
         let taken = self.take(given.ready);
@@ -136,9 +138,10 @@ impl Queue {
         self.body_ends(shaded.or_later(moved).or_later(vertices.plus(fill)), reads, writes);
     }
 
-    /// Data of a resource go to the host, after all draws before. Synchronous, the host waits for all earlier work and for the
-    /// transfer, as with `glReadPixels`. Asynchronous, host and card go on, only who writes into the resource waits, and it returns a fence that is passed when they have
-    /// arrived and everything before is done; setting it costs nothing.
+    /// Data of a resource go to the host, after all draws before. Synchronous, the host waits for all earlier work and
+    /// for the transfer, as with `glReadPixels`. Asynchronous, host and card go on, and only writes into the resource
+    /// waits, and it returns a fence that is passed when they have arrived and everything before is done; setting it
+    /// costs nothing.
     pub fn read_back(
         &mut self,
         resource: ResourceId,
@@ -304,7 +307,7 @@ impl Queue {
         self.done = self.done.or_later(end);
     }
 
-    fn held(&self, resource: ResourceId) -> Use {
+    fn held(&self, resource: ResourceId) -> ResourceUse {
         self.resources.get(&resource).copied().unwrap_or_default()
     }
 }

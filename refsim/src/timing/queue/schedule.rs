@@ -1,11 +1,11 @@
 //! Spans onto units: nothing starts before its unit is free, its command is there and what it needs is done.
 
 use crate::timing::Picoseconds;
-use crate::timing::timeline::{Label, Mark, Span, SpanId, SpanKind, Timeline, Unit, Wait, WaitReason};
+use crate::timing::timeline::{Label, Mark, SpanId, SpanKind, Timeline, TimelineSpan, Unit, Wait, WaitReason};
 
 /// What a span is, apart from its time.
 #[derive(Clone, Debug)]
-pub(super) struct Work<'a> {
+pub(super) struct SpanWork<'a> {
     pub(super) kind: SpanKind,
     pub(super) label: &'a Label,
     pub(super) command: u32,
@@ -40,7 +40,7 @@ impl Schedule {
         ready: Mark,
         needs: &[(Mark, WaitReason)],
         duration: Picoseconds,
-        work: &Work<'_>,
+        work: &SpanWork<'_>,
     ) -> Placed {
         let at_hand = self.free(unit).or_later(ready);
         let mut start = at_hand;
@@ -58,7 +58,7 @@ impl Schedule {
         // 2^32 spans do not fit into memory.
         let id = SpanId(u32::try_from(self.timeline.spans.len()).unwrap_or(u32::MAX));
         let end = Mark { time: start.time + duration, after: Some(id), latency: Picoseconds::ZERO };
-        self.timeline.spans.push(Span {
+        self.timeline.spans.push(TimelineSpan {
             unit,
             start: start.time,
             end: end.time,

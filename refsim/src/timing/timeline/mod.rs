@@ -1,33 +1,39 @@
-//! What each unit did when, and what it waited for.
+//! The timeline: spans and waits of every unit.
 
 mod path;
 mod usage;
 
-use std::fmt;
 use std::sync::Arc;
 
-pub use path::{Segment, Share};
+pub use path::{PathShare, Segment};
 pub use usage::Usage;
+
+use strum::Display;
 
 use super::Picoseconds;
 
-/// What a span shows to people: the name of a draw, of an upload, of host work. Shared by the spans of one command.
+/// The text of a span: the name of a draw, of an upload, of host work. Shared by the spans of one command.
 pub type Label = Arc<str>;
 
-/// What can be busy. Each does one thing at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+/// A unit of host, card or bus. Each does one thing at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Unit {
     /// The host's processor: its own work, and what it spends on giving commands.
     Host,
     /// Host to card.
+    #[strum(to_string = "upload bus")]
     UploadBus,
     /// Command processor, vertex units, triangle set-up.
+    #[strum(to_string = "front end")]
     FrontEnd,
     /// The pixel pipelines.
+    #[strum(to_string = "shader array")]
     ShaderArray,
     /// The card's memory.
     Memory,
     /// Card to host.
+    #[strum(to_string = "read-back bus")]
     ReadBackBus,
 }
 
@@ -47,23 +53,12 @@ impl Unit {
     }
 }
 
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Host => "host",
-            Self::UploadBus => "upload bus",
-            Self::FrontEnd => "front end",
-            Self::ShaderArray => "shader array",
-            Self::Memory => "memory",
-            Self::ReadBackBus => "read-back bus",
-        })
-    }
-}
-
-/// What a unit is busy with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+/// The kind of work of a span.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum SpanKind {
     /// The host's own work.
+    #[strum(to_string = "host work")]
     HostWork,
     /// The host gives a command to the card, or asks for a fence.
     Submit,
@@ -75,31 +70,18 @@ pub enum SpanKind {
     Clear,
     /// Commands, vertices and set-up of a draw.
     Vertices,
-    /// The pipeline fills and drains; takes time but keeps no unit busy, so that it is found on the critical path alone.
+    /// The pipeline fills and drains; takes time but keeps no unit busy, so that it is found on the critical path
+    /// alone.
+    #[strum(to_string = "pipeline fill")]
     Fill,
     /// Fragments of a draw.
     Fragments,
     /// Memory traffic of a draw.
+    #[strum(to_string = "memory traffic")]
     Traffic,
     /// Data come from the card.
+    #[strum(to_string = "read-back")]
     ReadBack,
-}
-
-impl fmt::Display for SpanKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::HostWork => "host work",
-            Self::Submit => "submit",
-            Self::Upload => "upload",
-            Self::State => "state",
-            Self::Clear => "clear",
-            Self::Vertices => "vertices",
-            Self::Fill => "pipeline fill",
-            Self::Fragments => "fragments",
-            Self::Traffic => "memory traffic",
-            Self::ReadBack => "read-back",
-        })
-    }
 }
 
 /// The place of a span in [`Timeline::spans`].
@@ -108,12 +90,12 @@ pub struct SpanId(pub u32);
 
 /// A unit busy with one thing. Never of no length.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Span {
-    /// Who.
+pub struct TimelineSpan {
+    /// The unit.
     pub unit: Unit,
-    /// From when.
+    /// Its start.
     pub start: Picoseconds,
-    /// Until when.
+    /// Its end.
     pub end: Picoseconds,
     /// With what.
     pub kind: SpanKind,
@@ -121,63 +103,55 @@ pub struct Span {
     pub label: Label,
     /// The command that it belongs to, counted from 0 in the order of the program; host work counts too.
     pub command: u32,
-    /// The span that it waited for last: the end of that one, and [`Span::latency`], is the start of this one. `None`
-    /// where nothing had to end before.
+    /// The span that it waited for last: the end of that one, and [`TimelineSpan::latency`], is the start of this one.
+    /// `None` where nothing had to end before.
     pub after: Option<SpanId>,
     /// Time between the two in which the pipeline filled or drained.
     pub latency: Picoseconds,
 }
 
-impl Span {
-    /// How long it lasts.
+impl TimelineSpan {
+    /// Its length.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
 }
 
 /// Why a unit waits that has something to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum WaitReason {
     /// The host: the command queue is full.
+    #[strum(to_string = "queue full")]
     QueueFull,
     /// The host: a fence.
     Fence,
     /// The host: a read-back that it asked to be synchronous.
+    #[strum(to_string = "read-back")]
     Transfer,
     /// The host: everything that it has asked for.
     Finish,
     /// The resource is still being read, written, sent or fetched.
+    #[strum(to_string = "resource in use")]
     Hazard,
     /// Commands before this one are not done.
+    #[strum(to_string = "earlier commands")]
     Order,
     /// The units before it in the pipeline have sent nothing yet.
+    #[strum(to_string = "earlier stages")]
     Input,
-}
-
-impl fmt::Display for WaitReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::QueueFull => "queue full",
-            Self::Fence => "fence",
-            Self::Transfer => "read-back",
-            Self::Finish => "finish",
-            Self::Hazard => "resource in use",
-            Self::Order => "earlier commands",
-            Self::Input => "earlier stages",
-        })
-    }
 }
 
 /// A unit that has something to do but can't. Never of no length, never beside a span of the same unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wait {
-    /// Who.
+    /// The unit.
     pub unit: Unit,
-    /// From when.
+    /// Its start.
     pub start: Picoseconds,
-    /// Until when.
+    /// Its end.
     pub end: Picoseconds,
-    /// Why.
+    /// The reason.
     pub reason: WaitReason,
     /// For which span, `None` for the filling of the pipeline with nothing before it.
     pub on: Option<SpanId>,
@@ -186,7 +160,7 @@ pub struct Wait {
 }
 
 impl Wait {
-    /// How long it lasts.
+    /// Its length.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
@@ -212,17 +186,18 @@ impl Mark {
     }
 }
 
-/// A run on the time axis: spans in the order of the commands, and waits. Deterministic: the same commands give an equal timeline.
+/// A run on the time axis: spans in the order of the commands, and waits. Deterministic: the same commands give an
+/// equal timeline.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Timeline {
-    pub(in crate::timing) spans: Vec<Span>,
+    pub(in crate::timing) spans: Vec<TimelineSpan>,
     pub(in crate::timing) waits: Vec<Wait>,
     pub(in crate::timing) end: Mark,
 }
 
 impl Timeline {
     /// What the units did. The spans of one unit come in the order of time.
-    pub fn spans(&self) -> &[Span] {
+    pub fn spans(&self) -> &[TimelineSpan] {
         &self.spans
     }
 
@@ -232,7 +207,7 @@ impl Timeline {
     }
 
     /// One span.
-    pub fn span(&self, id: SpanId) -> Option<&Span> {
+    pub fn span(&self, id: SpanId) -> Option<&TimelineSpan> {
         self.spans.get(id.0 as usize)
     }
 
@@ -243,6 +218,6 @@ impl Timeline {
 
     /// Time that a unit is busy.
     pub fn busy(&self, unit: Unit) -> Picoseconds {
-        self.spans.iter().filter(|span| span.unit == unit).map(Span::duration).sum()
+        self.spans.iter().filter(|span| span.unit == unit).map(TimelineSpan::duration).sum()
     }
 }

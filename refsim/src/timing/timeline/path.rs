@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Span, SpanId, SpanKind, Timeline, Unit};
+use super::{SpanId, SpanKind, Timeline, TimelineSpan, Unit};
 use crate::timing::Picoseconds;
 
 /// A piece of the critical path. Each begins where the one before it ends, the first at 0, the last ends with the run.
@@ -10,7 +10,7 @@ use crate::timing::Picoseconds;
 pub struct Segment {
     /// The span, or the one after whose end the pipeline fills ([`SpanKind::Fill`]), if there is one.
     pub span: Option<SpanId>,
-    /// Who is busy; the front end, while the pipeline fills.
+    /// The busy unit; the front end, while the pipeline fills.
     pub unit: Unit,
     /// With what.
     pub kind: SpanKind,
@@ -29,8 +29,8 @@ impl Segment {
 
 /// A part of the critical path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Share {
-    /// Who is busy.
+pub struct PathShare {
+    /// The busy unit.
     pub unit: Unit,
     /// With what.
     pub kind: SpanKind,
@@ -43,7 +43,8 @@ pub struct Share {
 impl Timeline {
     /// From the start to the end, each piece waiting for the one before it. The lengths sum to [`Timeline::makespan`].
     ///
-    /// Where two things ended at once, the path takes the unit's own last span first, then what was first in the program.
+    /// Where two things ended at once, the path takes the unit's own last span first, then what was first in the
+    /// program.
     pub fn critical_path(&self) -> Vec<Segment> {
         let mut path = Vec::new();
         let (mut end, mut after, mut latency) = (self.end.time, self.end.after, self.end.latency);
@@ -53,7 +54,7 @@ impl Timeline {
                 path.push(Segment { span: after, unit: Unit::FrontEnd, kind: SpanKind::Fill, start, end });
             }
             let Some((id, span)) = after.and_then(|id| Some((id, self.span(id)?))) else { break };
-            let Span { unit, kind, start, .. } = *span;
+            let TimelineSpan { unit, kind, start, .. } = *span;
             path.push(Segment { span: Some(id), unit, kind, start, end: span.end });
             (end, after, latency) = (start, span.after, span.latency);
         }
@@ -61,16 +62,17 @@ impl Timeline {
         path
     }
 
-    /// Where the time went: the critical path by unit and kind, the longest first. The times sum to [`Timeline::makespan`].
-    pub fn where_the_time_went(&self) -> Vec<Share> {
+    /// Where the time went: the critical path by unit and kind, the longest first. The times sum to
+    /// [`Timeline::makespan`].
+    pub fn where_the_time_went(&self) -> Vec<PathShare> {
         let mut shares: BTreeMap<(Unit, SpanKind), (u64, Picoseconds)> = BTreeMap::new();
         for segment in self.critical_path() {
             let share = shares.entry((segment.unit, segment.kind)).or_default();
             share.0 += 1;
             share.1 += segment.duration();
         }
-        let share = |((unit, kind), (segments, time))| Share { unit, kind, segments, time };
-        let mut shares: Vec<Share> = shares.into_iter().map(share).collect();
+        let share = |((unit, kind), (segments, time))| PathShare { unit, kind, segments, time };
+        let mut shares: Vec<PathShare> = shares.into_iter().map(share).collect();
         shares.sort_by_key(|share| std::cmp::Reverse(share.time));
         shares
     }

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event};
 use refsim::machine::ExecutorKind;
-use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostWeights, Operation};
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
@@ -59,8 +59,8 @@ impl HostOnly {
     /// What a host tracer counted.
     pub(super) fn of(cost: &ray_engine::HostCounts) -> Self {
         let counts = HostCounts::default()
-            .with(Operation::OctreeCell, cost.traversal.cells)
-            .with(Operation::RayTriangleTest, cost.tests);
+            .with(HostOperation::OctreeCell, cost.traversal.cells)
+            .with(HostOperation::RayTriangleTest, cost.tests);
         Self { counts, rays: cost.rays }
     }
 

@@ -1,7 +1,7 @@
 //! Where the host's time goes.
 
 use refsim::event::Event;
-use refsim::timing::host::{HostCounts, HostModel, Operation};
+use refsim::timing::host::{HostCounts, HostModel, HostOperation};
 
 use super::figure;
 use super::speed_ups::SpeedUpRun;
@@ -10,7 +10,7 @@ use crate::report::{Cell, Table};
 
 /// Microseconds a ray that the host spends on each kind of operation: alone, and in the lines of a table.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
-    let kinds = Operation::ALL.iter().map(|operation| format!("{operation}_us"));
+    let kinds = HostOperation::ALL.iter().map(|operation| format!("{operation}_us"));
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
     let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("The host's time a ray", &headings);
@@ -23,7 +23,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
 
 fn row(what: &str, host: &HostModel, counts: &HostCounts, rays: u64) -> Vec<Cell> {
     let each = |seconds: f64| figure(1e6 * seconds / rays.max(1) as f64, 1000.0);
-    let kinds = Operation::ALL.iter().map(|kind| each(host.time_of(*kind, counts.of(*kind)).seconds()));
+    let kinds = HostOperation::ALL.iter().map(|kind| each(host.time_of(*kind, counts.of(*kind)).seconds()));
     std::iter::once(what.into()).chain(kinds).chain([each(host.time_of_all(counts).seconds())]).collect()
 }
 
@@ -32,7 +32,7 @@ fn counted(log: &[Event]) -> HostCounts {
     let mut counts = HostCounts::default();
     for event in log {
         if let Event::Host(work) = event
-            && let Ok(operation) = Operation::named(&work.kind)
+            && let Ok(operation) = HostOperation::named(&work.kind)
         {
             counts.add(operation, work.operations);
         }

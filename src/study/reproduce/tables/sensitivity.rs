@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use refsim::timing::host::{HostWeights, Operation};
+use refsim::timing::host::{HostOperation, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
 use super::engine_run::{Commands, HostOnly, Run};
@@ -13,7 +13,7 @@ use crate::report::{Cell, Table};
 
 /// Guesses that are doubled: of the host's operations, and of the queue's commands.
 fn keys() -> Vec<String> {
-    let host = Operation::ALL.iter().map(|operation| format!("host.{operation}"));
+    let host = HostOperation::ALL.iter().map(|operation| format!("host.{operation}"));
     let queue = QueueFigures::default().rows().into_iter().filter(|row| row.unit == "ps").map(|row| row.key);
     host.chain(queue).collect()
 }

@@ -4,7 +4,7 @@ use super::fixed::FixedLane;
 use super::float::{self, ANY, DOUBLE, FloatLane, HOST, HOST_NV, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
-use crate::num::{Format, Kind, Overflow, Rounding};
+use crate::num::{Format, FormatKind, Overflow, Rounding};
 
 /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
 /// formats have their rounding and overflow compiled in; the rest decide at run time.
@@ -31,7 +31,7 @@ impl AnyLane {
     pub(crate) fn new(format: Format) -> Self {
         let f = &format;
         match format.kind {
-            Kind::Fixed { int_bits: i, frac_bits: b } => {
+            FormatKind::Fixed { int_bits: i, frac_bits: b } => {
                 match (format.width() > 16, format.overflow, format.rounding) {
                     (true, ..) => Self::Fixed32(FixedLane::new(f, i, b)),
                     (_, Overflow::Wrap, _) => Self::Fixed16Wrap(FixedLane::new(f, i, b)),
@@ -41,7 +41,7 @@ impl AnyLane {
                     (.., Rounding::Down) => Self::Fixed16Down(FixedLane::new(f, i, b)),
                 }
             }
-            Kind::Float { exp_bits: x, man_bits: m } => match (ieee::path(f), float::path(f)) {
+            FormatKind::Float { exp_bits: x, man_bits: m } => match (ieee::path(f), float::path(f)) {
                 (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(f, x, m)),
                 (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(f, x, m)),
                 (Some(_), _) => Self::IeeeDouble(IeeeLane::new(f, x, m)),

@@ -4,7 +4,7 @@ use super::lane::Lane;
 use super::odd::SIGN;
 use super::{odd, power};
 use crate::exec::lower::{FloatLayout, pow2};
-use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 /// Host `f32` operations are the format's own: binary32, nearest even, IEEE overflow.
 pub(crate) const HOST: u8 = 0;
@@ -57,7 +57,7 @@ pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
 
 /// The path that fits the format, and the only one that [`FloatLane::new`] may be built with besides [`DOUBLE`].
 pub(crate) fn path(format: &Format) -> u8 {
-    let Kind::Float { exp_bits, man_bits } = format.kind else { return DOUBLE };
+    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return DOUBLE };
     let ieee = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap);
     if format.rounding != Rounding::NearestEven {
         DOUBLE

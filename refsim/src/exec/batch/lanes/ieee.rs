@@ -5,7 +5,7 @@ use super::float::FloatLane;
 use super::lane::Lane;
 use super::odd;
 use crate::exec::lower::pow2;
-use crate::num::{Denormals, Format, Kind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 
@@ -36,7 +36,7 @@ pub(crate) struct IeeeLane<const PATH: u8> {
 
 /// The path of an IEEE format; `None` if `format` isn't one.
 pub(crate) fn path(format: &Format) -> Option<u8> {
-    let Kind::Float { exp_bits, man_bits } = format.kind else { return None };
+    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
     let plain = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap)
         && format.rounding == Rounding::NearestEven
         && format.denormals != Denormals::Flush

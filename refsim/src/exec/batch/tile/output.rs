@@ -10,7 +10,7 @@ use crate::exec::batch::schedule::ResultSlots;
 use crate::exec::lower::{Arith, Slot, TRUE};
 use crate::num::{Format, ops};
 use crate::output::{
-    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MOST_TARGETS, OutputRules, OutputState, merge,
+    AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MAX_TARGETS, OutputRules, OutputState, merge,
 };
 
 /// What a program left behind in the lanes of a tile.
@@ -31,7 +31,7 @@ pub(crate) struct Fragment {
     /// As the depth buffer stores it.
     depth: u32,
     /// As slots hold them.
-    colors: [[u32; 4]; MOST_TARGETS],
+    colors: [[u32; 4]; MAX_TARGETS],
 }
 
 impl Shaded<'_> {
@@ -133,7 +133,7 @@ impl OutputStage {
         if survivors.count == 0 {
             return;
         }
-        for i in 0..MOST_TARGETS {
+        for i in 0..MAX_TARGETS {
             let Some(rows) = &mut targets.colors[i] else { continue };
             let Some(colors) = shaded.results.colors[i] else { continue };
             let colors = colors.map(|slot| shaded.slots.row(slot));
@@ -155,7 +155,7 @@ impl OutputStage {
 
     /// The colours that are written and whose targets are not in rows.
     fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
-        let here = (0..MOST_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
+        let here = (0..MAX_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
         here.fold(0, |bits, i| bits | (self.written & 1 << i))
     }
 

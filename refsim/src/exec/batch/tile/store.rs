@@ -3,7 +3,7 @@
 use super::targets::{Coding, ColorRows, PackedChannel, Packing};
 use crate::exec::batch::lanes::{LANES, Lane, LaneFormats, LaneRow, with_any_lane};
 use crate::exec::lower::Arith;
-use crate::num::Kind;
+use crate::num::FormatKind;
 use crate::output::DepthFormat;
 use crate::texture::TargetRounding;
 
@@ -133,27 +133,27 @@ pub(crate) fn quantise(
     let nearest = rounding == TargetRounding::Nearest;
     let to = &mut out.depth;
     match format.kind {
-        Kind::Fixed { frac_bits, .. } if bits > 0 && u32::from(frac_bits) <= bits => {
+        FormatKind::Fixed { frac_bits, .. } if bits > 0 && u32::from(frac_bits) <= bits => {
             return simd.run(
                 #[inline(always)]
                 || fixed_to_steps(row, frac_bits.into(), bits, nearest, to),
             );
         }
-        Kind::Float { .. } if bits > 0 => {
+        FormatKind::Float { .. } if bits > 0 => {
             let (scale, half) = (f64::from((1u32 << bits) - 1), if nearest { 0.5 } else { 0.0 });
             return simd.run(
                 #[inline(always)]
                 || float_to_steps(row, scale, half, to),
             );
         }
-        Kind::Float { .. } if depth == DepthFormat::Float32 => {
+        FormatKind::Float { .. } if depth == DepthFormat::Float32 => {
             return simd.run(
                 #[inline(always)]
                 || float_to_single(row, to),
             );
         }
         // At most 24 bits: exact in single precision.
-        Kind::Fixed { frac_bits, .. } if depth == DepthFormat::Float32 && format.width() <= 24 => {
+        FormatKind::Fixed { frac_bits, .. } if depth == DepthFormat::Float32 && format.width() <= 24 => {
             return simd.run(
                 #[inline(always)]
                 || fixed_to_single(row, frac_bits.into(), to),

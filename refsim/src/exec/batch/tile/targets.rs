@@ -3,7 +3,7 @@
 
 use super::raster::TileFrame;
 use crate::exec::batch::lanes::{LANES, LaneRow};
-use crate::output::{ColorTile, MOST_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
+use crate::output::{ColorTile, MAX_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
 use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
 
 /// What a channel's code is made by.
@@ -82,7 +82,7 @@ pub(crate) struct Targets<'t> {
     /// Depths of the lanes within the tile's region.
     pub(crate) depth: Option<Box<LaneRow>>,
     /// Targets that are written in rows; the others are written in the tile.
-    pub(crate) colors: [Option<ColorRows>; MOST_TARGETS],
+    pub(crate) colors: [Option<ColorRows>; MAX_TARGETS],
 }
 
 impl<'t> Targets<'t> {
