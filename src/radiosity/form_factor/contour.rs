@@ -1,9 +1,9 @@
-//! The exchange of two polygons that see all of each other, as integrals around their outlines (Stokes' theorem, twice):
+//! The exchange of two polygons that lie in front of each other, by contour integrals (Stokes' theorem, twice):
 //!
 //! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, a and b the unit directions of the sides.
 //!
-//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the logarithm has its pole,
-//! are done in closed form altogether. See docs/papers/radiosity.md for the error.
+//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the
+//! logarithm has its pole, are done in closed form altogether. See docs/papers/radiosity.md for the error.
 
 use std::f64::consts::PI;
 
@@ -12,9 +12,9 @@ use crate::geom::elementary::{atan2, ln};
 use crate::geom::vector::unit;
 use glam::DVec3;
 
-/// Directions nearer to a right angle than this add nothing.
+/// Sides with a smaller cosine between them contribute nothing.
 const ACROSS: f64 = 1e-14;
-/// Sides are on one line if they are no farther from it than this, in shares of their length.
+/// Sides are on one line if they are no farther from it than this, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
@@ -25,8 +25,8 @@ struct Edge {
     length: f64,
 }
 
-/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from its front, and
-/// lies wholly in front of the other's plane.
+/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from
+/// its front, and lies wholly in front of the other's plane.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     let others: Vec<Edge> = sides(other).collect();
     let mut sum = 0.0;
@@ -80,7 +80,7 @@ impl Edge {
         self.at(1.0)
     }
 
-    /// Where a point is as this side sees it: along its line from the start, and away from the line.
+    /// A point relative to this side: its distance along the line from the start, and its distance from the line.
     fn seen_from(&self, point: DVec3) -> [f64; 2] {
         let to = point - self.start;
         let along = to.dot(self.direction);
@@ -99,7 +99,7 @@ fn on_one_line(length: f64, t0: f64, t1: f64) -> f64 {
     (twice(t1) - twice(t1 - length)) - (twice(t0) - twice(t0 - length))
 }
 
-/// What `ln |u|` is the second derivative of.
+/// A second antiderivative of `ln |u|`.
 fn twice(u: f64) -> f64 {
     if u == 0.0 { 0.0 } else { u * u * (0.5 * ln(u.abs()) - 0.75) }
 }
