@@ -30,19 +30,23 @@ const CROSSBAR: Law = (
     "src",
     &[
         ("linalg", &[]),
+        ("elementary", &[]),
         ("geom", &["linalg"]),
-        ("scene", &["geom", "linalg"]),
+        ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
-        ("report", &[]),
+        ("report", &["elementary"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "geom", "scene", "linalg", "io"]),
+        ("radiosity", &["card", "elementary", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
-        ("renderer", &["geom", "scene", "linalg"]),
-        ("study", &["ray_engine", "radiosity", "renderer", "report", "card", "geom", "scene", "linalg", "io"]),
+        ("renderer", &["elementary", "geom", "scene", "linalg"]),
+        (
+            "study",
+            &["ray_engine", "radiosity", "renderer", "report", "card", "elementary", "geom", "scene", "linalg", "io"],
+        ),
         (
             "cli",
             &[

@@ -1,12 +1,12 @@
 //! From linear light to the bytes of a display.
 
-use super::sampling::power;
+use crate::elementary::pow;
 
 /// The byte of a linear value: the sRGB curve (IEC 61966-2-1), clipped to [0, 1].
 pub fn srgb(value: f64) -> u8 {
     // NaN becomes black.
     let linear = if value > 0.0 { value.min(1.0) } else { 0.0 };
-    let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * power(linear, 1.0 / 2.4) - 0.055 };
+    let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * pow(linear, 1.0 / 2.4) - 0.055 };
     (curved * 255.0 + 0.5) as u8
 }
 

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::gauss::EIGHT;
-use crate::geom::elementary::{atan2, ln};
+use crate::elementary::{atan2, ln};
 use crate::geom::vector::unit;
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct BoundaryEdge {
     start: DVec3,
     direction: DVec3,
     length: f64,
@@ -28,7 +28,7 @@ struct Edge {
 /// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from
 /// its front, and lies wholly in front of the other's plane.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
-    let others: Vec<Edge> = sides(other).collect();
+    let others: Vec<BoundaryEdge> = sides(other).collect();
     let mut sum = 0.0;
     for a in sides(one) {
         for b in &others {
@@ -41,16 +41,16 @@ pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     sum / (2.0 * PI)
 }
 
-fn sides(polygon: &[DVec3]) -> impl Iterator<Item = Edge> + '_ {
+fn sides(polygon: &[DVec3]) -> impl Iterator<Item = BoundaryEdge> + '_ {
     (0..polygon.len()).filter_map(|i| {
         let (start, end) = (polygon[i], polygon[(i + 1) % polygon.len()]);
         let vector = end - start;
-        Some(Edge { start, direction: unit(vector)?, length: vector.length() })
+        Some(BoundaryEdge { start, direction: unit(vector)?, length: vector.length() })
     })
 }
 
 /// The integral of ln r over both sides.
-fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
+fn logarithm_between(a: &BoundaryEdge, b: &BoundaryEdge) -> f64 {
     let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
     let off = ON_LINE * a.length.max(b.length);
     if near[1] <= off && far[1] <= off {
@@ -71,7 +71,7 @@ fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
         }
 }
 
-impl Edge {
+impl BoundaryEdge {
     fn at(&self, t: f64) -> DVec3 {
         self.start + t * self.length * self.direction
     }

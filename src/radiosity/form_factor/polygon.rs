@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use crate::geom::elementary::atan2;
+use crate::elementary::atan2;
 use crate::radiosity::Patch;
 use glam::DVec3;
 

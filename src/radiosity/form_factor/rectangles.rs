@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use crate::geom::elementary::{atan2, ln};
+use crate::elementary::{atan2, ln};
 
 /// An interval, low end first.
 pub type Interval = [f64; 2];

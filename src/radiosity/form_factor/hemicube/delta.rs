@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use crate::geom::elementary::atan2;
+use crate::elementary::atan2;
 
 /// The delta form factors of the five faces, rows from the top: the top face, then a side.
 #[derive(Clone, Debug, PartialEq)]
