@@ -7,7 +7,7 @@
 //!
 //! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex
 //! where the vertex program is measured, one test of the yardsticks. Everything that a draw needs is in the time:
-//! textures, vertices, set-up, attributes, depth and colour, read-back; `card kept` draws with the same textures,
+//! textures, vertices, set-up, attributes, depth and colour, read-back; `resident` draws with the same textures,
 //! streams and targets again, cleared before.
 
 mod scenes;
@@ -26,8 +26,8 @@ use std::hint::black_box;
 const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 /// Triangles in a draw of the crossbar.
 const TRIANGLES: usize = 256;
-/// What the names of draws on a kept card have besides.
-const KEPT: &str = ", card kept";
+/// What the names of draws on a resident card have besides.
+const RESIDENT: &str = ", resident";
 /// Threads of the figures.
 const THREADS: usize = 2;
 
@@ -82,9 +82,9 @@ fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &Ra
         group.bench_function(BenchmarkId::new(format!("{name} {format}"), executor_name(kind)), |b| {
             b.iter(|| card.intersect(black_box(&mesh), black_box(rays), Sides::Front).expect("the card intersects"));
         });
-        let mut kept = card.keep(&mesh, rays, Sides::Front).expect("the card takes them");
-        group.bench_function(BenchmarkId::new(format!("{name}{KEPT} {format}"), executor_name(kind)), |b| {
-            b.iter(|| black_box(kept.intersect().expect("the card intersects")));
+        let mut resident = card.make_resident(&mesh, rays, Sides::Front).expect("the card takes them");
+        group.bench_function(BenchmarkId::new(format!("{name}{RESIDENT} {format}"), executor_name(kind)), |b| {
+            b.iter(|| black_box(resident.intersect().expect("the card intersects")));
         });
     }
     group.finish();

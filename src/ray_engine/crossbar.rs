@@ -11,10 +11,10 @@ use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
-use super::kept::KeptCard;
 use super::outputs::{Outputs, TargetEncoding};
 use super::pass::{PassCard, PassRequirements};
 use super::range::Range;
+use super::resident::ResidentCrossbar;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::card::KernelError;
@@ -184,17 +184,17 @@ impl Crossbar {
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub fn keep(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<KeptCard, EngineError> {
+    pub fn make_resident(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<ResidentCrossbar, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
         let name = kernel.name;
         if rays.rays().is_empty() || mesh.is_empty() {
-            return Ok(KeptCard::idle(rays.clone(), name));
+            return Ok(ResidentCrossbar::idle(rays.clone(), name));
         }
         let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(KeptCard::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
+        Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
     }
 
     /// The program for a use, from the cache.
