@@ -29,6 +29,7 @@ pub mod card;
 pub mod case;
 pub mod cli;
 pub mod compare;
+pub mod elementary;
 pub mod geom;
 pub mod io;
 pub mod linalg;

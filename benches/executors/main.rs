@@ -1,12 +1,14 @@
-//! How fast the executors are, on the host: the Ray Engine's own programs, 256 rays against 256 triangles, and draws that
-//! are bound by one thing each; beside them, ray-triangle tests of other people's crates.
+//! How fast the executors are, on the host: the Ray Engine's own programs, 256 rays against 256 triangles, and draws
+//! that are bound by one thing each; beside them, ray-triangle tests of other people's crates.
 //!
-//! `cargo bench -p crossbar-benches --bench executors` measures, on two threads; `cargo bench -p crossbar-benches --bench executors -- --table` writes what was
-//! measured last into docs/performance.md.
+//! `cargo bench -p crossbar-benches --bench executors` measures, on two threads;
+//! `cargo bench -p crossbar-benches --bench executors -- --table` writes what was measured last into
+//! docs/performance.md.
 //!
-//! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex where
-//! the vertex program is measured, one test of the yardsticks. Everything that a draw needs is in the time: textures, vertices, set-up,
-//! attributes, depth and colour, read-back; `card kept` draws with the same textures, streams and targets again, cleared before.
+//! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex
+//! where the vertex program is measured, one test of the yardsticks. Everything that a draw needs is in the time:
+//! textures, vertices, set-up, attributes, depth and colour, read-back; `resident` draws with the same textures,
+//! streams and targets again, cleared before.
 
 mod scenes;
 mod table;
@@ -24,13 +26,13 @@ use std::hint::black_box;
 const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 /// Triangles in a draw of the crossbar.
 const TRIANGLES: usize = 256;
-/// What the names of draws on a kept card have besides.
-const KEPT: &str = ", card kept";
+/// What the names of draws on a resident card have besides.
+const RESIDENT: &str = ", resident";
 /// Threads of the figures.
 const THREADS: usize = 2;
 
-/// 256 triangles of the teapot that show the camera their front, from all over it: the vertex program for rays of one origin
-/// moves the quads of the others off the screen.
+/// 256 triangles of the teapot that show the camera their front, from all over it: the vertex program for rays of one
+/// origin moves the quads of the others off the screen.
 fn mesh() -> Mesh {
     let whole = teapot(6).expect("the teapot tessellates");
     let eye = camera(1).eye().map(f64::from);
@@ -80,9 +82,9 @@ fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &Ra
         group.bench_function(BenchmarkId::new(format!("{name} {format}"), executor_name(kind)), |b| {
             b.iter(|| card.intersect(black_box(&mesh), black_box(rays), Sides::Front).expect("the card intersects"));
         });
-        let mut kept = card.keep(&mesh, rays, Sides::Front).expect("the card takes them");
-        group.bench_function(BenchmarkId::new(format!("{name}{KEPT} {format}"), executor_name(kind)), |b| {
-            b.iter(|| black_box(kept.intersect().expect("the card intersects")));
+        let mut resident = card.make_resident(&mesh, rays, Sides::Front).expect("the card takes them");
+        group.bench_function(BenchmarkId::new(format!("{name}{RESIDENT} {format}"), executor_name(kind)), |b| {
+            b.iter(|| black_box(resident.intersect().expect("the card intersects")));
         });
     }
     group.finish();

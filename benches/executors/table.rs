@@ -10,10 +10,10 @@ const END: &str = "<!-- measured: end -->";
 
 /// Figures to beat: millions of elements a second, and whose they are.
 const GOALS: [(&str, f64); 8] = [
-    ("256 rays x 256 triangles, card kept s3.12", 450.0),
-    ("256 rays x 256 triangles, card kept fp32", 390.0),
-    ("256 rays x 256 triangles, card kept fp16", 150.0),
-    ("256 rays x 256 triangles, card kept fp24", 100.0),
+    ("256 rays x 256 triangles, resident s3.12", 450.0),
+    ("256 rays x 256 triangles, resident fp32", 390.0),
+    ("256 rays x 256 triangles, resident fp16", 150.0),
+    ("256 rays x 256 triangles, resident fp24", 100.0),
     // With uploads they are no goals, but how far it is to them is worth seeing.
     ("256 rays x 256 triangles s3.12", 450.0),
     ("256 rays x 256 triangles fp32", 390.0),
@@ -86,7 +86,7 @@ fn table(figures: &Figures) -> String {
     }
     out.push_str("\n| one thread, f32, 256 rays x 256 triangles | tests | batch fp32 / it | batch s3.12 / it |\n|---|---|---|---|\n");
     let batch = |format: &str| {
-        figures.get(&format!("256 rays x 256 triangles, card kept {format}")).and_then(|who| who.get("batch")).copied()
+        figures.get(&format!("256 rays x 256 triangles, resident {format}")).and_then(|who| who.get("batch")).copied()
     };
     for (who, &tests) in figures.values().flatten().filter(|(who, _)| who.starts_with("crate ")) {
         let ratio = |format| batch(format).map_or(String::new(), |b| format!(" {:.2}", b / tests));

@@ -1,11 +1,13 @@
 //! How fast the host traces: the octree path beside other people's trees, in the same run, on the same rays.
 //!
-//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that gives the right answer, with its own ray-triangle
-//! test (once about 5 million rays a second on one thread of such a machine; `obvhs` 8 to 15). Ratios are of one run.
+//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that gives the right answer, with its own
+//! ray-triangle test (once about 5 million rays a second on one thread of such a machine; `obvhs` 8 to 15). Ratios
+//! are of one run.
 //!
-//! `cargo bench -p crossbar-benches --bench host_rays` measures with criterion; `cargo bench -p crossbar-benches --bench host_rays -- --table` measures in its own way and
-//! writes docs/performance.md. One element is one ray: a primary ray asks for the nearest hit, a shadow ray whether there is one
-//! before the light. Trees are built before.
+//! `cargo bench -p crossbar-benches --bench host_rays` measures with criterion;
+//! `cargo bench -p crossbar-benches --bench host_rays -- --table` measures in its own way and writes
+//! docs/performance.md. One element is one ray: a primary ray asks for the nearest hit, a shadow ray whether there is
+//! one before the light. Trees are built before.
 
 mod rooms;
 mod table;

@@ -1,5 +1,6 @@
-//! The table of docs/performance.md. On a shared machine the quickest of many short runs says more than a median of long ones, so
-//! rays are taken a few at a time, by one tracer after the other, again and again; the quickest times of each tracer are added up.
+//! The table of docs/performance.md. On a shared machine the quickest of many short runs says more than a median of
+//! long ones, so rays are taken a few at a time, by one tracer after the other, again and again; the quickest times
+//! of each tracer are added up.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -15,7 +16,8 @@ use crate::{KINDS, Kind, THREADS, rooms};
 
 const BEGIN: &str = "<!-- host rays: begin -->";
 const END: &str = "<!-- host rays: end -->";
-/// Rays that are timed together: less than a millisecond, since longer runs are interrupted and slower tracers with them.
+/// Rays that are timed together: less than a millisecond, since longer runs are interrupted and slower tracers with
+/// them.
 const PART: usize = 1024;
 /// Times that each tracer takes them.
 const ROUNDS: usize = 9;

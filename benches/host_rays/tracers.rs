@@ -50,7 +50,8 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
     ]
 }
 
-/// All of them must see about the same. `bvh` takes triangles for edge-on below an absolute bound, and so misses small ones.
+/// All of them must see about the same. `bvh` takes triangles for edge-on below an absolute bound, and so misses
+/// small ones.
 pub(crate) fn compare(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room) {
     let counts = |tracer: &dyn Tracer| [tracer.nearest(&room.primary), tracer.occluded(&room.shadow)];
     let ours = counts(tracers[0].1.as_ref());

@@ -1,10 +1,11 @@
 //! How fast the emulated cards are: criterion on modelled time.
 //!
-//! `cargo bench -p crossbar-benches --bench modelled`. What is measured is the timeline of a run in picoseconds, so every sample is the same, on every
-//! machine, and a change is a change of the model. (Criterion's own confidence intervals are then points.)
+//! `cargo bench -p crossbar-benches --bench modelled`. What is measured is the timeline of a run in picoseconds, so
+//! every sample is the same, on every machine, and a change is a change of the model. (Criterion's own confidence
+//! intervals are then points.)
 //!
-//! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment of a crossbar draw: a
-//! ray-triangle test.
+//! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment
+//! of a crossbar draw: a ray-triangle test.
 
 mod measurement;
 mod runs;

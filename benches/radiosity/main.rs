@@ -1,10 +1,11 @@
-//! How fast matrix radiosity is on the host: an iteration of 4,096 patches on the batch executor beside loops of f32, and the f64 product of
-//! the host's solvers beside nalgebra's.
+//! How fast matrix radiosity is on the host: an iteration of 4,096 patches on the batch executor beside loops of f32,
+//! and the f64 product of the host's solvers beside nalgebra's.
 //!
-//! Figures to beat: the batch executor no slower than ten times the loop, the product level with nalgebra's matrix-vector product. Ratios
-//! are of one run. One element is one texel of the matrix, or one element.
+//! Figures to beat: the batch executor no slower than ten times the loop, the product level with nalgebra's
+//! matrix-vector product. Ratios are of one run. One element is one texel of the matrix, or one element.
 //!
-//! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` for the second alone, which needs less memory (the first takes 1.5 GB).
+//! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` for the second alone, which needs less
+//! memory (the first takes 1.5 GB).
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::card::Texels;
@@ -45,7 +46,8 @@ fn system(size: usize) -> System {
     System::new(factors, vec![[0.7, 0.5, 0.3]; size], emittance).expect("a system")
 }
 
-/// Equation 4 as anybody would write it down: a row at a time, three channels and a fourth to fill the register, one thread.
+/// Equation 4 as anybody would write it down: a row at a time, three channels and a fourth to fill the register, one
+/// thread.
 fn plain_step(matrix: &Texels, e: &Texels, b: &Texels) -> Vec<[f32; 4]> {
     (0..matrix.height)
         .map(|i| {

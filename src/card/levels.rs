@@ -8,7 +8,8 @@ use refsim::texture::TexelFormat;
 
 use super::{FullScreenPass, new_target};
 
-/// The levels below a texture, each half as wide and high as the one before (rounded down, at least 1), down to one texel.
+/// The levels below a texture, each half as wide and high as the one before (rounded down, at least 1), down to one
+/// texel.
 #[derive(Clone, Debug)]
 pub struct Levels {
     base: [usize; 2],
@@ -32,8 +33,9 @@ impl Levels {
         &self.targets
     }
 
-    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the point of
-    /// it that lies under the fragment's center, in texels: between the four texels that the fragment covers.
+    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the
+    /// point of it that lies under the fragment's center, in texels: between the four texels that the fragment
+    /// covers.
     ///
     /// # Errors
     /// [`MachineError`] if the card refuses a draw.

@@ -6,8 +6,8 @@
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment.
 //!
-//! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the center of
-//! texel i is at i + 0.5.
+//! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the
+//! center of texel i is at i + 0.5.
 
 mod kernel;
 mod levels;

@@ -46,8 +46,9 @@ impl FullScreenPass<'_> {
     }
 }
 
-/// A quad over the whole target, in Direct3D's clip space with pixel centers as in OpenGL. `coordinates` gives the sets of
-/// texture coordinates of a corner by its place: (0, 0) at the outer corner of the first texel, (1, 1) at that of the last.
+/// A quad over the whole target, in Direct3D's clip space with pixel centers as in OpenGL. `coordinates` gives the
+/// sets of texture coordinates of a corner by its place: (0, 0) at the outer corner of the first texel, (1, 1) at
+/// that of the last.
 pub fn full_screen_quad<const SETS: usize>(coordinates: impl Fn(f32, f32) -> [[f32; 4]; SETS]) -> [Vertex; 4] {
     [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]: [f32; 2]| {
         let position = [2.0 * u - 1.0, 1.0 - 2.0 * v, 0.0, 1.0];

@@ -5,17 +5,13 @@
 //! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
 //! - [`classify`]: a renderer's answer held against that truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
-//! - [`angle`]: sine and cosine with the same bits everywhere;
 //! - [`cast`]: whoever finds first hits, seen from those who ask;
-//! - [`elementary`]: logarithm and arc tangent with the same bits everywhere;
 //! - [`vector`]: three f64;
 //! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
 
 pub mod aimed;
-pub mod angle;
 pub mod cast;
 pub mod classify;
-pub mod elementary;
 pub mod exact;
 pub mod mesh;
 pub mod random;

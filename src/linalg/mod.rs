@@ -3,8 +3,8 @@
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
 //! - [`Lu`], [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra.
 //!
-//! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its `std`
-//! feature is on (docs/decisions/0016).
+//! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its
+//! `std` feature is on (docs/decisions/0016).
 
 mod dot;
 mod factor;

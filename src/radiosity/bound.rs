@@ -1,27 +1,28 @@
-//! How far the f32 iteration of [`super::card_order`] can be from the true solution.
+//! Error bounds of the f32 iteration of [`super::card_order`].
 //!
-//! With `A = diag(M)^-1 M`, `e = diag(M)^-1 E` and `G = 1 - A`, the exact step is `x' = e + G x`, and the true solution x* stays where it is.
-//! The card's step is the exact one plus d, the step's rounding and that of the data. So the distance from x* obeys `r' = G r + d`, and in the
-//! largest element `|r'| <= g |r| + |d|` with `g = |G|`, the largest row sum: below 1, since reflectances are. After k steps
+//! With `A = diag(M)^-1 M`, `e = diag(M)^-1 E` and `G = 1 - A`, the exact step is `x' = e + G x`, and the solution x*
+//! is its fixed point. The card's step is the exact one plus d, the rounding errors of the step and of the data. So
+//! the error r obeys `r' = G r + d`, and in the infinity norm `|r'| <= g |r| + |d|` with `g = |G|`, the maximum
+//! absolute row sum: below 1, since reflectances are. After k steps
 //!
 //! `|r| <= g^k |r at the start| + max |d| / (1 - g)`.
 //!
-//! A rounded operation is off by at most `2^-24` of its result (or 2^-150 near zero), so |d| is known from the results that a step had:
-//! [`bounded_step`]. Before any step it is bounded by how many roundings an element goes through: [`before`].
+//! A rounded operation is off by at most `2^-24` of its result (or 2^-150 near zero), so |d| follows from the results
+//! of a step: [`bounded_step`]. Before any step it is bounded by the number of roundings per element: [`before`].
 
 use super::card_order::{CardSystem, RoundingObserver};
 use super::packing::Packing;
 use crate::card::Texels;
 use crate::linalg::Matrix;
 
-/// Half of the distance from 1 to the next f32.
+/// The unit roundoff of f32: half of the distance from 1 to the next number.
 pub const UNIT_F32: f64 = 0.5 * f32::EPSILON as f64;
-/// A hundredth of a percent and more covers what is second order in the unit, and the roundings of the bound itself.
+/// Covers terms of second order in the unit roundoff, and the rounding of the bound itself.
 const SLACK: f64 = 1.001;
-/// What an operation can be off near zero.
+/// The largest error of an operation near zero.
 const TINY: f64 = f32::MIN_POSITIVE as f64 * UNIT_F32;
 
-/// `g`: the largest row sum of magnitudes of `1 - diag(M)^-1 M`.
+/// The contraction factor g: the infinity norm (maximum absolute row sum) of `1 - diag(M)^-1 M`.
 #[must_use]
 pub fn contraction(matrix: &Matrix) -> f64 {
     let of_row = |(i, row): (usize, &[f64])| {
@@ -31,29 +32,30 @@ pub fn contraction(matrix: &Matrix) -> f64 {
     matrix.rows().enumerate().map(of_row).fold(0.0, f64::max)
 }
 
-/// The distance from the true solution, kept up over the steps: in the largest element of a channel.
+/// A bound on the error of a channel in the infinity norm, updated step by step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorBound {
-    /// `g`.
+    /// The contraction factor g.
     pub contraction: f64,
     /// The bound so far.
     pub error: f64,
 }
 
 impl ErrorBound {
-    /// For an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`, the largest element of `diag(M)^-1 E`.
+    /// For an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`, the largest
+    /// element of `diag(M)^-1 E`.
     #[must_use]
     pub fn from_zero(contraction: f64, largest: f64) -> Self {
         Self { contraction, error: largest / (1.0 - contraction) }
     }
 
-    /// A step whose own error is at most `step`.
+    /// Updates the bound for a step with a rounding error of at most `step`.
     pub fn advance(&mut self, step: f64) {
         self.error = (self.contraction * self.error + step) * (1.0 + f64::EPSILON);
     }
 }
 
-/// What a row's operations gave, added up.
+/// Sums of the magnitudes of a row's results.
 #[derive(Clone, Copy, Debug, Default)]
 struct Magnitudes {
     sums: [f64; 4],
@@ -77,18 +79,19 @@ impl RoundingObserver for Magnitudes {
 }
 
 impl Magnitudes {
-    /// |d| a channel: every operation's share, and the data's, which products carry on. `e` is the element of the right side.
+    /// A bound on |d| per channel: the rounding errors of all operations, and of the data, which products propagate.
+    /// `e` is the element of the right-hand side.
     fn bound(&self, e: [f64; 4]) -> [f64; 4] {
         let tiny = TINY * f64::from(4 * self.operations + 16);
         [0, 1, 2, 3].map(|c| SLACK * UNIT_F32 * (self.sums[c] + 2.0 * self.products[c] + e[c].abs()) + tiny)
     }
 }
 
-/// A step, and how far each channel of it can be from the exact step on the system before it was rounded: in its largest element.
-/// With four elements a texel all four results are the same number.
+/// A step, and a bound per channel on its distance from the exact step on the unrounded system, in the infinity norm.
+/// With four elements per texel all four bounds are the same number.
 ///
 /// # Panics
-/// If the texture is no radiosity texture of this system.
+/// If the texture is not a radiosity texture of this system.
 #[must_use]
 pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4]) {
     let rows = card.matrix().height;
@@ -118,10 +121,10 @@ pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4])
     (partial, largest)
 }
 
-/// The most that rounding can lead the card's iteration away from the true solution, however many steps, without making one:
-/// `d / (1 - g)`, where an element of a step has gone through k roundings, k depending on the layout, and is off by
-/// `gamma = k u / (1 - k u)` of the magnitudes that it is made of. Starting from 0, add `g^steps |e| / (1 - g)` for the steps not made.
-/// Infinite where the matrix is too large for the unit, or g not below 1.
+/// An a-priori bound on the error that rounding causes in any number of steps: `d / (1 - g)`, where an element of a
+/// step has k roundings, k depending on the layout, and a relative error of `gamma = k u / (1 - k u)` of the
+/// magnitudes that are summed. Starting from 0, add `g^steps |e| / (1 - g)` for the error of the initial guess.
+/// Infinite where k u is not below 1, or g is not.
 #[must_use]
 pub fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     let texels = card.matrix().width;
@@ -131,7 +134,8 @@ pub fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     };
     let k = roundings as f64 * UNIT_F32;
     let (gamma, open) = (SLACK * k / (1.0 - k), 1.0 - contraction);
-    // |x| + |e| + sum |a| |x| <= (2 + g) |x| + |e|, and |x| is at most x* plus the error itself; starting from 0 it approaches from below.
+    // |x| + |e| + sum |a| |x| <= (2 + g) |x| + |e|, and |x| is at most x* plus the error itself; starting from 0 it
+    // approaches from below.
     let size = largest / open;
     let grows = gamma * (2.0 + contraction) / open;
     if !(k < 1.0 && open > 0.0 && grows < 1.0) {

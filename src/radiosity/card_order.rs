@@ -1,11 +1,11 @@
-//! Equation 4 in f32, operation by operation in the order of a card's passes: what the fragment programs have to give, to the bit.
+//! Equation 4 in f32, in the order of a card's passes: the bits that the fragment programs must give.
 //!
 //! With `A = diag(M)^-1 M` and `e = diag(M)^-1 E`, both made in f64 and rounded once, row i of a step is
 //!
-//! - pass 0 starts from `B_i + e_i`, later passes from what the pass before left;
-//! - each takes `A_ij B_j` off for its block of texels, j rising: a product, rounded, then a difference, rounded;
-//! - with four elements a texel the four partial sums of a block start from 0, are added up from the left at its end, and then to
-//!   what was there.
+//! - pass 0 starts from `B_i + e_i`, later passes from the result of the pass before;
+//! - each subtracts `A_ij B_j` for its block of texels, j rising, and rounds product and difference;
+//! - with four elements per texel the four partial sums of a block start from 0; at its end they are added from the
+//!   left, and the sum to the result of the pass before.
 
 use rayon::prelude::*;
 
@@ -14,10 +14,10 @@ use super::packing::{self, Packing, TooLarge};
 use crate::card::Texels;
 use crate::linalg::Matrix;
 
-/// Rows that one worker takes at a time.
+/// Rows of a parallel task, at least.
 const ROWS: usize = 16;
 
-/// A system as it lies in the card's textures.
+/// A system in the layout of the card's textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
     packing: Packing,
@@ -30,7 +30,8 @@ pub struct CardSystem {
 }
 
 impl CardSystem {
-    /// All three channels of a system, one texel an element. `block` texels a pass, at least 1; textures of at most `limit` texels a side.
+    /// All three channels of a system, one texel per element. `block` texels per pass, at least 1; textures of at
+    /// most `limit` texels per side.
     ///
     /// # Errors
     /// [`TooLarge`].
@@ -47,7 +48,7 @@ impl CardSystem {
         Ok(Self { packing: Packing::Rgb, size, block: block.max(1), matrix, emittance })
     }
 
-    /// One channel, given as matrix and right side, four elements a texel.
+    /// One channel, given as matrix and right-hand side, four elements per texel.
     ///
     /// # Errors
     /// [`TooLarge`].
@@ -60,7 +61,7 @@ impl CardSystem {
         Ok(Self { packing: Packing::Luminance, size, block: block.max(1), matrix, emittance })
     }
 
-    /// A system of nothing but zeros, for questions that values have no part in.
+    /// A system of zeros, for measuring time, which does not depend on values.
     ///
     /// # Errors
     /// [`TooLarge`].
@@ -74,7 +75,7 @@ impl CardSystem {
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })
     }
 
-    /// How elements lie in texels.
+    /// The layout of elements in texels.
     #[must_use]
     pub fn packing(&self) -> Packing {
         self.packing
@@ -110,7 +111,7 @@ impl CardSystem {
         &self.emittance
     }
 
-    /// Passes an iteration: the matrix's width over the block's.
+    /// Passes per iteration: the matrix's width over the block's.
     #[must_use]
     pub fn passes(&self) -> usize {
         self.matrix.width.div_ceil(self.block)
@@ -122,7 +123,8 @@ impl CardSystem {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
-    /// One pass: `radiosity` is the last iteration's, `partial` what the pass before left (pass 0 does not read it).
+    /// One pass. `radiosity` is that of the last iteration, `partial` the result of the pass before, which pass 0
+    /// does not read.
     ///
     /// # Panics
     /// If a texture is too small, or there is no such pass.
@@ -137,7 +139,7 @@ impl CardSystem {
         (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
     }
 
-    /// A pass, and what `observer` made of the results of each row's operations.
+    /// A pass, with an observer of the operations of each row.
     pub(super) fn observed<W: RoundingObserver>(
         &self,
         radiosity: &Texels,
@@ -179,11 +181,11 @@ impl CardSystem {
     }
 }
 
-/// Hears the result of every rounded operation of a row, four at a time, one a channel.
+/// Receives the result of every rounded operation of a row, for the four channels at once.
 pub(super) trait RoundingObserver: Send {
-    /// Of a product.
+    /// After a product.
     fn product(&mut self, value: [f32; 4]);
-    /// Of a sum or difference.
+    /// After a sum or difference.
     fn sum(&mut self, value: [f32; 4]);
 }
 
@@ -201,7 +203,7 @@ fn begin<W: RoundingObserver>(pass: usize, b: [f32; 4], e: [f32; 4], partial: [f
     sum
 }
 
-/// `MAD acc, -m, b, acc` a texel.
+/// `MAD acc, -m, b, acc` per texel.
 fn rgb_row<W: RoundingObserver>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> [f32; 4] {
     for (m, b) in matrix.iter().zip(b) {
         let product = [m[0] * b[0], m[1] * b[1], m[2] * b[2], m[3] * b[3]];
@@ -212,7 +214,7 @@ fn rgb_row<W: RoundingObserver>(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f3
     acc
 }
 
-/// The same on four elements of the row at a time; then their sum from the left (`DP4` with ones), and what was there.
+/// Four elements of the row at a time; then the sum of the four from the left (`DP4` with ones), added to `begin`.
 fn luminance_row<W: RoundingObserver>(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]], observer: &mut W) -> f32 {
     let [x, y, z, w] = rgb_row([0.0; 4], matrix, b, observer);
     let (two, three, four) = (x + y, (x + y) + z, ((x + y) + z) + w);
@@ -221,7 +223,7 @@ fn luminance_row<W: RoundingObserver>(begin: f32, matrix: &[[f32; 4]], b: &[[f32
     sum
 }
 
-/// The right sides alone, over the diagonal that the system's matrix has: one texture of three channels, or one a channel.
+/// The right-hand sides over the diagonal of the system's matrix: one texture of three channels, or one per channel.
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -241,7 +243,7 @@ pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec
     }
 }
 
-/// A matrix with each row over its diagonal element, and the diagonal.
+/// A matrix with each row divided by its diagonal element, and the diagonal.
 fn divided(mut matrix: Matrix) -> (Matrix, Vec<f64>) {
     let diagonal = matrix.diagonal();
     for (i, &d) in diagonal.iter().enumerate() {

@@ -85,8 +85,8 @@ impl Projection {
 
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
-    /// Depth is the distance along the view as a share of the farthest, which the program writes: as fine far away as near by, and
-    /// the eye may touch what it sees. Clip space's z cuts nothing.
+    /// Depth is the distance along the view as a share of the farthest, which the program writes: as fine far away as
+    /// near by, and the eye may touch what it sees. Clip space's z cuts nothing.
     pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], side: Side) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };

@@ -6,8 +6,9 @@ use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
 use crate::geom::Caster;
 use glam::DVec3;
 
-/// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the point in closed form,
-/// and the fraction of sample rays that are unoccluded. `caster` traces [`Patches::mesh`] from both sides.
+/// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the
+/// point in closed form, and the fraction of sample rays that are unoccluded. `caster` traces [`Patches::mesh`] from
+/// both sides.
 ///
 /// # Errors
 /// [`FormFactorError`] for no samples, or rays that the ray caster fails on.

@@ -1,17 +1,18 @@
-//! System 2: matrix radiosity. Diffuse light in a room of patches as a linear system, solved as fragment programs would solve it.
+//! System 2: matrix radiosity. Diffuse light between patches as a linear system, solved by fragment programs.
 //!
 //! docs/papers/radiosity.md maps each equation.
 //!
 //! - [`Patches`]: a scene cut into patches;
-//! - [`FormFactors`]: how much of each patch's light reaches each other one, with visibility asked of a [`crate::geom::Caster`];
+//! - [`FormFactors`]: the fraction of each patch's light that reaches each other patch, visibility by a
+//!   [`crate::geom::Caster`];
 //! - [`System`]: form factors, reflectances and emittances, and the matrix of equation 2;
-//! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a direct solve as truth;
-//! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;
+//! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a reference solution by LU;
+//! - [`packing`], [`card_order`]: texture layouts, and the Jacobi step in f32 in the order of a card's passes;
 //! - [`kernels`], [`on_card`]: the same as fragment programs on an emulated card;
-//! - [`bound`]: how far that step's rounding can lead; [`bias`]: where it leads on average in half precision;
-//! - [`model`], [`rate`]: the paper's passes and operation counts, and how fast a card would be;
-//! - [`display`]: pictures drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
-//! - [`rooms`]: closed boxes to try it on.
+//! - [`bound`]: error bounds of the f32 iteration; [`bias`]: the average effect of half precision;
+//! - [`model`], [`rate`]: the paper's passes and operation counts, and iterations per second of a card;
+//! - [`display`]: images drawn by the card, and radiosities at corners; [`gather`]: irradiance at points;
+//! - [`rooms`]: closed boxes as test scenes.
 //!
 //! ```
 //! use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, rooms, solve};
@@ -22,7 +23,7 @@
 //! factors.enforce_closure()?;
 //! let system = System::new(factors, patches.reflectances(), patches.emittances())?;
 //! let red = system.solve_channel(0, solve::Solver::GaussSeidel, &solve::Options::default(), None)?;
-//! assert!(red.radiosity.iter().all(|b| (b - 1.0).abs() < 1e-5), "a white furnace: as bright everywhere as a black body");
+//! assert!(red.radiosity.iter().all(|b| (b - 1.0).abs() < 1e-5), "a furnace is as bright everywhere as a black body");
 //! # Ok(())
 //! # }
 //! ```

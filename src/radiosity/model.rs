@@ -1,10 +1,10 @@
-//! The paper's counts (sections 3 and 3.1): instructions and passes, floating-point operations, and what they say of the size of its scene.
+//! The paper's counts (sections 3 and 3.1): instructions, passes, floating-point operations.
 
 /// Instructions of a GeForce FX fragment program, at most.
 pub const MAX_INSTRUCTIONS: u32 = 1024;
-/// Instructions a texel: fetch the matrix, fetch the vector, multiply and subtract, step the texture coordinates.
+/// Instructions per texel: fetch the matrix, fetch the vector, multiply and subtract, step the texture coordinates.
 pub const PER_TEXEL: u32 = 4;
-/// Instructions of a pass for all the rest: 1024 = 254 x 4 + 8.
+/// The other instructions of a pass: 1024 = 254 x 4 + 8.
 pub const OVERHEAD: u32 = 8;
 /// Texels of a block on a card of [`MAX_INSTRUCTIONS`]: the paper's 254.
 pub const BLOCK: u32 = block(MAX_INSTRUCTIONS);
@@ -16,7 +16,7 @@ pub const fn block(instructions: u32) -> u32 {
     if fits == 0 { 1 } else { fits }
 }
 
-/// Passes of an iteration: ceil(N / 254) with one element a texel, ceil(N / 1016) with four.
+/// Passes of an iteration: ceil(N / 254) with one element per texel, ceil(N / 1016) with four.
 #[must_use]
 pub const fn passes(patches: u32, elements_a_texel: u32, block: u32) -> u32 {
     patches.div_ceil(elements_a_texel).div_ceil(block)
@@ -28,13 +28,13 @@ pub fn operations(patches: u32) -> f64 {
     2.0 * f64::from(patches) * f64::from(patches)
 }
 
-/// MFLOP/s of so many iterations a second.
+/// MFLOP/s of so many iterations per second.
 #[must_use]
 pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
     operations(patches) * iterations_per_s / 1e6
 }
 
-/// Bytes of matrix that an iteration reads, `bytes` a texel.
+/// Bytes of matrix that an iteration reads, `bytes` per texel.
 #[must_use]
 pub fn matrix_bytes(patches: u32, elements_a_texel: u32, bytes: u32) -> f64 {
     f64::from(patches) * f64::from(patches.div_ceil(elements_a_texel)) * f64::from(bytes)

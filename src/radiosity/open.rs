@@ -1,8 +1,8 @@
-//! Which parts of a patch are open, and which are covered by a solid that stands on it.
+//! The parts of patches that no solid covers.
 //!
-//! No light reaches the floor under a block, and nobody sees it. Averaged in, it would make the radiosity of a patch
-//! that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its light
-//! too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
+//! No light reaches the floor under a block, and it is never visible. Averaged in, it would make the radiosity of a
+//! patch that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its
+//! light too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
 //!
 //! The rule, for each face's plane raised by [`lift`] towards its front, where visibility rays start:
 //!
@@ -10,7 +10,7 @@
 //!    cells.
 //! 2. A cell is covered if from several of its points the first surface in each of 25 directions is seen from behind:
 //!    it lies in a solid.
-//! 3. Everything else is open. What is in doubt (a sheet close above the patch, solids that overlap) counts as open.
+//! 3. Everything else is open. So do doubtful cases: a sheet close above the patch, solids that overlap.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ use crate::geom::{Mesh, Ray};
 const LIFT: f64 = 1.0 / 65_536.0;
 /// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
 const FINEST: f64 = 4.0;
-/// Cells of a patch at most; beyond, the cells stay as they are.
+/// Cells per patch. Beyond, cells are not cut further.
 const MAX_CELLS: usize = 4096;
 /// Test points between a cell's centre and its corners lie this far out.
 const OUTWARDS: f64 = 0.75;
@@ -35,7 +35,7 @@ const OUTWARDS: f64 = 0.75;
 const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
 
 /// How far in front of a patch's plane rays start, for a scene of this diagonal: farther than f32 corners and a
-/// tracer's rounding can be off, nearer than anything that one would model.
+/// tracer's rounding can be off, less than any modelled distance.
 pub(super) fn lift(extent: f64) -> f64 {
     LIFT * extent
 }
@@ -101,7 +101,7 @@ fn cut(cell: ConvexCell, normal: DVec3, segments: &[PlaneSegment], finest: f64, 
     into.push(cell);
 }
 
-/// How much of a segment of this length lies inside a cell.
+/// The length of a segment's part inside a cell.
 fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64) -> f64 {
     let (mut from, mut to) = (0.0_f64, length);
     for (i, &corner) in cell.iter().enumerate() {
@@ -119,7 +119,7 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
     to - from
 }
 
-/// Whether every test ray of a cell sees the back of a surface first. Most cells are open, as their first ray tells.
+/// Whether the first hit of every test ray of a cell is the back of a surface. For most cells the first ray decides.
 fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
     let normal = patch.normal();
     let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);
@@ -147,7 +147,7 @@ fn middle(cell: &[DVec3]) -> DVec3 {
     1.0 / cell.len() as f64 * cell.iter().sum::<DVec3>()
 }
 
-/// The middle of a cell, and a point towards each corner.
+/// The center of a cell, and a point towards each corner.
 fn test_points(cell: &[DVec3]) -> Vec<DVec3> {
     let middle = middle(cell);
     let towards = |&corner: &DVec3| middle + OUTWARDS * (corner - middle);

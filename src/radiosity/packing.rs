@@ -1,4 +1,4 @@
-//! Matrices and vectors as textures of four f32 a texel (section 3): pure layouts, each with its way back.
+//! Matrices and vectors as textures of four f32 per texel (section 3): layouts and their inverses.
 //!
 //! | layout | texel (x, y) of a matrix | texel x of a vector |
 //! |---|---|---|
@@ -6,19 +6,20 @@
 //! | luminance | elements (y, 4x) to (y, 4x + 3) of one matrix | elements 4x to 4x + 3 |
 //! | block-channel | elements (y, x), (y, x + h), (y + h, x), (y + h, x + h), h half the size | |
 //!
-//! Each value is rounded once, from f64. Elements beyond the matrix are 0; a luminance matrix has rows up to a multiple of four.
+//! Each value is rounded once, from f64. Elements beyond the matrix are 0; a luminance matrix has rows up to a
+//! multiple of four.
 
 use thiserror::Error;
 
 use crate::card::Texels;
 use crate::linalg::Matrix;
 
-/// How elements lie in texels.
+/// The layout of elements in texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// One texel an element, three systems at once.
+    /// One texel per element, three systems at once.
     Rgb,
-    /// Four elements a texel, one system.
+    /// Four elements per texel, one system.
     Luminance,
 }
 
@@ -42,7 +43,7 @@ impl Packing {
     }
 }
 
-/// A texture that the card does not have.
+/// A texture larger than the card allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
     "expected {what} that fits a texture of {limit} x {limit} texels, the card's largest, found {width} x {height}; use fewer patches"
@@ -50,7 +51,7 @@ impl Packing {
 pub struct TooLarge {
     /// `a matrix` or `a vector`.
     pub what: &'static str,
-    /// The most texels a side.
+    /// The most texels per side.
     pub limit: usize,
     /// Texels across.
     pub width: usize,
@@ -71,12 +72,12 @@ pub(super) fn filled(
     Ok(Texels::from_fn([width, height], texel))
 }
 
-/// An element, or 0 outside.
+/// An element; 0 outside of the matrix.
 fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
     if row < matrix.row_count() && column < matrix.column_count() { matrix.row(row)[column] as f32 } else { 0.0 }
 }
 
-/// Three matrices of one size, one texel an element. `limit` is the card's largest texture side.
+/// Three matrices of one size, one texel per element. `limit` is the card's largest texture side.
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -87,7 +88,7 @@ pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLar
     })
 }
 
-/// Three vectors, one texel an element.
+/// Three vectors, one texel per element.
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -98,7 +99,8 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge>
     })
 }
 
-/// Columns in fours. Rows are filled up to a multiple of four, so that a vector of four a texel has a row for each of its elements.
+/// Four columns per texel. The number of rows is rounded up to a multiple of four, as that of a vector with four
+/// elements per texel is.
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -108,7 +110,7 @@ pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarg
     })
 }
 
-/// A vector, four elements a texel.
+/// A vector, four elements per texel.
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -117,7 +119,8 @@ pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge
     filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
 }
 
-/// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8 of the paper).
+/// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8
+/// of the paper).
 ///
 /// # Errors
 /// [`TooLarge`].
@@ -128,7 +131,7 @@ pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, Too
     })
 }
 
-/// Back from [`rgb_matrix`]: the matrix of a channel, `size` rows of it, as rows of f32.
+/// The inverse of [`rgb_matrix`]: the first `size` rows and columns of a channel's matrix.
 ///
 /// # Panics
 /// If the texture is smaller.
@@ -137,13 +140,13 @@ pub fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<
     (0..size).map(|y| texels.row(y)[..size].iter().map(|texel| texel[channel]).collect()).collect()
 }
 
-/// Back from [`rgb_vector`].
+/// The inverse of [`rgb_vector`].
 #[must_use]
 pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
     texels.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
 }
 
-/// Back from [`luminance_matrix`].
+/// The inverse of [`luminance_matrix`].
 ///
 /// # Panics
 /// If the texture is smaller.
@@ -152,7 +155,7 @@ pub fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
     (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
 }
 
-/// Back from [`luminance_vector`]: the first `size` elements.
+/// The inverse of [`luminance_vector`]: the first `size` elements.
 ///
 /// # Panics
 /// If the texture is smaller.
@@ -161,7 +164,7 @@ pub fn from_luminance_vector(texels: &Texels, size: usize) -> Vec<f32> {
     texels.texels.as_flattened()[..size].to_vec()
 }
 
-/// Back from [`block_channel_matrix`].
+/// The inverse of [`block_channel_matrix`].
 ///
 /// # Panics
 /// If the texture is smaller.
@@ -172,8 +175,8 @@ pub fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> 
     (0..size).map(|y| (0..size).map(|x| at(y, x)).collect()).collect()
 }
 
-/// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`, then
-/// `a.yyww * b.zwzw`, each a multiplication and an addition with a rounding of its own.
+/// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`,
+/// then `a.yyww * b.zwzw`, each product and each sum rounded.
 ///
 /// # Panics
 /// If the two differ in size.

@@ -3,7 +3,8 @@
 use crate::geom::vector::unit;
 use glam::DVec3;
 
-/// A flat convex patch of constant radiosity. Its front is the side from which the corners run counter-clockwise; its back is black.
+/// A flat convex patch of constant radiosity. Its front is the side from which the corners run counter-clockwise; its
+/// back is black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     corners: [DVec3; 4],
@@ -18,12 +19,12 @@ pub struct Patch {
     pub material: u32,
 }
 
-/// A point of a patch, and the area for which it stands.
+/// A point of a patch with the density of the parametrisation there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchPoint {
-    /// Where it is.
+    /// Its position.
     pub at: DVec3,
-    /// Area for the part of the unit square that it stands for.
+    /// Area per area of the unit square.
     pub density: f64,
 }
 
@@ -87,8 +88,8 @@ impl Patch {
         self.normal.dot(point - self.center)
     }
 
-    /// The unit square laid over the patch: four corners bilinearly, three with one side of the square drawn together. Integrals over
-    /// the patch are integrals over the square of value times density.
+    /// A parametrisation over the unit square: bilinear for four corners; for three, one side of the square is one
+    /// corner. Integrals over the patch are integrals over the square of value times density.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> PatchPoint {
         let [a, b, c, d] = self.corners;

@@ -18,13 +18,14 @@ pub const MAX_PATCHES: usize = MAX_SQUARE;
 /// How finely faces are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Subdivision {
-    /// Every side of every face into so many parts, at least 1: n^2 patches a face.
+    /// Every side of every face into this many parts, at least 1: n^2 patches per face.
     PerSide(u32),
-    /// Into parts as equal in length as whole numbers allow, as many patches as fit within this number. At least one a face.
+    /// Into parts as equal in length as whole numbers allow, as many patches as fit within this number. At least one
+    /// per face.
     AtMost(usize),
 }
 
-/// Why a scene makes no patches.
+/// A scene cannot be cut into patches.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PatchError {
     /// No triangles.
@@ -55,7 +56,7 @@ pub enum PatchError {
     },
 }
 
-/// The patches of a scene, with what visibility needs to know of the faces that they are parts of.
+/// The patches of a scene, with the faces that they are parts of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patches {
     list: Vec<Patch>,
@@ -69,7 +70,8 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex quadrilateral.
+    /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex
+    /// quadrilateral.
     ///
     /// # Errors
     /// [`PatchError`].
@@ -97,13 +99,13 @@ impl Patches {
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }
 
-    /// All patches; a patch's place is its row in the matrix.
+    /// All patches, in the order of the matrix's rows.
     #[must_use]
     pub fn list(&self) -> &[Patch] {
         &self.list
     }
 
-    /// The triangles of the scene, for whoever traces; its hits are to be told by these.
+    /// The triangles of the scene, which visibility rays are traced against.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -124,8 +126,8 @@ impl Patches {
         self.extent
     }
 
-    /// The parts of a patch that no solid covers: itself, if nothing does; nothing, if it is covered altogether.
-    /// Radiosities and form factors are means over them. The rule is in `open.rs`.
+    /// The parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is covered
+    /// altogether. Radiosities and form factors are means over them. The rule is in `open.rs`.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -151,8 +153,8 @@ impl Patches {
         [self.open.len() - altogether, altogether]
     }
 
-    /// The unit square laid over the open parts of a patch, which share its first side in the order and the ratio of
-    /// their areas.
+    /// A parametrisation of the open parts of a patch over the unit square, whose first side they divide in their
+    /// order, in proportion to their areas.
     pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
         let parts = self.open_parts(patch);
         if let [one] = parts {
@@ -205,7 +207,7 @@ fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), Pa
 }
 
 impl Face {
-    /// How many patches it makes.
+    /// The number of its patches.
     fn count(&self, [u, v]: [u32; 2]) -> usize {
         u as usize * v as usize
     }

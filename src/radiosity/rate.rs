@@ -34,8 +34,8 @@ pub struct Timing {
     pub packing: Packing,
     /// Single or half floats.
     pub storage: Storage,
-    /// Whether the texture cache is simulated texel by texel, which takes some thousand times as long, or the least traffic
-    /// is assumed.
+    /// Whether the texture cache is simulated texel by texel, which takes some thousand times as long, or the least
+    /// traffic is assumed.
     pub cache: bool,
 }
 

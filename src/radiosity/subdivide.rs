@@ -1,4 +1,4 @@
-//! Faces, and how they are cut into patches.
+//! Faces of a scene, and their subdivision into patches.
 
 use super::PatchError;
 use super::patch::Patch;
@@ -6,7 +6,8 @@ use crate::geom::vector::wide;
 use crate::scene::Scene;
 use glam::DVec3;
 
-/// How far out of its plane the fourth corner of a face may be, in shares of the longest diagonal: what f32 corners need.
+/// How far out of its plane the fourth corner of a face may be, relative to the longest diagonal: the precision of
+/// f32 corners.
 const FLAT: f64 = 1e-6;
 
 /// A flat convex part of the scene: a triangle, or two that make a quadrilateral.
@@ -66,7 +67,7 @@ fn is_flat_and_convex(quad: &[DVec3; 4]) -> bool {
     lift <= FLAT * longest * normal.length() && turns
 }
 
-/// Parts a side of each face so that all faces together make at most `most` patches, parts as short as that allows.
+/// Parts per side of each face, as short as at most `most` patches in all allow.
 pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
     let longest = faces.iter().flat_map(Face::sides).fold(0.0, f64::max);
     let count = |part: f64| faces.iter().map(|f| f.steps(part)).map(|[u, v]| f64::from(u) * f64::from(v)).sum::<f64>();
@@ -91,7 +92,7 @@ impl Face {
         if n == 3 { [side(0).max(side(1)).max(side(2)); 2] } else { [side(0).max(side(2)), side(1).max(side(3))] }
     }
 
-    /// Parts across and along of at most this length.
+    /// The number of parts of at most this length, across and along.
     fn steps(&self, part: f64) -> [u32; 2] {
         // A hair less, so that what should come out whole does.
         self.sides().map(|side| ((side / part - 1e-9).ceil() as u32).max(1))
@@ -125,7 +126,7 @@ impl Face {
     }
 }
 
-/// A point between two; exactly the ends at 0 and 1.
+/// Linear interpolation; exact at 0 and 1.
 fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     (1.0 - t) * a + t * b
 }

@@ -209,8 +209,8 @@ impl System {
         })
     }
 
-    /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room. It is 0
-    /// for reciprocal form factors and an exact solution.
+    /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room.
+    /// It is 0 for reciprocal form factors and an exact solution.
     #[must_use]
     pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {

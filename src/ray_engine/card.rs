@@ -19,7 +19,7 @@ use super::{EngineError, Form, Hit, Kernel, RayBatch};
 use crate::card::NearestTarget;
 use crate::geom::{Mesh, Ray};
 
-/// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
+/// The resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
 #[derive(Debug)]
 pub(super) struct RayTextures {
     /// All ray textures made so far: sampler, size, texture. Origins take one texel or one a ray.
@@ -31,16 +31,16 @@ pub(super) struct RayTextures {
     target: NearestTarget,
 }
 
-/// What is drawn, beside the triangles.
+/// What a draw needs beside the triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PassInputs<'a> {
     pub(super) kernel: &'a Kernel,
     pub(super) units: &'a Units,
-    /// What the vertex program knows of the rays, if it culls: c3 and on.
+    /// Constants from c3 on that describe the rays to a vertex program that culls.
     pub(super) bucket: &'a [[u32; 4]],
 }
 
-/// What a ray met, as the card says it.
+/// A hit as the card reports it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CardHit {
     pub(super) triangle: u32,
@@ -57,7 +57,7 @@ impl CardHit {
     }
 }
 
-/// What to read back of a bucket, and how.
+/// A read-back of a bucket.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadBack<'a> {
     pub(super) rays: &'a RayBatch,
@@ -86,7 +86,7 @@ impl RayTextures {
         Ok(Self { made, textures, code, target })
     }
 
-    /// Uploads other rays, as many.
+    /// Replaces the rays by as many others.
     pub(super) fn load(
         &mut self,
         machine: &mut Machine,
@@ -103,7 +103,7 @@ impl RayTextures {
         Ok(self.target.clear(machine)?)
     }
 
-    /// One screen-filling quad a triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
+    /// One screen-filling quad per triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
@@ -120,13 +120,14 @@ impl RayTextures {
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
-        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by themselves.
+        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies. Programs that give coordinates kill by
+        // themselves.
         call.alpha_test = (!kernel.weights).then_some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         self.target.keep_nearest(&mut call);
         Ok(machine.draw(&call)?)
     }
 
-    /// What each of the rays hits. If the host does not wait for it, a fence is passed when all of it has come.
+    /// The hit of each ray. If the host does not wait, the fence is passed when all data has arrived.
     pub(super) fn read_back(
         &self,
         machine: &Machine,
@@ -151,7 +152,7 @@ impl RayTextures {
 }
 
 impl ReadBack<'_> {
-    /// Hits from colours and depths.
+    /// Hits from colors and depths.
     fn hits(&self, code: TargetEncoding, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
         let width = self.rays.width();
         let t = |i: usize, ray: &Ray| {
@@ -167,7 +168,7 @@ impl ReadBack<'_> {
     }
 }
 
-/// Rays into textures that were made before, where there are some of the size, else into new ones. Samplers with their textures.
+/// Uploads rays into existing textures of their size or into new ones. Returns samplers with their textures.
 fn upload(
     made: &mut Vec<(usize, Region, TextureId)>,
     machine: &mut Machine,
@@ -218,18 +219,18 @@ impl Card {
         self.sheet.clear(&mut self.machine)
     }
 
-    /// What was asked of the machine, if it records.
+    /// The log since the last call, if the machine records.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 
-    /// One screen-filling quad a triangle.
+    /// One screen-filling quad per triangle.
     pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
         let pass = PassInputs { kernel: &self.kernel, units: &self.units, bucket: &[] };
         self.sheet.draw(&mut self.machine, pass, streams)
     }
 
-    /// What each of the rays hits.
+    /// The hit of each ray.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
         let reading = ReadBack { rays, units: &self.units, triangles: &[], t: true, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
@@ -251,7 +252,7 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Triangles in their order, coloured as a target's code says. The fourth component of a is the place in the pass,
+    /// Triangles in their order, colored by the target's encoding. The fourth component of a is the place in the pass,
     /// that of b the edge scale, that of c nothing.
     pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: TargetEncoding) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.

@@ -11,17 +11,17 @@ use refsim::texture::Region;
 
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
-use super::kept::KeptCard;
 use super::outputs::{Outputs, TargetEncoding};
 use super::pass::{PassCard, PassRequirements};
 use super::range::Range;
+use super::resident::ResidentCrossbar;
 use super::units::Units;
 use super::{Kernel, RayBatch, RayBatchError};
 use crate::card::KernelError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
-/// Triangle ids are 24-bit colours.
+/// Triangle ids are 24-bit colors.
 const MAX_TRIANGLES: usize = 1 << 24;
 /// Sides of the buckets of a batch of eye rays, in pixels.
 const BUCKET: u32 = 32;
@@ -30,7 +30,7 @@ const LIST_BUCKET: u32 = 16;
 /// Rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
 
-/// Why a card cannot intersect.
+/// A card cannot intersect rays with triangles.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum EngineError {
     /// The card's shader versions have no intersection program.
@@ -61,23 +61,23 @@ pub enum EngineError {
     Machine(#[from] MachineError),
 }
 
-/// A batch, answered.
+/// The result of a batch.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// What each ray hits.
+    /// The hit of each ray.
     pub hits: Vec<Option<Hit>>,
     /// What happened on the card.
     pub events: DrawEvents,
     /// The pixel program that ran.
     pub kernel: &'static str,
-    /// What was asked of the card, in order; empty unless it was to be recorded.
+    /// The log of the card; empty unless it was recorded.
     pub log: Vec<Event>,
 }
 
-/// Makes somebody who watches the texels of one bucket.
+/// Creates a `TexelObserver` per bucket.
 pub type MakeWatcher<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
 
-/// Whether the card writes down what is asked of it, and who watches.
+/// Whether the log is recorded, and the observer of texel reads.
 #[derive(Clone, Copy, Default)]
 struct Recording<'a> {
     on: bool,
@@ -106,8 +106,8 @@ impl Crossbar {
         Self { profile: profile.into(), executor: executor.into(), all_pairs: false, kernels: Arc::default() }
     }
 
-    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
-    /// every ray meets every triangle. Buckets are the default.
+    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3),
+    /// or every ray meets every triangle. Buckets are the default.
     #[must_use]
     pub fn all_pairs(mut self, all_pairs: bool) -> Self {
         self.all_pairs = all_pairs;
@@ -122,8 +122,9 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
-    /// The same, and the log of the card: one bucket after the other, as on a card with one set of textures and targets. The answer is
-    /// that of [`Crossbar::intersect`], and the log the same for every executor and number of threads.
+    /// [`Crossbar::intersect`] with the log of the card: one bucket after the other, as on a card with one set of
+    /// textures and targets. The answer is that of [`Crossbar::intersect`], and the log the same for every executor
+    /// and number of threads.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -131,7 +132,7 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: None })
     }
 
-    /// The same log with what a watcher makes of every texel that is read; each bucket has one of its own. The scalar executor draws, slowly.
+    /// [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. The scalar executor draws, slowly.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -145,8 +146,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
-    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the vertex program: the hits
-    /// are the same to the bit. Quads that were culled make no fragments.
+    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the
+    /// vertex program: the hits are the same to the bit. Quads that were culled make no fragments.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -178,25 +179,25 @@ impl Crossbar {
         Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
     }
 
-    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:
-    /// every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
+    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as
+    /// wanted: every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub fn keep(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<KeptCard, EngineError> {
+    pub fn make_resident(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<ResidentCrossbar, EngineError> {
         let kernel = self.kernel((rays.common_origin().is_some(), sides))?;
         check_count(mesh)?;
         let name = kernel.name;
         if rays.rays().is_empty() || mesh.is_empty() {
-            return Ok(KeptCard::idle(rays.clone(), name));
+            return Ok(ResidentCrossbar::idle(rays.clone(), name));
         }
         let units = Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, rays);
         let card = Card::set_up(self.executor.machine(Arc::clone(&self.profile))?, kernel, rays, units)?;
         let ids: Vec<u32> = (0..mesh.len() as u32).collect();
-        Ok(KeptCard::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
+        Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
     }
 
-    /// The program for a use: chosen once.
+    /// The program for a use, from the cache.
     fn kernel(&self, wanted: KernelUse) -> Result<Arc<Kernel>, EngineError> {
         let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, kernel)) = known.iter().find(|(held, _)| *held == wanted) {
@@ -251,7 +252,7 @@ impl Crossbar {
         Ok(answer)
     }
 
-    /// The same for rays in any order and number, in batches of at most 65,536.
+    /// [`Crossbar::intersect`] for rays in any order and number, in batches of at most 65,536.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -265,8 +266,8 @@ impl Crossbar {
         Ok(hits)
     }
 
-    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that its
-    /// rays are to meet in rising order.
+    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that
+    /// its rays are to meet in rising order.
     fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
         let everything = || (0..mesh.len() as u32).collect();
         let Some(origin) = rays.common_origin().filter(|_| !self.all_pairs) else {
@@ -296,7 +297,7 @@ fn tells_apart(format: &Format, most: usize) -> bool {
     }
 }
 
-/// An id as a colour: red is its lowest byte, alpha 1.
+/// An id as a color: red is its lowest byte, alpha 1.
 pub(super) fn color_of_id(id: u32) -> [u32; 4] {
     let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
     [part(0), part(8), part(16), 1.0_f32.to_bits()]

@@ -1,4 +1,4 @@
-//! Which program a device runs.
+//! The choice of an intersection program for a device.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
@@ -10,7 +10,7 @@ use super::kernels;
 use crate::card::KernelText;
 use crate::geom::exact::Sides;
 
-/// Which rays a program serves, and what its texture and constants are.
+/// The rays that a program handles, which decides its textures and constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// `ps_1_4`, rays of one origin: the vertex program knows `ao`.
@@ -24,7 +24,7 @@ pub enum Form {
 /// An intersection program that its device accepts.
 #[derive(Clone, Debug)]
 pub struct Kernel {
-    /// Which rays it serves.
+    /// The rays that it handles.
     pub form: Form,
     /// The pixel program's file.
     pub name: &'static str,
@@ -36,13 +36,13 @@ pub struct Kernel {
     pub signed_rays: bool,
     /// Whether the vertex program culls by the bucket of rays.
     pub culls: bool,
-    /// Whether colour is (u, v, w, place) and not an id.
+    /// Whether color is (u, v, w, place) and not an id.
     pub weights: bool,
 }
 
 impl Kernel {
-    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4` in
-    /// fixed-point formats, as the cards did.
+    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4`
+    /// in fixed-point formats, as the cards did.
     ///
     /// # Errors
     /// [`EngineError::NoKernel`] if the device runs neither.
@@ -72,8 +72,8 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
-    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric coordinates, or both. A
-    /// card without float programs and targets gives ids.
+    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric
+    /// coordinates, or both. A card without float programs and targets gives ids.
     ///
     /// # Errors
     /// As [`Kernel::choose`].

@@ -1,4 +1,4 @@
-//! What comes back of a ray: equation 11's gamma, in bytes.
+//! Per-ray read-back formats: equation 11's gamma, in bytes.
 
 use refsim::device::Profile;
 use refsim::texture::{Image, TexelFormat};
@@ -8,18 +8,18 @@ use super::crossbar::{color_of_id, id_of_color};
 /// What is read back of each ray of a pass (sections 4.2 and 6.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Outputs {
-    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare the hits of several
-    /// cells, computes t of the one triangle again.
+    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare
+    /// the hits of several cells, computes t of the one triangle again.
     Id,
     /// The triangle and the t-buffer: 8 bytes.
     #[default]
     IdAndT,
-    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with [`Outputs::Id`]. Cards
-    /// without float targets return the triangle alone, and the host computes the rest.
+    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with
+    /// [`Outputs::Id`]. Cards without float targets return the triangle alone, and the host computes the rest.
     IdAndBarycentrics,
 }
 
-/// What a colour target of a pass holds.
+/// The encoding of hits in the color target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetEncoding {
     /// Ids of the mesh, 24 bits and a hit mask.
@@ -32,7 +32,7 @@ pub(super) enum TargetEncoding {
     Weights,
 }
 
-/// What one pixel says.
+/// A pixel decoded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PixelResult {
     pub(super) triangle: u32,
@@ -40,7 +40,8 @@ pub(super) struct PixelResult {
 }
 
 impl TargetEncoding {
-    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells them apart.
+    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells
+    /// them apart.
     pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
         let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
         if weights {
@@ -61,7 +62,7 @@ impl TargetEncoding {
         }
     }
 
-    /// The colour that a triangle's quad has.
+    /// The color that a triangle's quad has.
     pub(super) fn color(self, place: usize, id: u32) -> [u32; 4] {
         let part = |bits: u32, most: u32| ((bits & most) as f32 / most as f32).to_bits();
         let place = (place + 1) as u32;
@@ -76,7 +77,7 @@ impl TargetEncoding {
         }
     }
 
-    /// What a pixel of a target says; `None` if nothing was hit.
+    /// Decodes a pixel of a target; `None` if nothing was hit.
     pub(super) fn read(self, image: &Image, x: u32, y: u32, triangles: &[u32]) -> Option<PixelResult> {
         let at =
             |place: u32| Some(PixelResult { triangle: *triangles.get(place.checked_sub(1)? as usize)?, uvw: None });

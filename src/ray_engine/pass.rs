@@ -15,7 +15,7 @@ use super::{EngineError, Kernel, RayBatch};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 
-/// What passes are to do.
+/// Requirements on passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PassRequirements {
     pub(super) outputs: Outputs,
@@ -40,7 +40,7 @@ pub(super) struct PassCard {
 /// The name of a target's format, to tell sheets apart.
 type Format = &'static str;
 
-/// What a draw hands on to its read-back.
+/// A draw that can be read back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnPass {
     units: Units,
@@ -62,12 +62,12 @@ impl PassCard {
         self.kernel.name
     }
 
-    /// Starts or stops writing down what is asked of the card.
+    /// Starts or stops recording the log.
     pub(super) fn record(&mut self, on: bool) {
         self.machine.record(on);
     }
 
-    /// What was asked of it since the last time.
+    /// The log recorded since the last call.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
@@ -102,7 +102,7 @@ impl PassCard {
         Ok(DrawnPass { units, code, sheet, events })
     }
 
-    /// What each ray of a draw hits. If the host does not wait, a fence tells when it may look.
+    /// The hit of each ray of a draw. If the host does not wait, the fence is passed when all data has arrived.
     pub(super) fn read_back(
         &self,
         drawn: &DrawnPass,

@@ -1,4 +1,4 @@
-//! The road that the paper did not take: intersection in the vertex units (section 3.4).
+//! Intersection in the vertex units, which the paper considers and rejects (section 3.4).
 
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
@@ -22,10 +22,10 @@ use crate::geom::{Hit, Mesh, Ray};
 /// Corners of a triangle around a pixel's centre, in pixels.
 const AROUND: [[f32; 2]; 3] = [[0.0, 0.4], [0.4, -0.3], [-0.4, -0.3]];
 
-/// A card that intersects rays with triangles in its vertex units: a draw a ray, three vertices a test.
+/// A card that intersects rays with triangles in its vertex units: one draw per ray, three vertices per test.
 ///
-/// The paper's own program is not printed. This one is the shortest that we found for triangles whose normal and edges lie
-/// ready in vertex memory: 20 instructions.
+/// The paper's own program is not printed. This one is the shortest that we found for triangles whose normal and
+/// edges lie ready in vertex memory: 20 instructions.
 #[derive(Clone, Debug)]
 pub struct VertexCrossbar {
     profile: Profile,
@@ -47,7 +47,7 @@ impl VertexCrossbar {
         self.intersect_on(&mut machine, mesh, rays)
     }
 
-    /// The same on a machine of the caller's, which may be recording.
+    /// [`VertexCrossbar::intersect`] on the caller's machine, which may be recording.
     ///
     /// # Errors
     /// As [`VertexCrossbar::intersect`].

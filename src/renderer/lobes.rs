@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use super::fresnel::{reflectance, reflected, refracted};
-use super::sampling::{cosine, lobe, power};
+use super::sampling::{cosine, lobe};
 use super::surfel::Surfel;
 use super::tracer::Kind;
 use super::vector::mean;
+use crate::elementary::pow;
 use crate::geom::vector::wide;
 use crate::scene::Surface;
 use glam::DVec3;
@@ -67,7 +68,7 @@ impl Lobes {
         if gloss > 0.0 {
             let from_axis = reflected(surfel.view, surfel.shading).dot(towards);
             if from_axis > 0.0 {
-                let shape = power(from_axis, self.exponent) / (2.0 * PI);
+                let shape = pow(from_axis, self.exponent) / (2.0 * PI);
                 value += (self.exponent + 2.0) * shape * cos * self.specular;
                 density += gloss * (self.exponent + 1.0) * shape;
             }

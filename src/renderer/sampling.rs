@@ -1,15 +1,8 @@
 //! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global Illumination Compendium).
-//!
-//! Powers come from `libm`, which is the same everywhere; std's are the platform's.
 
 use super::vector::turned;
-use crate::geom::angle::on_circle;
+use crate::elementary::{on_circle, pow};
 use glam::DVec3;
-
-/// x to the power y, for x >= 0.
-pub(super) fn power(x: f64, y: f64) -> f64 {
-    libm::pow(x, y)
-}
 
 /// A point of the unit disk, uniform in area.
 pub fn disk(u: [f64; 2]) -> [f64; 2] {
@@ -34,7 +27,7 @@ pub fn sphere(u: [f64; 2]) -> DVec3 {
 /// A direction about a unit axis with density `(n + 1) / (2 pi) * cos^n`, for Phong's lobe of exponent n.
 pub fn lobe(axis: DVec3, exponent: f64, u: [f64; 2]) -> DVec3 {
     // 1 - u is never 0.
-    let cosine = power(1.0 - u[0], 1.0 / (exponent + 1.0));
+    let cosine = pow(1.0 - u[0], 1.0 / (exponent + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     let [x, y] = on_circle(u[1]);
     turned(DVec3::new(sine * x, sine * y, cosine), axis)

@@ -4,6 +4,7 @@ use plotters::prelude::*;
 
 use super::ReportError;
 use super::visible::visible;
+use crate::elementary::log10;
 
 /// Pixels of a chart.
 const SIZE: (u32, u32) = (720, 440);
@@ -93,7 +94,7 @@ impl Chart {
         let finite = points.iter().copied().filter(|p| p.0.is_finite() && p.1.is_finite());
         match self.y_scale {
             Scale::Linear => finite.collect(),
-            Scale::Logarithmic => finite.filter(|p| p.1 > 0.0).map(|(x, y)| (x, libm::log10(y))).collect(),
+            Scale::Logarithmic => finite.filter(|p| p.1 > 0.0).map(|(x, y)| (x, log10(y))).collect(),
         }
     }
 

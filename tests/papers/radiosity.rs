@@ -1,6 +1,6 @@
 //! Matrix radiosity: what the paper says of its figures, and what follows from it.
 
-use crossbar::geom::elementary::ln;
+use crossbar::elementary::ln;
 use crossbar::radiosity::model;
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::rate::{Timing, timed_iteration};

@@ -73,7 +73,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "LAW")]
     enforce: Option<Law>,
 
-    /// card, jacobi, gauss-seidel, sor:STEP, shooting or direct; may be repeated [default: card, gauss-seidel and direct]
+    /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and direct]
     #[arg(long, value_name = "S")]
     solver: Vec<ask::SolverArg>,
 

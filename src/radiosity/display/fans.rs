@@ -1,5 +1,4 @@
-//! Corners of patches in the middle of their neighbours' sides: where the patches of one face end between those of the
-//! next.
+//! Patches with T-junctions on their sides, drawn as triangle fans.
 //!
 //! A side that is drawn as one line while the neighbour's corners on it are snapped to the raster's grid would leave a
 //! crack of a sixteenth of a pixel. A patch with such a side is drawn as a fan around its centre, with a vertex at each
@@ -13,7 +12,7 @@ use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// Corners this near to a side lie on it, in shares of the scene's diagonal: what f32 corners need.
+/// Corners this near to a side lie on it, relative to the scene's diagonal: what f32 corners need.
 const ON_SIDE: f64 = 1e-6;
 
 /// A point of a patch with its coordinates in it.
@@ -37,7 +36,7 @@ fn sides(patch: &Patch) -> impl Iterator<Item = [DVec3; 2]> + '_ {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
-/// A side without its direction.
+/// A side, regardless of its direction.
 fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     let mut ends = side.map(place);
     ends.sort_unstable();
@@ -69,7 +68,7 @@ pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     patches.list().iter().map(outline).collect()
 }
 
-/// Which share of a side a point between its ends lies at; `None` if it is not on it.
+/// The parameter in (0, 1) of a point on a side; `None` if it is not on it.
 fn share(point: DVec3, [a, b]: [DVec3; 2], near: f64) -> Option<f64> {
     let (along, to) = (b - a, point - a);
     let t = to.dot(along) / along.dot(along);

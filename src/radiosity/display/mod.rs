@@ -1,7 +1,8 @@
-//! The scene in its radiosities, drawn by the card (section 3.1, Figure 2).
+//! Display of a solution by the card (section 3.1, Figure 2).
 //!
-//! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first into one of
-//! corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the host.
+//! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first
+//! into one of corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the
+//! host.
 
 mod corners;
 mod fans;
@@ -23,7 +24,8 @@ use corners::CornerSets;
 pub use corners::at_corners;
 use resample::Resampler;
 
-/// Which way a vector of radiosities lies in its texture, a rectangle of `rgba32f`: texel i is red, green and blue of patch i.
+/// The orientation of a vector of radiosities in its texture, a rectangle of `rgba32f`: texel i is red, green and
+/// blue of patch i.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VectorTexture {
     /// N x 1 texels.
@@ -46,12 +48,13 @@ impl VectorTexture {
     }
 }
 
-/// How a picture is made.
+/// Parameters of the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplayOptions {
-    /// How the radiosities lie in their texture.
+    /// The layout of the radiosities in their texture.
     pub vector: VectorTexture,
-    /// The target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time; [`TexelFormat::Rgba32f`] keeps all.
+    /// The target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
+    /// [`TexelFormat::Rgba32f`] keeps all.
     pub target: TexelFormat,
 }
 
@@ -61,7 +64,8 @@ impl Default for DisplayOptions {
     }
 }
 
-/// Patches of three corners or of four, whole or as fans: their vertices, and how they are drawn smoothly.
+/// Patches of one kind (quadrilaterals, triangles, fans of quadrilaterals): their vertices, and the program that
+/// interpolates.
 #[derive(Debug)]
 struct PatchShape {
     primitive: Primitive,
@@ -69,7 +73,8 @@ struct PatchShape {
     smooth: CheckedProgram,
 }
 
-/// What it takes of a card to draw a scene's patches from one camera. It belongs to the machine that it was made with.
+/// The programs, vertices and targets for drawing the patches of a scene from one camera, on the machine that it was
+/// made with.
 #[derive(Debug)]
 pub struct Display {
     patches: usize,
@@ -113,10 +118,10 @@ impl Display {
         Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids })
     }
 
-    /// Radiosities of the host as a texture to draw from, one a patch.
+    /// Radiosities of the host as a texture to draw from, one per patch.
     ///
     /// # Errors
-    /// [`DrawError`] if there is not one a patch, or the card's textures are too small.
+    /// [`DrawError`] if there is not one per patch, or the card's textures are too small.
     pub fn upload(&self, machine: &mut Machine, radiosity: &[[f64; 3]]) -> Result<TextureId, DrawError> {
         if radiosity.len() != self.patches {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
@@ -130,7 +135,7 @@ impl Display {
         Ok(vector.upload(machine, TexelFormat::Rgba32f)?)
     }
 
-    /// Each patch in its radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.
+    /// Each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
@@ -139,7 +144,8 @@ impl Display {
         self.picture(machine)
     }
 
-    /// Each patch between the radiosities at its corners, resampled by the card; exposure as with [`Display::flat`].
+    /// Each patch interpolated between radiosities at its corners, resampled by the card; exposure as with
+    /// [`Display::flat`].
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
@@ -159,7 +165,7 @@ impl Display {
         Ok(codes.texels.into_iter().map(|[code, ..]| patch_of(code)).collect())
     }
 
-    /// Clears, and draws all shapes with a program each.
+    /// Clears the target, and draws all patches.
     fn draw<'a>(
         &'a self,
         machine: &mut Machine,
@@ -190,7 +196,7 @@ impl Display {
     }
 }
 
-/// What vertices are made of.
+/// Makes the vertices of patches.
 struct VertexBuilder<'a> {
     patches: &'a Patches,
     camera: &'a Camera,
@@ -232,7 +238,8 @@ impl VertexBuilder<'_> {
     }
 }
 
-/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second and third corner.
+/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second
+/// and third corner.
 fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
     let [b, c] = [[1.0, 0.0], [0.0, 1.0]];
     if patch.corners().len() == 3 { [[0.0, 0.0], b, c, c] } else { [[0.0, 0.0], b, [1.0, 1.0], c] }

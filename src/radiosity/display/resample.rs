@@ -1,4 +1,4 @@
-//! From radiosities of patches to radiosities at corners, by fragment passes: the paper's resampling before it can interpolate.
+//! Resampling of radiosities from patches to corners by fragment passes, which interpolation needs.
 
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
@@ -13,10 +13,10 @@ use crate::radiosity::kernels;
 
 /// Texels across, at most.
 const WIDTH: usize = 512;
-/// Patches that a pass adds to the mean.
+/// Patches per pass.
 const PER_PASS: usize = 4;
 
-/// The texture of corners, and what fills it.
+/// The texture of radiosities at corners, with the passes that fill it.
 #[derive(Debug)]
 pub(super) struct Resampler {
     program: CheckedProgram,
@@ -46,7 +46,7 @@ impl Resampler {
         Ok(Self { program, constants, size: size.map(|side| side as u32), passes, means })
     }
 
-    /// Fills the texture of corners from one of patches.
+    /// Computes the texture of corners from one of patches.
     pub(super) fn run(&self, machine: &mut Machine, radiosity: TextureId) -> Result<TextureId, DrawError> {
         machine.clear_target(self.means.read_by(0), [0; 4])?;
         let [width, height] = self.size.map(|side| side as f32);
@@ -63,14 +63,14 @@ impl Resampler {
         Ok(self.means.read_by(self.passes.len()))
     }
 
-    /// Where a set of patches has its mean.
+    /// The texel of a set of patches.
     pub(super) fn texel(&self, set: u32) -> [f64; 2] {
         let [width, _] = self.size;
         [set % width, set / width].map(|at| f64::from(at) + 0.5)
     }
 }
 
-/// Numbers of the patches that a pass adds, and what they count for.
+/// The numbers of the patches of a pass, and their weights.
 fn upload(
     machine: &mut Machine,
     sets: &[Vec<u32>],

@@ -1,4 +1,4 @@
-//! What form factors must satisfy, and how they are made to.
+//! Enforcement of reciprocity and closure.
 
 use rayon::prelude::*;
 
@@ -9,14 +9,14 @@ const MAX_ROUNDS: u32 = 500;
 /// Rows within this of 1 count as scaled.
 const SCALED: f64 = 1e-13;
 
-/// How rows sum up.
+/// Statistics of the row sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RowSums {
     /// The smallest sum.
     pub least: f64,
     /// The largest sum.
     pub most: f64,
-    /// Light that leaves the room, as a share of what leaves the patches: 1 minus the mean sum, weighted with the
+    /// The fraction of the light leaving patches that leaves the room: 1 minus the mean sum, weighted with the
     /// areas. Blind patches do not count, unless all are blind.
     pub escaping: f64,
     /// Patches that see nothing at all, such as those under a block.
@@ -30,7 +30,7 @@ impl FormFactors {
         self.matrix.times(&vec![1.0; self.len()])
     }
 
-    /// What the row sums say of the room. All zero for no patches.
+    /// Statistics of the row sums. All zero for no patches.
     #[must_use]
     pub fn summary(&self) -> RowSums {
         let sums = self.row_sums();
@@ -48,7 +48,7 @@ impl FormFactors {
         }
     }
 
-    /// The largest difference between A_i F_ij and A_j F_ji, as a share of the larger of the two.
+    /// The largest difference between A_i F_ij and A_j F_ji, relative to the larger of the two.
     #[must_use]
     pub fn reciprocity_error(&self) -> f64 {
         let of_row = |i: usize| {
@@ -59,8 +59,9 @@ impl FormFactors {
         (0..self.len()).into_par_iter().map(of_row).reduce(|| 0.0, f64::max)
     }
 
-    /// Every row within `tolerance` of 1, but for blind patches: those that see nothing at all, because something stands on them. No
-    /// light reaches them or leaves them, so none is lost; [`FormFactors::blind`] names them. A room of blind patches alone is not closed.
+    /// Checks that every row sums to 1 within `tolerance`. Blind patches, which see nothing because a solid stands on
+    /// them, are passed over: no light reaches or leaves them. [`FormFactors::blind`] lists them. A room of blind
+    /// patches alone is not closed.
     ///
     /// # Errors
     /// [`FormFactorError::Open`] names the patch farthest from it.
@@ -86,7 +87,7 @@ impl FormFactors {
         self.row_sums().into_iter().enumerate().filter(|&(_, sum)| sum == 0.0).map(|(patch, _)| patch).collect()
     }
 
-    /// Makes A_i F_ij and A_j F_ji equal: both become their mean.
+    /// Enforces reciprocity: A_i F_ij and A_j F_ji both become their mean.
     pub fn enforce_reciprocity(&mut self) {
         let n = self.len();
         for i in 0..n {
@@ -99,11 +100,11 @@ impl FormFactors {
         }
     }
 
-    /// Makes every row sum to 1 and keeps reciprocity: factors are scaled by d_i d_j, the d found by Sinkhorn and Knopp's iteration
-    /// (1967) in its symmetric form. Rows without any light stay as they are.
+    /// Enforces closure (every row sums to 1) and reciprocity: factors are scaled by d_i d_j, the d found by Sinkhorn
+    /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay as they are.
     ///
     /// # Errors
-    /// [`FormFactorError::NoScaling`] if there is no such scaling, or none was found. The factors are then as they were.
+    /// [`FormFactorError::NoScaling`] if there is no such scaling, or none was found. The factors are then unchanged.
     pub fn enforce_closure(&mut self) -> Result<(), FormFactorError> {
         self.enforce_reciprocity();
         let mut scale = vec![1.0; self.len()];
@@ -121,7 +122,7 @@ impl FormFactors {
         Err(FormFactorError::NoScaling { rounds: MAX_ROUNDS, patch, sum })
     }
 
-    /// F_ij becomes d_i F_ij d_j; reciprocal to the last bit but one.
+    /// F_ij becomes d_i F_ij d_j; reciprocal to one ULP.
     fn scale(&mut self, scale: &[f64]) {
         let areas = &self.areas;
         self.matrix.par_rows_mut().enumerate().for_each(|(i, row)| {

@@ -1,34 +1,34 @@
-//! The exchange of two polygons that see all of each other, as integrals around their outlines (Stokes' theorem, twice):
+//! The exchange of two polygons that lie in front of each other, by contour integrals (Stokes' theorem, twice):
 //!
 //! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, a and b the unit directions of the sides.
 //!
-//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the logarithm has its pole,
-//! are done in closed form altogether. See docs/papers/radiosity.md for the error.
+//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the
+//! logarithm has its pole, are done in closed form altogether. See docs/papers/radiosity.md for the error.
 
 use std::f64::consts::PI;
 
 use super::gauss::EIGHT;
-use crate::geom::elementary::{atan2, ln};
+use crate::elementary::{atan2, ln};
 use crate::geom::vector::unit;
 use glam::DVec3;
 
-/// Directions nearer to a right angle than this add nothing.
+/// Sides with a smaller cosine between them contribute nothing.
 const ACROSS: f64 = 1e-14;
-/// Sides are on one line if they are no farther from it than this, in shares of their length.
+/// Sides are on one line if they are no farther from it than this, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct BoundaryEdge {
     start: DVec3,
     direction: DVec3,
     length: f64,
 }
 
-/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from its front, and
-/// lies wholly in front of the other's plane.
+/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from
+/// its front, and lies wholly in front of the other's plane.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
-    let others: Vec<Edge> = sides(other).collect();
+    let others: Vec<BoundaryEdge> = sides(other).collect();
     let mut sum = 0.0;
     for a in sides(one) {
         for b in &others {
@@ -41,16 +41,16 @@ pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     sum / (2.0 * PI)
 }
 
-fn sides(polygon: &[DVec3]) -> impl Iterator<Item = Edge> + '_ {
+fn sides(polygon: &[DVec3]) -> impl Iterator<Item = BoundaryEdge> + '_ {
     (0..polygon.len()).filter_map(|i| {
         let (start, end) = (polygon[i], polygon[(i + 1) % polygon.len()]);
         let vector = end - start;
-        Some(Edge { start, direction: unit(vector)?, length: vector.length() })
+        Some(BoundaryEdge { start, direction: unit(vector)?, length: vector.length() })
     })
 }
 
 /// The integral of ln r over both sides.
-fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
+fn logarithm_between(a: &BoundaryEdge, b: &BoundaryEdge) -> f64 {
     let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
     let off = ON_LINE * a.length.max(b.length);
     if near[1] <= off && far[1] <= off {
@@ -71,7 +71,7 @@ fn logarithm_between(a: &Edge, b: &Edge) -> f64 {
         }
 }
 
-impl Edge {
+impl BoundaryEdge {
     fn at(&self, t: f64) -> DVec3 {
         self.start + t * self.length * self.direction
     }
@@ -80,7 +80,7 @@ impl Edge {
         self.at(1.0)
     }
 
-    /// Where a point is as this side sees it: along its line from the start, and away from the line.
+    /// A point relative to this side: its distance along the line from the start, and its distance from the line.
     fn seen_from(&self, point: DVec3) -> [f64; 2] {
         let to = point - self.start;
         let along = to.dot(self.direction);
@@ -99,7 +99,7 @@ fn on_one_line(length: f64, t0: f64, t1: f64) -> f64 {
     (twice(t1) - twice(t1 - length)) - (twice(t0) - twice(t0 - length))
 }
 
-/// What `ln |u|` is the second derivative of.
+/// A second antiderivative of `ln |u|`.
 fn twice(u: f64) -> f64 {
     if u == 0.0 { 0.0 } else { u * u * (0.5 * ln(u.abs()) - 0.75) }
 }

@@ -1,4 +1,4 @@
-//! The exchange of two patches: area times form factor, the same from either side.
+//! The exchange of two patches: area times form factor, which is symmetric.
 
 use std::f64::consts::PI;
 
@@ -7,11 +7,12 @@ use super::{contour, polygon};
 use crate::radiosity::Patch;
 use glam::DVec3;
 
-/// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points a direction.
+/// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points per
+/// direction.
 const FAR: f64 = 8.0;
 /// Between this and [`FAR`] they take five; nearer, the contour integral.
 const NEAR: f64 = 3.0;
-/// Corners may lie this far behind a plane, in shares of the patch's radius, and still count as in front of it or on it.
+/// Corners may lie this far behind a plane, relative to the patch's radius, and still count as in front of it or on it.
 const ON_PLANE: f64 = 1e-9;
 
 /// A patch with the points at which its far field is integrated.
@@ -22,7 +23,7 @@ pub(super) struct QuadraturePatch<'a> {
     five: Vec<WeightedPoint>,
 }
 
-/// A point and the area for which it stands.
+/// A quadrature point and its weight, an area.
 type WeightedPoint = (DVec3, f64);
 
 impl<'a> QuadraturePatch<'a> {
@@ -42,7 +43,7 @@ fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
     points
 }
 
-/// How two patches lie to each other.
+/// Whether two patches can see each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Facing {
     /// All of each is in front of the other.
@@ -102,7 +103,7 @@ fn kernel_sum([p, q]: [&Patch; 2], from: &[WeightedPoint], to: &[WeightedPoint])
     sum
 }
 
-/// What a point of one patch and a point of the other exchange an area squared: the cosines at both over pi times the distance squared;
+/// The exchange of two points per area squared: the cosines at both over pi times the distance squared;
 /// 0 behind either.
 pub(super) fn kernel([p, q]: [&Patch; 2], x: DVec3, y: DVec3) -> f64 {
     let to = y - x;

@@ -28,7 +28,7 @@ pub(super) const EIGHT: [GaussPoint; 8] = rule([
     (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
 ]);
 
-/// From [-1, 1], where tables stand, to [0, 1].
+/// A rule on [-1, 1] mapped to [0, 1].
 const fn rule<const N: usize>(table: [GaussPoint; N]) -> [GaussPoint; N] {
     let mut nodes = table;
     let mut i = 0;

@@ -1,11 +1,11 @@
-//! Form factors: F_ij is the share of the light leaving patch i that arrives at patch j without meeting anything else.
+//! Form factors: F_ij is the fraction of the light leaving patch i that reaches patch j directly.
 //!
-//! - between two patches with nothing in between: a Gauss product far away, a contour integral near by, both in f64;
-//! - with something in between: that, times the share of sample rays that get through, asked of whoever traces;
+//! - unoccluded: Gauss quadrature far away, a contour integral near by, both in f64;
+//! - with visibility: the unoccluded factor times the weighted fraction of unoccluded sample rays;
 //! - by hemicubes that a card draws ([`FormFactors::hemicube`]);
-//! - patches by their open parts ([`Patches::open_parts`]): areas and form factors are those of what nothing stands on;
+//! - of the open parts of patches ([`Patches::open_parts`]), those that no solid stands on;
 //! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
-//! - checks and their enforcement: reciprocity, and rows that sum to 1 in a closed room.
+//! - checked, and enforced on request: reciprocity, and closure (rows of a closed room sum to 1).
 
 mod closure;
 mod contour;
@@ -31,21 +31,21 @@ pub use polygon::point_to_polygon;
 pub use visibility::VisibilityParameters;
 pub(super) use visibility::point_share;
 
-/// Why there are no form factors, or not such as were asked for.
+/// Form factors cannot be computed, or do not meet what was required.
 #[derive(Debug, Error)]
 pub enum FormFactorError {
     /// The matrix would be too large.
     #[error(transparent)]
     Size(#[from] MatrixError),
     /// Not one area a row.
-    #[error("expected {rows} areas, one a row, found {areas}")]
+    #[error("expected {rows} areas, one per row, found {areas}")]
     Areas {
         /// Rows of the matrix.
         rows: usize,
         /// Areas given.
         areas: usize,
     },
-    /// An area or form factor that cannot be one.
+    /// An area or form factor out of range.
     #[error("expected {expected}, found {value} for patch {patch} (counted from 0)")]
     Value {
         /// What was expected.
@@ -55,7 +55,7 @@ pub enum FormFactorError {
         /// The patch.
         patch: usize,
     },
-    /// Light gets out.
+    /// The room is not closed.
     #[error(
         "expected a closed room, found patch {patch} (counted from 0) with form factors that sum to {sum}, and {open} of {patches} \
          patches more than {tolerance} from 1 ({blind} more see nothing); close the room, or allow light to leave it"
@@ -107,7 +107,7 @@ pub enum FormFactorError {
     /// The card could not draw.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// Whoever traces could not.
+    /// The ray caster failed.
     #[error(transparent)]
     Cast(#[from] CastError),
 }
@@ -120,10 +120,11 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Form factors from elsewhere: row i, column j is F_ij.
+    /// Form factors from a matrix with F_ij in row i, column j.
     ///
     /// # Errors
-    /// [`FormFactorError`] if the matrix is not square, there is not one positive area per row, or a form factor is negative or no number.
+    /// [`FormFactorError`] if the matrix is not square, there is not one positive area per row, or a form factor is
+    /// negative or no number.
     pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, FormFactorError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         if !matrix.is_square() {
@@ -143,8 +144,7 @@ impl FormFactors {
         Ok(Self { areas, matrix })
     }
 
-    /// As if nothing stood between any two patches: right for convex rooms, and the first step for others. Reciprocal to the last bit
-    /// but one.
+    /// Without occlusion: exact for convex rooms, and the first step for others. Reciprocal to one ULP.
     ///
     /// # Errors
     /// [`FormFactorError::Size`] for too many patches.
@@ -152,11 +152,11 @@ impl FormFactors {
         Ok(Self::from_exchanges(patches.areas(), exchanges(patches)?))
     }
 
-    /// With what stands between patches: each unoccluded form factor times the share of the exchange that sample rays find open.
-    /// `caster` traces [`Patches::mesh`] from both sides. `done` hears of pairs done, and of how many.
+    /// With occlusion: each unoccluded form factor times the weighted fraction of unoccluded sample rays. `caster`
+    /// traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done and of all pairs.
     ///
     /// # Errors
-    /// [`FormFactorError`] for too many patches, no samples, or rays that could not be traced.
+    /// [`FormFactorError`] for too many patches, no samples, or rays that the ray caster fails on.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,
@@ -168,14 +168,14 @@ impl FormFactors {
         Ok(Self::from_exchanges(patches.areas(), exchanges))
     }
 
-    /// From area times form factor above the diagonal.
+    /// From the exchanges above the diagonal.
     fn from_exchanges(areas: Vec<f64>, mut matrix: Matrix) -> Self {
         mirror(&mut matrix);
         matrix.par_rows_mut().zip(&areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
         Self { areas, matrix }
     }
 
-    /// How many patches.
+    /// The number of patches.
     #[must_use]
     pub fn len(&self) -> usize {
         self.areas.len()
@@ -215,7 +215,7 @@ fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
     Ok(matrix)
 }
 
-/// Copies what is above the diagonal to below it.
+/// Copies the upper triangle to the lower one.
 fn mirror(matrix: &mut Matrix) {
     for i in 1..matrix.row_count() {
         for j in 0..i {

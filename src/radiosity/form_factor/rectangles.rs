@@ -1,23 +1,23 @@
-//! Form factors of rectangles in closed form: parallel ones, and ones at right angles. The contour integral of [`super::contour`] with
-//! both integrals done, which leaves a sum over the corners of both.
+//! Form factors of rectangles in closed form: parallel ones, and ones at right angles. The contour integral of
+//! [`super::contour`] with both integrals done, which leaves a sum over the corners of both.
 //!
-//! The corner sums cancel: between small patches far apart, sixteen numbers of order 1 leave one of the order of the patches' areas
-//! multiplied. So each result comes with how far it can be from the truth (docs/papers/radiosity.md derives it), and whole matrices
-//! are not computed this way.
+//! The corner sums cancel: between small patches far apart, sixteen numbers of order 1 leave one of the order of the
+//! patches' areas multiplied. So each result comes with an error bound (docs/papers/radiosity.md derives it), and
+//! matrices are not computed this way.
 
 use std::f64::consts::PI;
 
-use crate::geom::elementary::{atan2, ln};
+use crate::elementary::{atan2, ln};
 
 /// An interval, low end first.
 pub type Interval = [f64; 2];
 
-/// A number and how far it can be from the true one.
+/// A number with an error bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded {
-    /// What was computed.
+    /// The computed number.
     pub value: f64,
-    /// No less than the distance to the truth.
+    /// A bound on the absolute error.
     pub error: f64,
 }
 
@@ -38,8 +38,8 @@ pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded
     })
 }
 
-/// From a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it, `other` at `up` (intervals
-/// that may begin at 0); each runs along y over an interval.
+/// From a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it, `other` at
+/// `up` (intervals that may begin at 0); each runs along y over an interval.
 #[must_use]
 pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounded {
     corner_sum([out, y], [up, y2], |x, y, z, y2| {
@@ -51,8 +51,9 @@ pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounde
     })
 }
 
-/// The signed sum of a corner function over all corners, over 2 pi and the area of the first; and the error that rounding can make.
-/// The function gives its terms, and what stands before its logarithm: near 1 a logarithm's rounding is not in proportion to it.
+/// The signed sum of a corner function over all corners, over 2 pi and the area of the first; with a bound on the
+/// rounding error. The function gives its terms, and what stands before its logarithm: near 1 a logarithm's rounding
+/// is not in proportion to it.
 fn corner_sum(
     one: [Interval; 2],
     other: [Interval; 2],

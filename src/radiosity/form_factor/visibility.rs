@@ -1,7 +1,7 @@
-//! How much of what two patches could exchange gets through: rays between stratified points, weighted with the kernel of the integral.
+//! The visible fraction of the exchange of two patches, by rays between stratified points weighted with the integrand.
 //!
-//! The weights make the share the right one for large samples, and exactly 1 where every ray gets through: a room without anything
-//! in it keeps its closed-form factors to the bit.
+//! The estimate is consistent, and exactly 1 where every ray is unoccluded: an empty room keeps its closed-form
+//! factors to the bit.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,14 +14,14 @@ use crate::geom::{Caster, Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::open::lift;
 
-/// How visibility is sampled.
+/// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilityParameters {
-    /// Strata along a side of a patch: the square of this many rays a pair. At least 1.
+    /// Strata along a side of a patch: the square of this many rays per pair. At least 1.
     pub side: u32,
-    /// Names the random numbers.
+    /// Random seed.
     pub seed: u64,
-    /// Rays that are traced at a time, about.
+    /// Rays traced at a time, approximately.
     pub bundle: usize,
 }
 
@@ -31,7 +31,7 @@ impl Default for VisibilityParameters {
     }
 }
 
-/// A ray between two patches, and what it counts for.
+/// A ray between two patches with its weight.
 #[derive(Clone, Copy, Debug)]
 struct VisibilitySample {
     weight: f64,
@@ -40,7 +40,7 @@ struct VisibilitySample {
     arrives: f32,
 }
 
-/// Multiplies the factors above the diagonal with the share that gets through.
+/// Multiplies the factors above the diagonal with the visible fraction.
 pub(super) fn hide(
     patches: &Patches,
     factors: &mut Matrix,
@@ -73,7 +73,7 @@ pub(super) fn hide(
 }
 
 /// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
-/// other, dealt out at random.
+/// other, assigned at random.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
@@ -103,7 +103,7 @@ fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
     (ray, (1.0 - 2.0 * lift / to.length()) as f32)
 }
 
-/// The share of the samples' weight that gets through; takes a hit for each ray.
+/// The unoccluded fraction of the samples' weight; takes a hit for each ray.
 fn share(
     patches: &Patches,
     faces: [u32; 2],
@@ -113,7 +113,8 @@ fn share(
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
-        // Nothing in the way, the far end itself, or a face that the ray starts or ends on: their planes cannot hide each other.
+        // Nothing in the way, the far end itself, or a face that the ray starts or ends on: their planes cannot hide
+        // each other.
         let passes = |hit: Hit| hit.t >= sample.arrives || faces.contains(&patches.face_of(hit.triangle));
         let hit = if sample.ray.is_some() { hits.next().flatten() } else { None };
         if hit.is_none_or(passes) {
@@ -123,7 +124,7 @@ fn share(
     if open == all { 1.0 } else { open / all }
 }
 
-/// The share of each of some patches that a point with a normal sees, of what it would see with nothing in the way.
+/// The visible fraction of each target patch, seen from a point with a normal.
 pub(in crate::radiosity) fn point_share(
     patches: &Patches,
     [point, normal]: [DVec3; 2],

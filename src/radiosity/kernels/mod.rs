@@ -1,11 +1,12 @@
-//! The fragment programs of matrix radiosity as text. Those that solve are programs for a block of one texel, whose middle is written out
-//! as often as a block has texels: there are no loops in these programs. Those that draw are used as they stand.
+//! The fragment programs of matrix radiosity as text. Solver programs are written for a block of one texel; the
+//! marked part is repeated for each texel of a block, since these programs have no loops. Display programs are
+//! complete.
 
 use super::packing::Packing;
 use crate::card::{KernelText, kernels};
 
 kernels! {
-    /// The programs that are written out for a block.
+    /// Solver programs, to be unrolled for a block.
     BLOCKS:
     RGB_FIRST "rgb_first.fp"
     RGB_NEXT "rgb_next.fp"
@@ -20,7 +21,7 @@ kernels! {
 }
 
 kernels! {
-    /// The programs that draw, as they stand.
+    /// Display programs.
     DRAWING:
     FLAT "flat.fp"
     ID "id.fp"
@@ -29,7 +30,7 @@ kernels! {
     SMOOTH_TRIANGLE "smooth_triangle.fp"
 }
 
-/// The programs of an iteration's first pass and of its later ones.
+/// The programs of the first pass of an iteration and of the later ones.
 #[must_use]
 pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
     match (packing, half) {

@@ -1,7 +1,7 @@
 //! Cycle detection: an iteration in finite precision either reaches its tolerance or returns to an earlier state.
 //!
-//! The digest of every state that is read back is kept. Where a digest repeats, the iteration runs until the state itself
-//! repeats, and states are compared bit for bit: a collision of digests is no cycle.
+//! The digest of every state that is read back is kept. Where a digest repeats, the iteration runs until the state
+//! itself repeats, and states are compared bit for bit: a collision of digests is no cycle.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};
@@ -14,8 +14,8 @@ type Radiosities = [[f32; 3]];
 /// States that repeat for ever, bit for bit: as far as the card's number format converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Iterations after which the first state of the cycle was reached; with [`super::CardOptions::check_every`] above 1,
-    /// the first that was read back.
+    /// Iterations after which the first state of the cycle was reached; with [`super::CardOptions::check_every`]
+    /// above 1, the first that was read back.
     pub entered: u32,
     /// The fewest iterations after which every bit is as it was; 1 is a fixed point.
     pub period: u32,
@@ -53,8 +53,8 @@ fn digest(state: &Radiosities) -> u64 {
 }
 
 impl CardSolver {
-    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not: the card
-    /// then holds `start` again.
+    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not: the
+    /// card then holds `start` again.
     pub(super) fn around(
         &mut self,
         start: &Radiosities,

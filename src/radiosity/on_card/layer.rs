@@ -39,8 +39,8 @@ pub(super) fn same(what: &'static str, expected: usize, found: usize) -> Result<
     if expected == found { Ok(()) } else { Err(CardError::Size { what, expected, found }) }
 }
 
-/// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next partial
-/// sums; the last ones are the new radiosities.
+/// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next
+/// partial sums; the last ones are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
     layout: SystemLayout,

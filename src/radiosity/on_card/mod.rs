@@ -1,9 +1,9 @@
-//! Jacobi iteration (equation 4) on an emulated card: matrix and emittance are uploaded once, a pass is a full-screen quad,
-//! radiosities are a 1-D texture.
+//! Jacobi iteration (equation 4) on an emulated card: matrix and emittance are uploaded once, a pass is a full-screen
+//! quad, radiosities are a 1-D texture.
 //!
-//! A target is one row of texels, with one patch (RGB) or four (luminance) per texel, so that a texture coordinate along it
-//! is a patch's number, as the paper displays it. Half of each quad of 2 x 2 fragments that the card shades lies below that
-//! row and is lost.
+//! A target is one row of texels, with one patch (RGB) or four (luminance) per texel, so that a texture coordinate
+//! along it is a patch's number, as the paper displays it. Half of each quad of 2 x 2 fragments that the card shades
+//! lies below that row and is lost.
 
 mod cycle;
 mod error;
@@ -53,8 +53,8 @@ impl CardSolver {
     /// Uploads a system: one texture of three matrices, or three textures of one.
     ///
     /// # Errors
-    /// [`CardError::NoPrograms`], [`CardError::TooLarge`]; [`CardError::Machine`] if the device lacks the format, or a GPU of the host
-    /// does not open.
+    /// [`CardError::NoPrograms`], [`CardError::TooLarge`]; [`CardError::Machine`] if the device lacks the format, or
+    /// a GPU of the host does not open.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -67,11 +67,12 @@ impl CardSolver {
         Self::of(profile, executor, &systems, storage)
     }
 
-    /// Uploads systems that are already in the card's layout: one, or three luminance systems of one size for the three channels.
+    /// Uploads systems that are already in the card's layout: one, or three luminance systems of one size for the
+    /// three channels.
     ///
     /// # Errors
-    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes, [`CardError::Kernel`] for
-    /// blocks that are too long for the device.
+    /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes,
+    /// [`CardError::Kernel`] for blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -113,7 +114,7 @@ impl CardSolver {
         self.layout.size == 0
     }
 
-    /// Passes an iteration, of each system.
+    /// Passes per iteration, of each system.
     #[must_use]
     pub fn passes(&self) -> usize {
         self.programs.passes.len()
@@ -156,8 +157,8 @@ impl CardSolver {
         Ok(())
     }
 
-    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: what is bound,
-    /// not what is computed.
+    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: what
+    /// is bound, not what is computed.
     pub(in crate::radiosity) fn bind_as_after_iteration(&mut self) -> Result<(), CardError> {
         let passes = self.passes();
         if let (Some(layer), Some(last)) = (self.layers.last(), passes.checked_sub(1)) {
@@ -216,7 +217,8 @@ impl CardSolver {
         self.layers.iter().zip(radiosity).try_for_each(|(layer, texels)| layer.load(machine, texels))
     }
 
-    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are kept.
+    /// Dynamic relighting: uploads the emittances of a system whose matrix is the one on the card. Radiosities are
+    /// kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
@@ -243,8 +245,8 @@ impl CardSolver {
         Ok(())
     }
 
-    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with four
-    /// patches per texel. An iteration changes which textures these are.
+    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with
+    /// four patches per texel. An iteration changes which textures these are.
     #[must_use]
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()

@@ -1,4 +1,5 @@
-//! The block-channel product of reference 8 on a card: half as many texels a side as the matrix has rows, four elements a texel.
+//! The block-channel product of reference 8 on a card: four elements per texel, half as many texels per side as the
+//! matrix has rows.
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use crate::card::{FullScreenPass, PingPong, Texels};
 use crate::radiosity::kernels;
 use crate::radiosity::packing::TooLarge;
 
-/// The most texels of a block on a device, and so the steps of a pass.
+/// The largest block on a device, in texels: the steps of a pass.
 ///
 /// # Errors
 /// [`CardError::NoPrograms`].
@@ -25,11 +26,13 @@ pub fn product_block(profile: &Profile) -> Result<usize, CardError> {
     Ok(kernels::PRODUCT_FIRST.block(instructions).min(kernels::PRODUCT_NEXT.block(instructions)).max(1))
 }
 
-/// The product of two block-channel matrices (see [`crate::radiosity::packing::block_channel_matrix`]), `block` steps a pass, with the
-/// programs that made it. The card's answer is [`crate::radiosity::packing::block_channel_product`]'s to the bit.
+/// The product of two block-channel matrices (see [`crate::radiosity::packing::block_channel_matrix`]), `block` steps
+/// per pass, and the programs that ran. The result is that of [`crate::radiosity::packing::block_channel_product`] to
+/// the bit.
 ///
 /// # Errors
-/// [`CardError`]: no programs of such length, too large, of two sizes, blocks longer than [`product_block`].
+/// [`CardError`] if the device has no such programs, the matrices are too large or differ in size, or the block is
+/// longer than [`product_block`].
 pub fn product(
     profile: impl Into<Arc<Profile>>,
     executor: impl Into<Executor>,

@@ -1,14 +1,15 @@
-//! The programs of an iteration: one for the first pass, one for those in the middle, one for the last block, which may be shorter.
+//! The programs of an iteration: one for the first pass, one for those in the middle, one for the last block, which
+//! may be shorter.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 
 use crate::card::{KernelError, KernelText};
 
-/// A program for a block, as the device has taken it.
+/// A program for a block, accepted by the device.
 #[derive(Clone, Debug)]
 pub struct PassProgram {
-    /// The file that it is written out from.
+    /// The kernel that it was unrolled from.
     pub kernel: KernelText,
     /// The texels of its block.
     pub texels: usize,
@@ -18,13 +19,13 @@ pub struct PassProgram {
 }
 
 impl PassProgram {
-    /// Writes a kernel out for a block and has the device's rules judge it.
+    /// Unrolls a kernel for a block and checks it against the device.
     pub(super) fn new(profile: &Profile, kernel: KernelText, texels: usize) -> Result<Self, KernelError> {
         let (text, checked) = kernel.unrolled_and_checked(profile, texels)?;
         Ok(Self { kernel, texels, text, checked })
     }
 
-    /// How many instructions it has.
+    /// The number of its instructions.
     #[must_use]
     pub fn instructions(&self) -> usize {
         self.checked.instructions.len()

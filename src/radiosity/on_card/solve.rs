@@ -42,8 +42,8 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// Whether the tolerance was reached.
     pub converged: bool,
-    /// The cycle or fixed point in which the radiosities ended without meeting the tolerance. `None` if the iteration ended
-    /// before one was found.
+    /// The cycle or fixed point in which the radiosities ended without meeting the tolerance. `None` if the iteration
+    /// ended before one was found.
     pub cycle: Option<Cycle>,
 }
 
@@ -56,12 +56,13 @@ impl CardSolution {
 }
 
 impl CardSolver {
-    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state repeats bit for
-    /// bit. `system` is the system on the card before rounding; `each` is called whenever the residual is computed.
+    /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state repeats
+    /// bit for bit. `system` is the system on the card before rounding; `each` is called whenever the residual is
+    /// computed.
     ///
     /// # Errors
-    /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`], [`CardError::Machine`]. Reaching the
-    /// maximum of iterations is no error: see [`CardSolution::converged`].
+    /// [`CardError::Size`] if the system has another number of patches, [`CardError::Diverged`],
+    /// [`CardError::Machine`]. Reaching the maximum of iterations is no error: see [`CardSolution::converged`].
     pub fn solve(
         &mut self,
         system: &System,

@@ -2,8 +2,8 @@
 
 use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 
-/// The residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is computed
-/// anew, so that rounding errors do not accumulate in it.
+/// The residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is
+/// computed anew, so that rounding errors do not accumulate in it.
 pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
     let (mut b, diagonal) = (start(problem), problem.matrix.diagonal());
     // A shot reads a column of the matrix.

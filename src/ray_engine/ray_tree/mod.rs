@@ -52,23 +52,23 @@ pub struct RayTreeCounts {
 
 /// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Entry {
+struct RayTreeEntry {
     ray: u32,
     key: Key,
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
-    Bucket(Vec<Entry>),
+enum NodeContents {
+    Bucket(Vec<RayTreeEntry>),
     Inner(Split, [u32; 4]),
 }
 
 #[derive(Clone, Debug)]
-struct Node {
+struct RayTreeNode {
     /// Rays in all buckets below.
     count: usize,
     parent: Option<u32>,
-    kind: Kind,
+    kind: NodeContents,
 }
 
 /// Rays in coherent buckets. A ray is told by a number of the caller's.
@@ -76,7 +76,7 @@ struct Node {
 pub struct RayTree {
     parameters: RayTreeParameters,
     /// The first six are the faces' roots.
-    nodes: Vec<Node>,
+    nodes: Vec<RayTreeNode>,
     free: Vec<u32>,
     counts: RayTreeCounts,
 }
@@ -85,7 +85,7 @@ impl RayTree {
     /// An empty tree. A bucket holds one ray at least.
     pub fn new(parameters: RayTreeParameters) -> Self {
         let parameters = RayTreeParameters { bucket: parameters.bucket.max(1), ..parameters };
-        let root = Node { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
+        let root = RayTreeNode { count: 0, parent: None, kind: NodeContents::Bucket(Vec::new()) };
         Self { parameters, nodes: vec![root; key::FACES], free: Vec::new(), counts: RayTreeCounts::default() }
     }
 
@@ -106,9 +106,9 @@ impl RayTree {
 
     /// The shares of full that the buckets which hold anything are, in no particular order. (The paper: typically 50 to 80 %.)
     pub fn fullness(&self) -> Vec<f64> {
-        let share = |rays: &Vec<Entry>| rays.len() as f64 / self.parameters.bucket as f64;
-        let bucket = |node: &Node| match &node.kind {
-            Kind::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
+        let share = |rays: &Vec<RayTreeEntry>| rays.len() as f64 / self.parameters.bucket as f64;
+        let bucket = |node: &RayTreeNode| match &node.kind {
+            NodeContents::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
             _ => None,
         };
         self.nodes.iter().filter_map(bucket).collect()
@@ -117,10 +117,12 @@ impl RayTree {
     /// Bytes that the tree holds on to.
     pub fn bytes(&self) -> usize {
         let buckets = self.nodes.iter().map(|node| match &node.kind {
-            Kind::Bucket(rays) => rays.capacity() * size_of::<Entry>(),
-            Kind::Inner(..) => 0,
+            NodeContents::Bucket(rays) => rays.capacity() * size_of::<RayTreeEntry>(),
+            NodeContents::Inner(..) => 0,
         });
-        self.nodes.capacity() * size_of::<Node>() + self.free.capacity() * size_of::<u32>() + buckets.sum::<usize>()
+        self.nodes.capacity() * size_of::<RayTreeNode>()
+            + self.free.capacity() * size_of::<u32>()
+            + buckets.sum::<usize>()
     }
 
     /// Puts a ray in.
@@ -132,9 +134,9 @@ impl RayTree {
             let here = &mut self.nodes[node as usize];
             here.count += 1;
             match &mut here.kind {
-                Kind::Inner(split, children) => node = children[split.child(&key)],
-                Kind::Bucket(rays) => {
-                    rays.push(Entry { ray, key });
+                NodeContents::Inner(split, children) => node = children[split.child(&key)],
+                NodeContents::Bucket(rays) => {
+                    rays.push(RayTreeEntry { ray, key });
                     break;
                 }
             }
@@ -145,18 +147,19 @@ impl RayTree {
 
     /// Cuts a bucket that is too full, and any child that is; rays that are all alike stay together.
     fn split(&mut self, node: u32) {
-        let Kind::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
+        let NodeContents::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
         if rays.len() <= self.parameters.bucket {
             return;
         }
         let Some(split) = Split::of(rays) else { return };
-        let mut parts: [Vec<Entry>; 4] = Default::default();
+        let mut parts: [Vec<RayTreeEntry>; 4] = Default::default();
         for entry in std::mem::take(rays) {
             parts[split.child(&entry.key)].push(entry);
         }
-        let children =
-            parts.map(|rays| self.make(Node { count: rays.len(), parent: Some(node), kind: Kind::Bucket(rays) }));
-        self.nodes[node as usize].kind = Kind::Inner(split, children);
+        let children = parts.map(|rays| {
+            self.make(RayTreeNode { count: rays.len(), parent: Some(node), kind: NodeContents::Bucket(rays) })
+        });
+        self.nodes[node as usize].kind = NodeContents::Inner(split, children);
         self.counts.splits += 1;
         for child in children {
             self.split(child);
@@ -164,7 +167,7 @@ impl RayTree {
     }
 
     /// A place for a node.
-    fn make(&mut self, node: Node) -> u32 {
+    fn make(&mut self, node: RayTreeNode) -> u32 {
         if let Some(place) = self.free.pop() {
             self.nodes[place as usize] = node;
             return place;

@@ -1,7 +1,7 @@
 //! Triangles put together piece by piece: where a piece stands, of what it is made, and the piece itself.
 
 use super::super::{Material, PointLight, Scene, View};
-use crate::geom::angle::on_circle;
+use crate::elementary::on_circle;
 use crate::geom::mesh::{Mesh, Welder};
 
 /// A point or vector.

@@ -1,7 +1,7 @@
 //! Closed pieces: blocks, cylinders, spheres, vessels, bent tubes.
 
 use super::parts::{Parts, Place, Stuff, Vec3};
-use crate::geom::angle::on_circle;
+use crate::elementary::on_circle;
 
 /// Corners of a profile sharper than this (cosine of the angle between neighbours) stay sharp.
 const CREASE: f64 = 0.6;

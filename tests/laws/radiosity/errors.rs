@@ -63,7 +63,7 @@ fn systems_of_impossible_surfaces() {
         assert!(system(0.5, e).expect_err("impossible").to_string().starts_with("expected finite emittances"));
     }
     let short = System::new(factors, vec![[0.5; 3]; 5], vec![[0.0; 3]; 6]).expect_err("one too few").to_string();
-    assert_eq!(short, "expected 6 reflectances, one a patch, found 5");
+    assert_eq!(short, "expected 6 reflectances, one per patch, found 5");
 }
 
 #[test]

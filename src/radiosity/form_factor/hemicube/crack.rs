@@ -1,17 +1,19 @@
-//! Cracks: pixels that show nothing, or the inside of a solid, although a front is there.
+//! Cracks: pixels that show nothing, or the inside of a solid, although the center of the pixel sees a front.
 //!
-//! Where the patches of one face end in the middle of a patch of the next, snapping to the raster's grid opens cracks of a sixteenth of a
-//! pixel. A pixel centre that falls into one is asked of the geometry itself; a real opening stays one.
+//! Where the patches of one face end in the middle of a patch of the next, snapping to the raster's grid opens cracks
+//! of a sixteenth of a pixel. For a pixel whose center falls into one, the geometry is ray cast; a real opening stays
+//! one.
 
 use super::item::HemicubeView;
 use crate::radiosity::draw::Projection;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// How far outside a side of a patch a ray may pass and still meet it, in shares of the side: neighbours' corners agree in f32.
+/// How far outside a side of a patch a ray may pass and still meet it, relative to the side: neighbours' corners
+/// agree in f32.
 const SLACK: f64 = 1e-6;
 
-/// Fills the cracks of a face of `width` pixels a row; returns how many there were.
+/// Fills the cracks of a face of `width` pixels per row; returns how many there were.
 pub(super) fn fill(patches: &Patches, eye: &HemicubeView, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
     let height = codes.len() / width;
     let cracks: Vec<usize> =
@@ -35,8 +37,8 @@ fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
     (y - 1..=y + 1).any(|y| codes[y * width + x - 1..=y * width + x + 1].iter().any(|&code| code > 0.0))
 }
 
-/// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right angles, but for
-/// `upwards` of a side, which is twice the normal less `forward`.
+/// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right
+/// angles, but for `upwards` of a side, which is twice the normal less `forward`.
 fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
     let leaning = face.upwards.dot(face.forward);
     let up = face.upwards - leaning * face.forward;
@@ -44,7 +46,7 @@ fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
     face.forward + x * face.across + height * up
 }
 
-/// The colour of the nearest patch along a ray from the eye; 0 for none.
+/// The color of the nearest patch along a ray from the eye; 0 for none.
 fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: DVec3) -> f64 {
     let (mut best, mut first) = (0.0, f64::INFINITY);
     for &(i, code) in &eye.seen {
@@ -58,7 +60,7 @@ fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: 
     best
 }
 
-/// Whether a point of a patch's plane is in the patch, or a hair outside.
+/// Whether a point of a patch's plane is in the patch, or within [`SLACK`] of it.
 fn holds(patch: &Patch, point: DVec3) -> bool {
     let corners = patch.corners();
     (0..corners.len()).all(|i| {

@@ -1,12 +1,12 @@
-//! Delta form factors: what each pixel of a hemicube counts for, in closed form.
+//! Delta form factors, one per pixel of a hemicube, in closed form.
 //!
-//! The share of a patch's light that leaves through a rectangle of the cube is the integral of a cosine over pi over the rectangle's solid
-//! angle. Both kinds of face have an antiderivative at corners, so a pixel is a sum over its four corners, and the sum over all pixels
-//! telescopes to 1.
+//! The fraction of a patch's light that leaves through a rectangle of the cube is the integral of a cosine over pi
+//! over the rectangle's solid angle. Both kinds of face have an antiderivative at corners, so a pixel is a sum over
+//! its four corners, and the sum over all pixels telescopes to 1.
 
 use std::f64::consts::PI;
 
-use crate::geom::elementary::atan2;
+use crate::elementary::atan2;
 
 /// The delta form factors of the five faces, rows from the top: the top face, then a side.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,18 +41,18 @@ impl Deltas {
     }
 }
 
-/// An antiderivative at the corners of a rectangle: what the rectangle counts for.
+/// The integral over a rectangle by an antiderivative at its corners.
 fn corners(f: fn(f64, f64) -> f64, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> f64 {
     (f(x1, y1) - f(x0, y1)) - (f(x1, y0) - f(x0, y0))
 }
 
-/// Of the integrand `1 / (pi (1 + x^2 + y^2)^2)` on the top face, at height 1.
+/// The antiderivative of `1 / (pi (1 + x^2 + y^2)^2)` on the top face, at height 1.
 fn above(x: f64, y: f64) -> f64 {
     let (a, b) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
     (x / a * atan2(y, a) + y / b * atan2(x, b)) / (2.0 * PI)
 }
 
-/// Of the integrand `z / (pi (1 + y^2 + z^2)^2)` on a side face, at distance 1: across it, and upwards.
+/// The antiderivative of `z / (pi (1 + y^2 + z^2)^2)` on a side face, at distance 1: across it, and upwards.
 fn beside(y: f64, z: f64) -> f64 {
     let c = (1.0 + z * z).sqrt();
     -atan2(y, c) / (2.0 * PI * c)
@@ -67,7 +67,8 @@ mod tests {
         for resolution in [2, 4, 16, 64, 256] {
             let Deltas { top, side } = Deltas::new(resolution);
             let (above, beside): (f64, f64) = (top.iter().sum(), side.iter().sum());
-            // A corner is at most 1/4 and off by 8 roundings of it; each pixel adds four, the sum a rounding of at most 1 a pixel.
+            // A corner is at most 1/4 and off by 8 roundings of it; each pixel adds four, the sum a rounding of at
+            // most 1 a pixel.
             let pixels = 3.0 * f64::from(resolution * resolution);
             let tolerance = pixels * (8.0 + 1.0) * f64::EPSILON / 2.0;
             assert!((above + 4.0 * beside - 1.0).abs() <= tolerance, "{resolution}: {}", above + 4.0 * beside - 1.0);

@@ -19,7 +19,8 @@ use crate::radiosity::{Patch, Patches};
 /// Faces of a hemicube: the top, then the sides.
 pub(super) const FACES: usize = 5;
 
-/// A card with an item buffer. The top face lies at the upper left, the sides beside and under it: 2 by 3/2 resolutions.
+/// A card with an item buffer. The top face lies at the upper left, the sides beside and under it: 2 by 3/2
+/// resolutions.
 #[derive(Debug)]
 pub(super) struct ItemBuffer {
     machine: Machine,
@@ -37,7 +38,8 @@ impl ItemBuffer {
         Ok(Self { machine, program, resolution, target })
     }
 
-    /// What a hemicube sees: patches' numbers from 1, negative from behind, 0 for nothing; each face row by row from the top.
+    /// Draws the faces of a hemicube. Pixels are patches' numbers from 1, negative for a back, 0 for none, by rows
+    /// from the top.
     pub(super) fn see(&mut self, patches: &Patches, hemicube: &HemicubeView) -> Result<[Vec<f32>; FACES], DrawError> {
         self.target.clear(&mut self.machine)?;
         for (face, projection) in hemicube.faces.iter().enumerate() {
@@ -108,19 +110,19 @@ fn place(face: usize, resolution: u32) -> Region {
     Region { x, y, width: resolution, height }
 }
 
-/// A hemicube's eye on a patch: what its faces look at, and what they may see.
+/// The views of a hemicube: its five projections, and the patches that may be visible.
 #[derive(Clone, Debug)]
 pub(super) struct HemicubeView {
     pub(super) faces: [Projection; FACES],
-    /// Patches that are not wholly behind the eye's plane, with their colours.
+    /// Patches that are not wholly behind the eye's plane, with their colors.
     pub(super) seen: Vec<(u32, f64)>,
 }
 
-/// Corners this far behind the eye's plane, in shares of the patch's radius, still count as behind it.
+/// Corners this far behind the eye's plane, relative to the patch's radius, still count as behind it.
 const ON_PLANE: f64 = 1e-9;
 
 impl HemicubeView {
-    /// An eye on a point of a patch.
+    /// A hemicube on a point of a patch.
     pub(super) fn new(patches: &Patches, patch: &Patch, point: DVec3) -> Self {
         let corners = patch.corners();
         let normal = patch.normal();
@@ -128,7 +130,8 @@ impl HemicubeView {
         let aside = normal.cross(along);
         let far = patches.extent();
         let top = Projection { eye: point, forward: normal, across: along, upwards: aside, far };
-        // The lower edge of a side lies on the patch's plane, the upper one on the top face: y runs over twice the height less w.
+        // The lower edge of a side lies on the patch's plane, the upper one on the top face: y runs over twice the
+        // height less w.
         let side = |forward: DVec3| Projection {
             eye: point,
             forward,

@@ -1,5 +1,5 @@
-//! Form factors by hemicubes (Cohen and Greenberg, 1985), drawn by a card: from a point of each patch five faces of half a cube into an
-//! item buffer, and for each pixel its delta form factor to the patch that is seen there.
+//! Form factors by hemicubes (Cohen and Greenberg, 1985), drawn by a card: from a point of each patch five faces of
+//! half a cube into an item buffer, and for each pixel its delta form factor to the patch that is seen there.
 
 mod crack;
 mod delta;
@@ -24,7 +24,7 @@ const BUNDLE: usize = 64;
 /// Where else on a patch the eye may be, if its centre sees nothing: thirds of both sides.
 const ELSEWHERE: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 
-/// How hemicubes are drawn.
+/// Parameters of hemicubes.
 #[derive(Clone, Debug)]
 pub struct Hemicube {
     /// Pixels along a side of the top face: even, at least 2.
@@ -34,7 +34,7 @@ pub struct Hemicube {
 }
 
 impl Hemicube {
-    /// So many pixels along a side of the top face, on a GeForce FX 5900 Ultra.
+    /// This many pixels along a side of the top face, on a GeForce FX 5900 Ultra.
     ///
     /// # Panics
     /// Never: the device is a built-in one.
@@ -65,14 +65,15 @@ impl Default for Hemicube {
 
 impl FormFactors {
     /// By hemicubes at the centres of the patches, or of their largest open parts; where a centre sees nothing, at the
-    /// first of nine points that does. What stands in between hides what is behind it, from either side; a back takes
-    /// light from nobody. `done` hears of patches done, and of how many.
+    /// first of nine points that does. Occluders hide what is behind them, from either side; backs receive no light.
+    /// `done` is called with the number of patches done and of all patches.
     ///
     /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
     /// [`FormFactors::enforce_reciprocity`].
     ///
     /// # Errors
-    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment programs.
+    /// [`FormFactorError`] for too many patches, a resolution that the card does not have, or a card without fragment
+    /// programs.
     pub fn hemicube(
         patches: &Patches,
         hemicube: &Hemicube,
@@ -95,7 +96,7 @@ impl FormFactors {
     }
 }
 
-/// What all hemicubes share.
+/// What the rows of all patches are computed with.
 struct HemicubeRows<'a> {
     patches: &'a Patches,
     hemicube: &'a Hemicube,
@@ -129,7 +130,7 @@ impl HemicubeRows<'_> {
         Ok(())
     }
 
-    /// Adds what a hemicube sees to a row; false if it sees nothing.
+    /// Adds the delta form factors of a hemicube to a row; false if it sees nothing.
     fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: DVec3, row: &mut [f64]) -> Result<bool, DrawError> {
         let eye = HemicubeView::new(self.patches, patch, point);
         let mut any = false;

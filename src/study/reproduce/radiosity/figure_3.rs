@@ -1,7 +1,7 @@
 //! Figure 3: the residual of Jacobi and of Gauss-Seidel, iteration by iteration.
 
 use super::{EntryFindings, ReproduceError, failed};
-use crate::geom::elementary::ln;
+use crate::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};

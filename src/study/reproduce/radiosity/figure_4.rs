@@ -1,7 +1,7 @@
 //! Figure 4: the time of an iteration by the size of the matrix, on the card and on the host.
 
 use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
-use crate::geom::elementary::ln;
+use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, Series, Table};
 use crate::study::reproduce::{Bound, EntryChart, FigureRow, Method, Origin, Prose, Standing, Target, number};

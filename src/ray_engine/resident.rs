@@ -1,20 +1,20 @@
-//! A card that keeps what it was given: the crossbar drawn again and again, without uploads.
+//! A crossbar whose rays and triangles are resident on the card, for repeated draws without uploads.
 
 use refsim::event::DrawEvents;
 
 use super::card::{Card, Streams};
 use super::{Answer, EngineError, RayBatch};
 
-/// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::keep`] makes one.
+/// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::make_resident`] makes one.
 #[derive(Debug)]
-pub struct KeptCard {
+pub struct ResidentCrossbar {
     /// Nothing where there are no rays or no triangles.
     work: Option<(Card, Streams)>,
     rays: RayBatch,
     kernel: &'static str,
 }
 
-impl KeptCard {
+impl ResidentCrossbar {
     pub(super) fn new(card: Card, streams: Streams, rays: RayBatch, kernel: &'static str) -> Self {
         Self { work: Some((card, streams)), rays, kernel }
     }
@@ -24,8 +24,8 @@ impl KeptCard {
         Self { work: None, rays, kernel }
     }
 
-    /// Clears the targets, draws every triangle over every ray, and reads back: the answer of [`super::Crossbar::intersect`]
-    /// with all pairs.
+    /// Clears the targets, draws every triangle over every ray, and reads back: the answer of
+    /// [`super::Crossbar::intersect`] with all pairs.
     ///
     /// # Errors
     /// [`EngineError::Machine`] if the card refuses the work.
@@ -53,7 +53,7 @@ mod tests {
     use refsim::machine::ExecutorKind;
 
     #[test]
-    fn every_draw_of_a_kept_card_is_that_of_a_new_one() {
+    fn every_draw_of_resident_rays_is_that_of_a_new_one() {
         let whole = teapot(2).expect("the teapot tessellates");
         let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..64].to_vec()).expect("a part of it");
         let camera = Camera::teapot(16, 16).expect("the default camera");
@@ -63,9 +63,9 @@ mod tests {
             let crossbar = Crossbar::new(profile, ExecutorKind::Batch).all_pairs(true);
             let new = crossbar.intersect(&mesh, &rays, Sides::Front).expect("the card intersects");
             assert!(new.hits.iter().any(Option::is_some), "{device}: something is hit");
-            let mut kept = crossbar.keep(&mesh, &rays, Sides::Front).expect("the card takes them");
+            let mut resident = crossbar.make_resident(&mesh, &rays, Sides::Front).expect("the card takes them");
             for draw in 0..3 {
-                let again = kept.intersect().expect("the card intersects");
+                let again = resident.intersect().expect("the card intersects");
                 assert_eq!((&again.hits, &again.events), (&new.hits, &new.events), "{device}, draw {draw}");
             }
         }
@@ -75,7 +75,8 @@ mod tests {
     fn without_triangles_nothing_is_hit() {
         let rays = RayBatch::new(2, 1, Camera::teapot(2, 1).expect("a camera").rays()).expect("two rays");
         let crossbar = Crossbar::new(Profile::named("ideal-fp32").expect("a device"), ExecutorKind::Batch);
-        let mut kept = crossbar.keep(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
-        assert_eq!(kept.intersect().expect("nothing to do").hits, [None, None]);
+        let mut resident =
+            crossbar.make_resident(&Mesh::default(), &rays, Sides::Front).expect("no triangles are no error");
+        assert_eq!(resident.intersect().expect("nothing to do").hits, [None, None]);
     }
 }

@@ -1,4 +1,28 @@
-//! Sine and cosine with the same bits everywhere: those of the standard library vary by platform.
+//! Elementary functions with the same bits everywhere: those of the standard library vary by platform.
+
+/// The natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// The logarithm to base 10.
+#[must_use]
+pub fn log10(x: f64) -> f64 {
+    libm::log10(x)
+}
+
+/// x to the power y.
+#[must_use]
+pub fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
+/// The angle of the point (x, y) from the x axis, in radians.
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
 
 /// Sine and cosine of an angle in radians.
 #[must_use]
@@ -31,5 +55,8 @@ mod tests {
             [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [0.0, -1.0], [0.0, 1.0],]
         );
         assert_eq!(on_circle(1.0 / 12.0).map(f64::to_bits), [0x3feb_b67a_e858_4cab, 0x3fdf_ffff_ffff_ffff]);
+        assert_eq!(ln(2.0), std::f64::consts::LN_2);
+        assert_eq!(atan2(1.0, 0.0), std::f64::consts::FRAC_PI_2);
+        assert_eq!([ln(0.3).to_bits(), atan2(0.3, 0.7).to_bits()], [0xbff3_4378_fcbd_a721, 0x3fd9_e9bf_3d20_dc71]);
     }
 }
