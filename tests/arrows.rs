@@ -43,7 +43,10 @@ const CROSSBAR: Law = (
         ("radiosity", &["card", "picture", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
         ("renderer", &["picture", "geom", "scene", "linalg"]),
-        ("study", &["ray_engine", "radiosity", "renderer", "report", "picture", "card", "geom", "scene", "linalg", "io"]),
+        (
+            "study",
+            &["ray_engine", "radiosity", "renderer", "report", "picture", "card", "geom", "scene", "linalg", "io"],
+        ),
         (
             "cli",
             &[

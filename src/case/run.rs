@@ -100,9 +100,8 @@ fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> 
 fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, PictureError> {
     let (width, height) = (target.width(), target.height());
     let record = target.format().record();
-    let texels = (0..height)
-        .flat_map(|y| (0..width).map(move |x| (x, y)))
-        .map(|(x, y)| target.texel(0, 0, y, x, minimum));
+    let texels =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| target.texel(0, 0, y, x, minimum));
     if record.stored().iter().all(|channel| channel.class == ChannelClass::Unorm) {
         let deep = record.stored().iter().any(|channel| channel.bits > 8);
         let bytes = if deep {
@@ -116,10 +115,12 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
     }
     let values: Vec<[f32; 4]> = texels.map(|texel| texel.to_format(Format::FP32).map(f32::from_bits)).collect();
     let plane = |channel: usize| Samples::Float(values.iter().map(|value| value[channel]).collect());
-    let picture = ["R", "G", "B", "A"].into_iter().enumerate().try_fold(
-        Picture::new(width, height),
-        |picture, (channel, name)| picture.with(name, ChannelUnit::Unknown, plane(channel)),
-    )?;
+    let picture = ["R", "G", "B", "A"]
+        .into_iter()
+        .enumerate()
+        .try_fold(Picture::new(width, height), |picture, (channel, name)| {
+            picture.with(name, ChannelUnit::Unknown, plane(channel))
+        })?;
     Ok((format!("{stem}.exr"), exr(&picture)?))
 }
 

@@ -1,4 +1,4 @@
-//! `--caster`: who finds first hits where no card is asked ray by ray.
+//! `--caster`: the ray caster behind first hits.
 
 use clap::ValueEnum;
 use refsim::device::Profile;
@@ -14,7 +14,7 @@ use crate::ray_engine::HostTracer;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::ray_engine::octree::OctreeParameters;
 
-/// Who finds first hits.
+/// A ray caster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum CasterArg {
     /// The host's octree, in single precision

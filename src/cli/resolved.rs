@@ -9,7 +9,8 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 const WITHOUT_EFFECT: [&str; 9] =
     ["out", "executor", "adapter", "native", "json", "threads", "all_errors", "memory_limit", "help"];
 
-/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option replaces is left out.
+/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option
+/// replaces is left out.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
     let Some((name, matches)) = matches.subcommand() else { return program.get_name().to_owned() };
     let mut text = format!("{} {name}", program.get_name());
@@ -72,7 +73,10 @@ mod tests {
             resolved(&["crossbar", "leaky-teapot", "--format", "fp16", "--out", "x", "--executor", "scalar", "--json"]),
             "crossbar leaky-teapot --size 512x512 --tessellation 8 --format fp16 --rays-per-edge 4 --seed 1 --sides front"
         );
-        assert_eq!(resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]), "crossbar reproduce figure-7 equation-11");
+        assert_eq!(
+            resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),
+            "crossbar reproduce figure-7 equation-11"
+        );
     }
 
     /// What is written can be given again.

@@ -1,4 +1,5 @@
-//! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the exit code.
+//! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the
+//! exit code.
 //!
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
 

@@ -45,7 +45,8 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
 
 /// The first layer of an EXR file, in its largest resolution. Halves become singles.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
-    let broken = |error: exr::error::Error| PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() };
+    let broken =
+        |error: exr::error::Error| PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() };
     // The size first: the reader takes memory for what the header says.
     let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
     for header in &meta.headers {
@@ -66,7 +67,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     let mut picture = Picture::new(layer.size.width() as u32, layer.size.height() as u32);
     for channel in layer.channel_data.list {
         let name = channel.name.to_string();
-        let unit = if matches!(name.as_str(), "R" | "G" | "B" | "Y") { ChannelUnit::Linear } else { ChannelUnit::Unknown };
+        let unit =
+            if matches!(name.as_str(), "R" | "G" | "B" | "Y") { ChannelUnit::Linear } else { ChannelUnit::Unknown };
         let samples = match channel.sample_data {
             FlatSamples::U32(samples) => Samples::Uint(samples),
             FlatSamples::F32(samples) => Samples::Float(samples),

@@ -1,7 +1,7 @@
 //! Radiance HDR files: three mantissas of 8 bits share an exponent, so that the brightest channel is right to 1/256.
 
 use image::codecs::hdr::HdrEncoder;
-use image::{ImageEncoder as _, ExtendedColorType};
+use image::{ExtendedColorType, ImageEncoder as _};
 
 use super::{Picture, PictureError, PictureFormat};
 

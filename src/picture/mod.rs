@@ -1,7 +1,9 @@
-//! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as these.
+//! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as
+//! these.
 //!
-//! A [`Picture`] keeps what was measured or read, in single precision. [`RgbImage`] is what a screen shows: 8 bits per channel, made
-//! from linear light by the one curve in [`display`]. Everything here is bytes in memory; `io::picture` reads files.
+//! A [`Picture`] keeps what was measured or read, in single precision. [`RgbImage`] is what a screen shows: 8 bits per
+//! channel, made from linear light by the one curve in [`display`]. Everything here is bytes in memory; `io::picture`
+//! reads files.
 
 pub mod display;
 mod exr;
@@ -92,7 +94,9 @@ pub enum PictureError {
         found: String,
     },
     /// The picture is larger than any that is read.
-    #[error("expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels")]
+    #[error(
+        "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels"
+    )]
     #[diagnostic(code(crossbar::picture::size))]
     TooLarge {
         /// Pixels per row.

@@ -42,7 +42,8 @@ where
     C: Deref<Target = [P::Subpixel]>,
 {
     let mut file = Cursor::new(Vec::new());
-    let refused = |error: image::ImageError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
+    let refused =
+        |error: image::ImageError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
     image.write_to(&mut file, ImageFormat::Png).map_err(refused)?;
     Ok(file.into_inner())
 }

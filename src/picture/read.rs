@@ -57,8 +57,9 @@ pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_byte
 }
 
 impl Picture {
-    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB values `R`, `G`, `B`
-    /// (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is read.
+    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB
+    /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is
+    /// read.
     ///
     /// # Errors
     /// [`PictureError`].
@@ -90,7 +91,8 @@ fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<
 fn from_png(image: &DynamicImage) -> Result<Picture, PictureError> {
     // k / 255 is 257 k / 65535, to the bit.
     let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());
-    let names = [("R", ChannelUnit::Srgb), ("G", ChannelUnit::Srgb), ("B", ChannelUnit::Srgb), ("A", ChannelUnit::Linear)];
+    let names =
+        [("R", ChannelUnit::Srgb), ("G", ChannelUnit::Srgb), ("B", ChannelUnit::Srgb), ("A", ChannelUnit::Linear)];
     let mut named = names.into_iter().take(if alpha { 4 } else { 3 }).enumerate();
     named.try_fold(Picture::new(image.width(), image.height()), |picture, (channel, (name, unit))| {
         let samples = image.pixels().map(|pixel| f32::from(pixel.0[channel]) / 65535.0).collect();

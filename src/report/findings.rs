@@ -91,8 +91,8 @@ impl NamedPicture {
     }
 }
 
-/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is only written
-/// to a file. Every picture and chart is encoded once, for its file and the page.
+/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is
+/// only written to a file. Every picture and chart is encoded once, for its file and the page.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub(super) title: String,
@@ -210,7 +210,8 @@ impl Findings {
         Value::Object(document)
     }
 
-    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the files of its own.
+    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
+    /// files of its own.
     ///
     /// # Errors
     /// If an encoder refuses.

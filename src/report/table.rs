@@ -115,7 +115,7 @@ impl Table {
         &self.rows
     }
 
-    /// The table for a log or another program, without the title: one line a row, columns as wide as they need to be.
+    /// The table for a log or another program, without the title: one line per row, columns as wide as they need to be.
     pub fn text(&self) -> String {
         self.laid_out(comfy_table::Table::new().set_content_arrangement(ContentArrangement::Disabled))
     }

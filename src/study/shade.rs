@@ -37,9 +37,8 @@ impl<'a> TeapotShader<'a> {
 
     /// The picture of a batch of rays. `hits` holds the triangle of each ray, or none.
     pub fn picture(&self, rays: &RayBatch, hits: &[Option<u32>]) -> RgbImage {
-        let pixel = |(ray, hit): (&Ray, &Option<u32>)| {
-            hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle)).map(encode)
-        };
+        let pixel =
+            |(ray, hit): (&Ray, &Option<u32>)| hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle)).map(encode);
         rgb8(rays.width(), rays.height(), rays.rays().iter().zip(hits).map(pixel))
     }
 
@@ -85,8 +84,8 @@ fn unit(v: Vec3) -> Vec3 {
     if length > 0.0 { v.map(|x| x / length) } else { v }
 }
 
-/// Linear light to a byte by a display of gamma 2, which makes pictures of these hits comparable by bytes: not the sRGB curve of
-/// [`crate::picture::display`].
+/// Linear light to a byte by a display of gamma 2, which makes pictures of these hits comparable by bytes: not the sRGB
+/// curve of [`crate::picture::display`].
 fn encode(linear: f64) -> u8 {
     (linear.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8
 }

@@ -26,7 +26,7 @@ pub(super) enum LineError {
 
 /// How the fields of a line are read.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct LineLayout {
     operands: usize,
     operand_width: u32,
     result_width: u32,
@@ -45,7 +45,7 @@ pub(super) struct Line {
     pub(super) flags: Option<u8>,
 }
 
-impl Shape {
+impl LineLayout {
     /// Operands alone.
     pub(super) const fn compute(unit: &Unit) -> Self {
         Self {
@@ -140,7 +140,7 @@ pub(super) fn push_hex(text: &mut Vec<u8>, value: u32, width: u32) {
 mod tests {
     use super::*;
 
-    const ADD: Shape = Shape { operands: 2, operand_width: 6, result_width: 6, after: (0, 0) };
+    const ADD: LineLayout = LineLayout { operands: 2, operand_width: 6, result_width: 6, after: (0, 0) };
 
     #[test]
     fn good_lines() {
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_widest_format_fits() {
-        let shape = Shape { operands: 1, operand_width: 32, result_width: 32, after: (2, 2) };
+        let shape = LineLayout { operands: 1, operand_width: 32, result_width: 32, after: (2, 2) };
         let line = shape.read(b"FFFFFFFF 80000000 1F", 1);
         assert_eq!(line, Ok(Some(Line { operands: [u32::MAX, 0, 0], result: 0x8000_0000, flags: Some(0x1f) })));
         assert!(shape.read(b"1FFFFFFFF 0 0", 1).is_err(), "33 bits");

@@ -11,7 +11,7 @@ use refsim::num::Outcome;
 use serde_json::json;
 
 use super::{
-    line::{Line, LineError, Shape, push_hex},
+    line::{Line, LineError, LineLayout, push_hex},
     operation::Unit,
 };
 use crate::cli::{Out, OutputError, Verdict};
@@ -34,7 +34,7 @@ struct NothingToVerify;
 
 /// What became of some consecutive lines: text for the output, and the first error, after which nothing was read.
 #[derive(Default)]
-struct Part {
+struct Chunk {
     text: Vec<u8>,
     passed: u64,
     failed: u64,
@@ -44,8 +44,8 @@ struct Part {
 /// Calls `work` on tasks of consecutive lines, `take` on what they made, in the order of the lines.
 fn each_line(
     mut input: impl Read,
-    work: impl Fn(&mut Part, &[u8], u64) -> Result<(), LineError> + Sync,
-    mut take: impl FnMut(&Part) -> miette::Result<()>,
+    work: impl Fn(&mut Chunk, &[u8], u64) -> Result<(), LineError> + Sync,
+    mut take: impl FnMut(&Chunk) -> miette::Result<()>,
 ) -> miette::Result<()> {
     let mut buffer: Vec<u8> = Vec::new();
     let mut number = 1;
@@ -68,7 +68,7 @@ fn each_line(
             buffer[held..].iter().rposition(|&b| b == b'\n').map_or(0, |end| held + end + 1)
         };
         let lines: Vec<&[u8]> = buffer[..whole].split_inclusive(|&b| b == b'\n').collect();
-        let parts: Vec<Part> = lines
+        let parts: Vec<Chunk> = lines
             .par_chunks(TASK_LINES)
             .enumerate()
             .map(|(task, lines)| run_task(lines, number + (task * TASK_LINES) as u64, &work))
@@ -87,8 +87,8 @@ fn each_line(
     }
 }
 
-fn run_task(lines: &[&[u8]], first: u64, work: &impl Fn(&mut Part, &[u8], u64) -> Result<(), LineError>) -> Part {
-    let mut part = Part::default();
+fn run_task(lines: &[&[u8]], first: u64, work: &impl Fn(&mut Chunk, &[u8], u64) -> Result<(), LineError>) -> Chunk {
+    let mut part = Chunk::default();
     for (line, number) in lines.iter().zip(first..) {
         if let Err(error) = work(&mut part, line, number) {
             part.error = Some(error);
@@ -100,9 +100,9 @@ fn run_task(lines: &[&[u8]], first: u64, work: &impl Fn(&mut Part, &[u8], u64) -
 
 /// Writes the result of every line of operands.
 pub(super) fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<()> {
-    let shape = Shape::compute(unit);
+    let shape = LineLayout::compute(unit);
     let json = out.json();
-    let work = |part: &mut Part, text: &[u8], number: u64| {
+    let work = |part: &mut Chunk, text: &[u8], number: u64| {
         let Some(line) = shape.read(text, number)? else { return Ok(()) };
         let outcome = unit.evaluate(line.operands);
         if json {
@@ -140,9 +140,9 @@ fn push_json_result(text: &mut Vec<u8>, unit: &Unit, flags: bool, outcome: Outco
 /// Compares the results that the lines bring with ours; a closed pipe does not change the verdict.
 pub(super) fn verify(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     out.outlive_reader();
-    let shape = Shape::verify(unit, flags);
+    let shape = LineLayout::verify(unit, flags);
     let json = out.json();
-    let work = |part: &mut Part, text: &[u8], number: u64| {
+    let work = |part: &mut Chunk, text: &[u8], number: u64| {
         let Some(line) = shape.read(text, number)? else { return Ok(()) };
         let outcome = unit.evaluate(line.operands);
         if agrees(unit, flags, &line, outcome) {

@@ -16,8 +16,8 @@ use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::io::obj::load_obj;
-use crate::ray_engine::{Crossbar, RayBatch};
 use crate::picture::{ChannelUnit, Picture, Samples, exr, png};
+use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::Verdict;
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
@@ -35,12 +35,13 @@ Examples:
 
 /// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
 ///
-/// An OBJ file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a scene file, or anything with
-/// `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
+/// An OBJ file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a scene
+/// file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor, teapot-room, white-box
+    /// A Wavefront OBJ file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor,
+    /// teapot-room, white-box
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
 
@@ -105,9 +106,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let picture = TeapotShader::new(&mesh).picture(&rays, &triangles);
     let t = hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.1)).collect();
     let ids = triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
-    let layers = Picture::new(width, height)
-        .with("t", ChannelUnit::RayLength, Samples::Float(t))?
-        .with("triangle", ChannelUnit::Id, Samples::Uint(ids))?;
+    let layers = Picture::new(width, height).with("t", ChannelUnit::RayLength, Samples::Float(t))?.with(
+        "triangle",
+        ChannelUnit::Id,
+        Samples::Uint(ids),
+    )?;
     let files = [("picture.png".to_owned(), png(&picture)?), ("layers.exr".to_owned(), exr(&layers)?)];
     view::write_folder(folder, &files)?;
     let found = hits.iter().flatten().count();

@@ -1,4 +1,4 @@
-//! What is timed, and the timing of it.
+//! The input of the timing model, and its replay.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ const TANGENT: f32 = 0.375;
 /// Bytes per eye ray: the ray, its hit, its share of the log and of the buckets' cards.
 const PER_RAY: u64 = 90;
 
-/// What is timed.
+/// A case, or rays on a mesh.
 pub(super) enum Input {
     Case(Box<Setup>),
     Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
@@ -129,14 +129,14 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
 }
 
 /// One model's view of a log.
-pub(super) struct Timed {
+pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,
     /// Empty unless it was asked for.
     pub(super) sensitivity: Vec<Sensitivity>,
 }
 
-impl Timed {
+impl TimedLog {
     pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
         let model = Model::new(level, input.profile()).map_err(no_figure)?;
         let options = Options {

@@ -121,11 +121,12 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     (!lines.is_empty()).then(|| logarithmic("residual", names, lines, caption))
 }
 
-/// Settings of switches get a line of their own where they change the error by more than this factor; the table has all.
+/// Settings of switches get a line of their own where they change the error by more than this factor; the table has
+/// all.
 const APART: f64 = 1.5;
 
-/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a difference. `None`
-/// without a sweep.
+/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a
+/// difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
     let apart = |row: &SweepRow| {

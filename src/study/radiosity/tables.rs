@@ -1,6 +1,6 @@
-//! What was found, as tables.
+//! The tables of the study.
 
-use super::{Difference, RadiosityOutcome, Parameters, MethodRow, Stopped, SolveMethod};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 /// The tables of a study.
@@ -90,7 +90,7 @@ fn ways(outcome: &RadiosityOutcome) -> Table {
         &headings,
     );
     for row in &outcome.rows {
-        let off = |of: fn(Difference) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
+        let off = |of: fn(SolutionError) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
         table.push([
             row.label.as_str().into(),
             if row.way == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
@@ -105,8 +105,7 @@ fn ways(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit
-/// for bit.
+/// How iterations on a card end that reach no tolerance: at a fixed point, or in a cycle of equal states.
 fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let headings = ["way", "ends", "entered_after", "period", "values_changing", "of_values", "largest_change_%"];
     let mut table =
@@ -114,14 +113,14 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let values = 3 * outcome.patches.list().len();
     for row in outcome.rows.iter().filter(|row| row.card.is_some()) {
         let ends = match row.stopped {
-            Stopped::Tolerance => "within the tolerance".to_owned(),
-            Stopped::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
-            Stopped::Cycle(_) => "in a cycle".to_owned(),
-            Stopped::Iterations | Stopped::Direct => {
+            StopReason::Tolerance => "within the tolerance".to_owned(),
+            StopReason::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
+            StopReason::Cycle(_) => "in a cycle".to_owned(),
+            StopReason::Iterations | StopReason::Direct => {
                 format!("no cycle within {} iterations", parameters.options.most_iterations)
             }
         };
-        let cycle = if let Stopped::Cycle(cycle) = row.stopped { Some(cycle) } else { None };
+        let cycle = if let StopReason::Cycle(cycle) = row.stopped { Some(cycle) } else { None };
         table.push([
             row.label.as_str().into(),
             ends.into(),
@@ -219,7 +218,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
 }
 
 impl MethodRow {
-    /// How many iterations it took.
+    /// Iterations made.
     pub fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }

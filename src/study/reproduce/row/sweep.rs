@@ -1,6 +1,6 @@
 //! What the papers do not print, varied: the only thing that can explain a row.
 
-use super::{FigureRow, Standing};
+use super::{PaperRow, Standing};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::prose::number;
 use crate::study::reproduce::report::rounded;
@@ -10,12 +10,12 @@ use crate::study::reproduce::report::rounded;
 pub struct Setting {
     /// The setting, as in "2" of a factor.
     pub at: String,
-    /// A value a row, in the order of the rows and in their units.
+    /// A value per row, in the order of the rows and in their units.
     pub values: Vec<f64>,
 }
 
-/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out at one of the
-/// settings, which was chosen before any of them was.
+/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out
+/// at one of the settings, which was chosen before any of them was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     /// Its name, as rows refer to it.
@@ -66,10 +66,11 @@ impl Explanation {
 }
 
 impl Sweep {
-    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains nothing if a
-    /// row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows are never explained.
-    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut FigureRow>) {
-        let mut rows: Vec<&mut FigureRow> = rows.into_iter().collect();
+    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains
+    /// nothing if a row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows
+    /// are never explained.
+    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
+        let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         for setting in &self.settings {
             let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
             if rows.iter().zip(&held).any(|(row, held)| row.admits(row.ours) && !held) {
@@ -91,8 +92,9 @@ impl Sweep {
         }
     }
 
-    /// A line a row, a column a setting; what is within its bound is marked. Values are shown by `show`, in its unit if it has one.
-    pub fn table(&self, title: &str, rows: &[FigureRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
+    /// A line per row, a column per setting; what is within its bound is marked. Values are shown by `show`, in its unit if
+    /// it has one.
+    pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =
             self.settings.iter().map(|setting| format!("{}={}", self.parameter.replace(' ', "_"), setting.at));
@@ -135,7 +137,7 @@ mod tests {
     fn what_a_setting_reaches_is_explained_by_it() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [16.0, 15.0]]).explain(&mut rows);
-        assert_eq!(rows.each_ref().map(FigureRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
+        assert_eq!(rows.each_ref().map(PaperRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
         let explanation = rows[0].explanation().expect("the second setting");
         assert_eq!((explanation.at(), explanation.value()), ("1", 16.0));
         assert!(rows[1].explanation().is_none(), "what holds needs no explanation");

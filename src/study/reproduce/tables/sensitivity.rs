@@ -18,8 +18,8 @@ fn keys() -> Vec<String> {
     host.chain(queue).collect()
 }
 
-/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated anew each
-/// time, so that it does the work alone in the same time.
+/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated
+/// anew each time, so that it does the work alone in the same time.
 pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
         .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))

@@ -1,8 +1,9 @@
-//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them has to bear the others.
+//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them
+//! has to bear the others.
 
 use std::rc::Rc;
 
-use super::super::{Bound, Method, ReproduceError, FigureRow, Standing, Sweep, Target};
+use super::super::{Bound, Method, PaperFigure, PaperRow, ReproduceError, Standing, Sweep};
 use super::engine_run::{Commands, Run, TIMES};
 use super::teapot::{TeapotRoom, Variant};
 use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
@@ -16,7 +17,7 @@ const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
 
 /// A row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
 pub(super) struct SpeedUpRun {
-    pub(super) row: FigureRow,
+    pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
 }
 
@@ -46,13 +47,13 @@ impl SpeedUps {
     }
 
     /// The rows of a table with that of the host alone.
-    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<FigureRow> {
+    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<PaperRow> {
         std::iter::once(room.host_alone(place)).chain(self.of(place).into_iter().map(|line| line.row.clone())).collect()
     }
 
     /// All rows under each setting of a sweep, as speed-ups.
     pub(super) fn table(&self, sweep: &Sweep, title: &str) -> Table {
-        let rows: Vec<FigureRow> = self.lines.iter().map(|line| line.row.clone()).collect();
+        let rows: Vec<PaperRow> = self.lines.iter().map(|line| line.row.clone()).collect();
         sweep.table(title, &rows, (Some("%"), speed_up))
     }
 
@@ -66,7 +67,7 @@ impl SpeedUps {
     }
 }
 
-/// What is printed: name, table, rays a second, and how the engine runs.
+/// What is printed: name, table, rays per second, and how the engine runs.
 fn printed() -> Vec<(String, &'static str, f64, Variant)> {
     let plus = Variant::PLUS_CARD;
     let readback = |readback| Variant { readback, ..plus.clone() };
@@ -98,8 +99,8 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let ours = sweeps::rates(&runs, &room.host, commands())?;
     let mut lines = Vec::new();
     for (((what, place, value, _), run), ours) in printed.into_iter().zip(&runs).zip(ours) {
-        let target = Target::printed(value, 0, "rays/s", place);
-        let row = FigureRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
+        let target = PaperFigure::printed(value, 0, "rays/s", place);
+        let row = PaperRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
         lines.push(SpeedUpRun { row, run: Rc::clone(run) });
     }
     let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
@@ -109,11 +110,11 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> FigureRow {
+pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
     let standing = Standing::Calibrated { on: "this figure" };
     let ours = room.work.alone.rays_per_s(&room.host);
-    let target = Target::printed(HOST_ALONE, 0, "rays/s", place);
-    FigureRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
+    let target = PaperFigure::printed(HOST_ALONE, 0, "rays/s", place);
+    PaperRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
 }
 
 const HEADINGS: [&str; 14] = [

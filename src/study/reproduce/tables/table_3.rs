@@ -1,8 +1,9 @@
-//! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of the host alone.
+//! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of
+//! the host alone.
 
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
-use super::super::{EntryFindings, EntryChart, ReproduceError};
+use super::super::{EntryChart, EntryFindings, ReproduceError};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, host_work, how, sensitivity};
 use crate::report::{Chart, Series};

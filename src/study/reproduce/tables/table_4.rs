@@ -1,7 +1,7 @@
 //! Table 4: the teapot room by the range of triangles that goes to the card.
 
 use super::super::shared::Shared;
-use super::super::{EntryFindings, EntryChart, Prose, ReproduceError, number};
+use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
 use super::shares::{self, Share};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, how};

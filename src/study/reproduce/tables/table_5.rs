@@ -1,7 +1,7 @@
 //! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
 
 use super::super::shared::Shared;
-use super::super::{EntryFindings, EntryChart, Prose, ReproduceError, number};
+use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::{QUESTION, how};
 use crate::report::{Chart, Series};

@@ -17,7 +17,7 @@ pub(super) enum Asks {
     Eyes,
     /// Whitted's: what the paper calls classical.
     Classical,
-    /// Distributed ray tracing with so many samples a pixel: Monte Carlo.
+    /// Distributed ray tracing with so many samples per pixel: Monte Carlo.
     MonteCarlo(u32),
 }
 
