@@ -15,9 +15,9 @@ use super::Problem;
 /// What `--memory-limit` says; not set where nothing is said.
 static ASKED: OnceLock<u64> = OnceLock::new();
 
-/// What the program needs besides what it computes with: code, tables, buffers of files.
+/// Memory of the program itself: code, tables, buffers of files.
 const PROGRAM: u64 = 24 << 20;
-/// What the stack of a thread takes of the addresses that `ulimit -v` counts.
+/// Address space of a thread's stack, which `ulimit -v` counts.
 #[cfg(unix)]
 const STACK: u64 = 2 << 20;
 /// Needs below this are not worth asking the system.

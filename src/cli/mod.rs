@@ -74,8 +74,8 @@ struct Cli {
     #[arg(long, global = true, display_order = 902)]
     all_errors: bool,
 
-    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or `ulimit
-    /// -v` leaves]
+    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or
+    /// `ulimit -v` leaves]
     #[arg(long, global = true, value_name = "BYTES", display_order = 903)]
     memory_limit: Option<ByteSize>,
 }

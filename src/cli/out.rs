@@ -15,7 +15,7 @@ pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
     all_errors: bool,
-    /// Nobody reads any more, but the command goes on, because its exit code still says something.
+    /// The reader is gone, but the command goes on for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }

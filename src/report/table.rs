@@ -89,8 +89,14 @@ pub struct Table {
 
 impl Table {
     /// An empty table. The headings double as the names of the fields in CSV and JSON.
-    pub fn new(title: impl Into<String>, headings: &[&str]) -> Self {
-        Self { title: title.into(), headings: headings.iter().map(ToString::to_string).collect(), rows: Vec::new() }
+    pub fn new(title: impl Into<String>, headings: &[impl AsRef<str>]) -> Self {
+        let headings = headings.iter().map(|heading| heading.as_ref().to_owned()).collect();
+        Self { title: title.into(), headings, rows: Vec::new() }
+    }
+
+    /// An empty table whose columns are named by the words of a text.
+    pub fn of(title: impl Into<String>, columns: &str) -> Self {
+        Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
     /// Adds a row; what it lacks is left empty, what it has too much is dropped.

@@ -87,7 +87,7 @@ pub(in crate::cli) struct Args {
     registers: bool,
 }
 
-/// What was asked for on one side.
+/// One side as requested.
 #[derive(Debug)]
 struct SideRequest {
     name: &'static str,

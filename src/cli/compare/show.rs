@@ -15,7 +15,7 @@ use crate::{
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
-/// What is shown.
+/// A comparison with its sides.
 pub(super) struct ShownComparison<'a> {
     pub(super) case: &'a Path,
     pub(super) sides: &'a [Side<'a>; 2],

@@ -102,7 +102,8 @@ pub(super) struct Args {
     #[command(flatten)]
     gpu: GpuArgs,
 
-    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with --iterations]
+    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
+    /// --iterations]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,
 

@@ -68,7 +68,7 @@ impl Input {
         }
     }
 
-    /// What people call it.
+    /// A title for people.
     pub(super) fn title(&self) -> String {
         match self {
             Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
@@ -86,7 +86,7 @@ impl Input {
         }
     }
 
-    /// What is asked of the card; with what becomes of every texel in the texture cache, if `cache`.
+    /// The run's log; with the hits and misses of every texel in the texture cache, if `cache`.
     pub(super) fn log(&self, cache: bool) -> miette::Result<Vec<Event>> {
         let caches = if cache { Some(TextureCaches::new(self.profile()).map_err(no_figure)?) } else { None };
         let watcher = caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) });
@@ -107,7 +107,7 @@ impl Input {
     }
 }
 
-/// What a device lacks that has no time.
+/// A figure that the timing model needs and the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }

@@ -116,7 +116,7 @@ fn draws(log: &[Event], timed: &TimedLog) -> Table {
     table
 }
 
-/// What became of the texels, by sampler, over all draws.
+/// Texture cache hits and misses per sampler, over all draws.
 fn cache(log: &[Event]) -> Table {
     let headings = ["sampler", "texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
     let mut table = Table::new("Texture cache, also of half and of double the size", &headings);

@@ -95,7 +95,6 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     for row in &outcome.rows {
         headings.extend(["r", "g", "b"].map(|c| format!("{}_{c}", row.label)));
     }
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("Patches", &headings);
     for (i, patch) in outcome.patches.list().iter().enumerate() {
         let [x, y, z] = patch.centre();

@@ -1,5 +1,5 @@
-//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how much a
-//! result depends on the size of the system, and on guesses about the card.
+//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how much
+//! a result depends on the size of the system, and on guesses about the card.
 
 use refsim::device::Profile;
 

@@ -15,11 +15,10 @@ const PLOTTED: u32 = 50;
 const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
-    let mut tests =
-        Table::new("Millions of ray-triangle tests a second", &["device", "gamma_B", "triangles", "rates", "pipeline"]);
-    let mut limits = Table::new(
+    let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
+    let mut limits = Table::of(
         "Where a card pays: T_min by the host's tests a second",
-        &["device", "gamma_B", "half_rate_T", "T_min_20M", "T_min_40M", "T_min_80M", "T_min_200M"],
+        "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
     );
     let mut charts = Vec::new();
     for gamma in GAMMAS {

@@ -77,19 +77,9 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
 
 /// What a dual-textured pixel costs each unit of some cards.
 pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "A dual-textured pixel in the pipeline model",
-        &[
-            "device",
-            "texture_B",
-            "depth_B",
-            "color_B",
-            "arithmetic_clocks",
-            "texture_clocks",
-            "output_clocks",
-            "memory_clocks",
-            "bound_by",
-        ],
+        "device texture_B depth_B color_B arithmetic_clocks texture_clocks output_clocks memory_clocks bound_by",
     );
     for &device in devices {
         let drawn = dual_textured(device)?;

@@ -52,9 +52,9 @@ fn kernels() -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     // The same rays, each started a little further on, have no common origin any more.
     let moved = eye.iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * i as f32)).collect::<Result<Vec<_>, _>>()?;
     let mut rows = Vec::new();
-    let mut slots = Table::new(
+    let mut slots = Table::of(
         "Slots and clocks of a test in one pipeline of four",
-        &["program", "phase", "pairs", "texture_slots", "M_tests_per_s", "bound_by"],
+        "program phase pairs texture_slots M_tests_per_s bound_by",
     );
     for (what, rays) in [("rays of one origin", eye), ("rays of any origin", moved)] {
         let (kernel, drawn) = run(&mesh, rays)?;

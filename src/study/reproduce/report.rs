@@ -6,25 +6,8 @@ use strum::VariantArray as _;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
-const HEADINGS: [&str; 17] = [
-    "entry",
-    "what",
-    "device",
-    "method",
-    "place",
-    "origin",
-    "unit",
-    "paper",
-    "ours",
-    "difference_%",
-    "standing",
-    "printed_inputs",
-    "bound",
-    "low",
-    "high",
-    "verdict",
-    "explanation",
-];
+const COLUMNS: &str = "entry what device method place origin unit paper ours difference_% standing printed_inputs bound low high \
+     verdict explanation";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -32,7 +15,7 @@ fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
 
 /// Every row with all that is known of it, for machines.
 fn rows(found: &Reproduced) -> Table {
-    let mut table = Table::new("The papers' figures and ours", &HEADINGS);
+    let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
         let [low, high] = limits(row);
         let target = &row.target;
@@ -103,7 +86,7 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
 /// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those
 /// outside their bounds.
 fn notes(found: &Reproduced) -> Table {
-    let mut table = Table::new("Origins, calibrations and explanations", &["what", "place", "paper", "says", "of"]);
+    let mut table = Table::of("Origins, calibrations and explanations", "what place paper says of");
     for (_, row) in all(found) {
         let mut note = |kind: &str, text: &str| {
             if !text.is_empty() {
@@ -127,7 +110,7 @@ fn notes(found: &Reproduced) -> Table {
 
 /// How many rows came out how.
 fn tally(found: &Reproduced) -> Table {
-    let mut table = Table::new("Tally", &["verdict", "rows"]);
+    let mut table = Table::of("Tally", "verdict rows");
     for verdict in RowVerdict::VARIANTS {
         table.push([verdict.to_string().into(), count(found, *verdict).into()]);
     }

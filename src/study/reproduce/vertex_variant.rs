@@ -22,16 +22,9 @@ const HOW: &str = "The road not taken: a ray as constants, a triangle as three v
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let (mut rows, mut seen) = (Vec::new(), None);
-    let mut table = Table::new(
+    let mut table = Table::of(
         "A test in the vertex units",
-        &[
-            "device",
-            "instructions_per_vertex",
-            "vertices_per_test",
-            "clocks_per_vertex_and_unit",
-            "vertex_units",
-            "bound_by",
-        ],
+        "device instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
     );
     for device in DEVICES {
         let fail = failed(device);

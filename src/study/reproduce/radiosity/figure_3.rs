@@ -29,9 +29,9 @@ const HOW: &str = "A closed Cornell box without blocks, its form factors in clos
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let system = closed_box()?;
-    let mut table = Table::new(
+    let mut table = Table::of(
         "Iterations until the residual is so small a share of what it was",
-        &["channel", "residual", "jacobi", "gauss_seidel", "ratio"],
+        "channel residual jacobi gauss_seidel ratio",
     );
     let (mut lines, mut late, mut both) = (Vec::new(), Vec::new(), Vec::new());
     for (channel, name) in CHANNELS.into_iter().enumerate() {

@@ -88,9 +88,9 @@ fn overtakes(points: &[Point]) -> Option<PaperRow> {
 }
 
 fn table(points: &[Point]) -> Table {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "Milliseconds of an iteration, and nanoseconds an element",
-        &["patches", "rgb_ms", "rgb_ns", "luminance_ms", "luminance_ns", "host_ms", "host_ns", "host_over_rgb"],
+        "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
     );
     let rounded = |x: f64| Cell::Real((x * 1000.0).round() / 1000.0);
     for p in points {

@@ -121,18 +121,10 @@ fn fits(patches: u32) -> bool {
 
 /// What the number of patches decides.
 fn sizes() -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "What the number of patches decides",
-        &[
-            "patches",
-            "passes",
-            "iterations_per_s",
-            "difference_%",
-            "MFLOP/s_of_Jacobi",
-            "reads_141",
-            "MFLOP/s_of_Gauss-Seidel",
-            "reads_190",
-        ],
+        "patches passes iterations_per_s difference_% MFLOP/s_of_Jacobi reads_141 MFLOP/s_of_Gauss-Seidel \
+         reads_190",
     );
     for patches in SIZES {
         let timed = iteration(patches, Packing::Rgb, Storage::Fp32)?;
@@ -153,21 +145,10 @@ fn sizes() -> Result<Table, ReproduceError> {
 
 /// What an iteration costs in each packing and precision.
 fn costs() -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),
-        &[
-            "packing",
-            "storage",
-            "passes",
-            "draws",
-            "texture_clocks",
-            "arithmetic_clocks",
-            "memory_clocks",
-            "filled_%",
-            "bandwidth_%",
-            "iterations_per_s",
-            "bound_by",
-        ],
+        "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
+         iterations_per_s bound_by",
     );
     let rounded = |x: f64| Cell::Real((x * 10.0).round() / 10.0);
     for packing in [Packing::Rgb, Packing::Luminance] {

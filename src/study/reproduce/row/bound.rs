@@ -1,4 +1,4 @@
-//! How far a value may be off.
+//! Tolerances, stated before values are computed.
 
 use super::PaperFigure;
 use crate::study::reproduce::prose::number;
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
     }
 
-    /// "About twice" is not met by whatever rounds to 2.
+    /// "About twice" is not met by everything that rounds to 2.
     #[test]
     fn about_twice_is_no_wider_than_any_prediction() {
         let twice = target(2.0, 1);
@@ -89,7 +89,7 @@ mod tests {
         assert!(!admits(Bound::PREDICTION, &twice, 2.4));
     }
 
-    /// Who says that the card brings nothing has not predicted what it brings.
+    /// A prediction that the card brings nothing is outside.
     #[test]
     fn the_calibrated_value_itself_is_outside() {
         let gained = target(147_630.0, 0);

@@ -44,7 +44,7 @@ pub struct PaperFigure {
     pub unit: &'static str,
     /// Where it stands.
     pub place: &'static str,
-    /// Whether it stands there in so many words.
+    /// Whether it is printed, implied or inferred.
     pub origin: Origin,
 }
 
@@ -54,7 +54,7 @@ impl PaperFigure {
         Self { value, decimals, unit, place, origin: Origin::Printed }
     }
 
-    /// What rounding to the printed digits may have taken away or added.
+    /// Half a unit of the last printed digit.
     pub fn rounding(&self) -> f64 {
         (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
     }
@@ -66,7 +66,7 @@ impl PaperFigure {
     }
 }
 
-/// How our value came about.
+/// How our value was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Method {
@@ -83,7 +83,7 @@ pub enum Method {
     Solver,
 }
 
-/// How our value stands to the papers' figures.
+/// Whether printed figures went into our value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Standing {
@@ -135,15 +135,15 @@ pub struct PaperRow {
     pub what: String,
     /// The card, or the host.
     pub device: &'static str,
-    /// How ours came about.
+    /// How ours was computed.
     pub method: Method,
     /// The paper's.
     pub target: PaperFigure,
     /// Ours, in the unit of the paper's.
     pub ours: f64,
-    /// How ours stands to the papers' figures.
+    /// Whether printed figures went into ours.
     pub standing: Standing,
-    /// What was stated beforehand.
+    /// The tolerance, stated beforehand.
     pub bound: Bound,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
@@ -166,7 +166,7 @@ impl PaperRow {
         self.bound.interval(&self.target).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
-    /// Ours less the paper's, as a share of the paper's.
+    /// Relative difference: (ours - printed) / printed.
     pub fn difference(&self) -> f64 {
         (self.ours - self.target.value) / self.target.value
     }
@@ -185,7 +185,7 @@ impl PaperRow {
         }
     }
 
-    /// What of this run reaches the figure, if the row is outside its bound.
+    /// The sweep that explains the row, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
         self.explanation.as_ref()
     }

@@ -1,11 +1,11 @@
-//! What the papers do not print, varied: the only thing that can explain a row.
+//! Sweeps over what the papers do not print: the only thing that can explain a row.
 
 use super::{PaperRow, Standing};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::prose::number;
 use crate::study::reproduce::report::rounded;
 
-/// One setting of what is varied, and what rows would be under it.
+/// One setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// The setting, as in "2" of a factor.
@@ -20,13 +20,14 @@ pub struct Setting {
 pub struct Sweep {
     /// Its name, as rows refer to it.
     pub name: &'static str,
-    /// What is varied, with its unit.
+    /// The parameter, with its unit.
     pub parameter: &'static str,
     /// The settings.
     pub settings: Vec<Setting>,
 }
 
-/// What reaches a figure that a row misses. Made by [`Sweep::explain`] alone, from values of the run.
+/// A sweep's setting that reaches a figure that the row misses. Made by [`Sweep::explain`] alone, from values of the
+/// run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     sweep: &'static str,
@@ -92,15 +93,14 @@ impl Sweep {
         }
     }
 
-    /// A line per row, a column per setting; what is within its bound is marked. Values are shown by `show`, in its unit if
-    /// it has one.
+    /// A line per row, a column per setting; what is within its bound is marked. Values are shown by `show`, in its
+    /// unit if it has one.
     pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =
             self.settings.iter().map(|setting| format!("{}={}", self.parameter.replace(' ', "_"), setting.at));
         let headings: Vec<String> =
             ["what", "place", "unit", "paper", "ours"].map(str::to_owned).into_iter().chain(settings).collect();
-        let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
         let mut table = Table::new(format!("{title}; * within the bound"), &headings);
         for (i, row) in rows.iter().enumerate() {
             let text = |value: f64| -> Cell {
@@ -150,7 +150,7 @@ mod tests {
         assert_eq!(rows[0].verdict(), RowVerdict::Missed);
     }
 
-    /// The setting that brings one row home must not drive another one out.
+    /// A setting that reaches one row must not lose another one.
     #[test]
     fn a_setting_that_loses_another_row_explains_nothing() {
         let mut rows = [row(20.0), row(15.6)];

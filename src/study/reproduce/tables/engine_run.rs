@@ -44,13 +44,13 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
-    /// What was asked of the card and done on the host.
+    /// Log of the card's commands and the host's work.
     pub(super) fn log(&self) -> &[Event] {
         &self.log
     }
 }
 
-/// What a host does for a workload without card and ray tree: the first row of Table 3.
+/// A host that casts a workload without card and ray tree: the first row of Table 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HostOnly {
     pub(super) counts: HostCounts,
@@ -78,7 +78,7 @@ impl HostOnly {
     }
 }
 
-/// What the commands of a run cost, beside equation 11.
+/// Cost model of a run's commands, beside equation 11.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Commands {
     /// Nothing: equation 11 is all there is.

@@ -12,7 +12,6 @@ use crate::report::{Cell, Table};
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
     let kinds = Operation::ALL.iter().map(|operation| format!("{operation}_us"));
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("The host's time a ray", &headings);
     table.push(row("host alone", &room.host, &room.work.alone.counts, room.work.alone.rays));
     for line in lines {

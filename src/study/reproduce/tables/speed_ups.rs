@@ -33,7 +33,7 @@ impl SpeedUpRun {
     }
 }
 
-/// All rows, and what they would be under other guesses.
+/// All rows, and their values under other guesses.
 pub(super) struct SpeedUps {
     pub(super) lines: Vec<SpeedUpRun>,
     pub(super) commands: Sweep,
@@ -67,7 +67,7 @@ impl SpeedUps {
     }
 }
 
-/// What is printed: name, table, rays per second, and how the engine runs.
+/// The printed figures: name, table, rays per second, and the engine's variant.
 fn printed() -> Vec<(String, &'static str, f64, Variant)> {
     let plus = Variant::PLUS_CARD;
     let readback = |readback| Variant { readback, ..plus.clone() };
@@ -117,26 +117,13 @@ pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
     PaperRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
 }
 
-const HEADINGS: [&str; 14] = [
-    "run",
-    "printed_rays_per_s",
-    "ours_rays_per_s",
-    "printed_%",
-    "ours_%",
-    "points_off",
-    "ours_if_commands_were_free_%",
-    "passes_per_1000_rays",
-    "rays_per_pass",
-    "triangles_per_pass",
-    "cells_per_ray",
-    "host_tests_per_ray",
-    "card_visits_per_ray",
-    "forced_per_ray",
-];
+const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% points_off ours_if_commands_were_free_% \
+     passes_per_1000_rays rays_per_pass triangles_per_pass cells_per_ray host_tests_per_ray card_visits_per_ray \
+     forced_per_ray";
 
 /// The speed-ups of some lines over the host alone, and what their engines did.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, ReproduceError> {
-    let mut table = Table::new(format!("Speed-ups over the host alone, {place}"), &HEADINGS);
+    let mut table = Table::of(format!("Speed-ups over the host alone, {place}"), COLUMNS);
     for line in lines {
         let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);
         let (counts, rays) = (&line.run.counts, line.run.counts.rays as f64);

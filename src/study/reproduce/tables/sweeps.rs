@@ -1,4 +1,4 @@
-//! What the rows of Tables 3 to 5 hang on and no paper prints, varied.
+//! Sweeps over parameters that Tables 3 to 5 depend on and no paper prints.
 
 use std::rc::Rc;
 

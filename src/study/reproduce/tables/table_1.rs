@@ -86,7 +86,7 @@ const READINGS: &str = "A printed share of rays on the card is read in two ways:
     the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text decides neither. Rows take the \
     first, which was chosen before any of them was worked out.";
 
-/// What a scene's run did.
+/// A scene's run.
 struct Ran {
     run: Rc<Run>,
     triangles: usize,
@@ -177,16 +177,9 @@ fn rates_chart(ran: &[Ran], ticks: &[&str]) -> Chart {
 }
 
 fn table(ran: &[Ran]) -> Table {
-    let headings = [
-        "scene",
-        "polygons_printed",
-        "triangles",
-        "rays_traced",
-        "printed_rays_per_s",
-        "ours_rays_per_s",
-        "host_alone_rays_per_s",
-    ];
-    let mut table = Table::new("Five scenes", &headings);
+    let columns =
+        "scene polygons_printed triangles rays_traced printed_rays_per_s ours_rays_per_s host_alone_rays_per_s";
+    let mut table = Table::of("Five scenes", columns);
     for (scene, ran) in SCENES.iter().zip(ran) {
         table.push([
             scene.what.into(),

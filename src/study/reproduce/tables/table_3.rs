@@ -43,7 +43,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     })
 }
 
-/// What the printed figures and ours leave for a pass.
+/// The time per pass that the printed figures and ours leave.
 fn passes(lines: &[&SpeedUpRun]) -> Prose {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
     let [plus, asynchronous, fast] = lines else { return Prose::from("") };
