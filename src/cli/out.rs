@@ -59,6 +59,15 @@ impl Out {
         self.line(text)
     }
 
+    /// Writes a table under its title.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
+        self.line(table.title())?;
+        self.table(table)
+    }
+
     /// Writes what a check found, in the form of an error.
     ///
     /// # Errors

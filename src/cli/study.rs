@@ -48,8 +48,7 @@ pub(super) fn run(args: &impl StudyArgs, command_line: &str, out: &mut Out) -> m
         return Ok(found.verdict());
     }
     for table in found.printed_tables() {
-        out.line(table.title())?;
-        out.table(table)?;
+        out.titled_table(table)?;
         out.line("")?;
     }
     for line in found.printed_lines() {

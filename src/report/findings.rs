@@ -131,6 +131,15 @@ impl Findings {
         self.tables.push(table);
     }
 
+    /// Appends a table and a paragraph on it to the page, if the table has rows.
+    pub fn explained_table(&mut self, table: FoundTable, text: &str) {
+        let rows = !table.table.rows().is_empty();
+        self.table(table);
+        if rows {
+            self.paragraph(text);
+        }
+    }
+
     /// Appends a chart to the page; it is also written to `NAME.svg`.
     pub fn chart(&mut self, chart: NamedChart) {
         self.text.push(Passage::Chart(self.charts.len()));

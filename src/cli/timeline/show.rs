@@ -27,18 +27,15 @@ pub(super) fn print(
     out.line(visible_line(&input.title()))?;
     out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
     if args.cache {
-        let table = cache(log);
         out.line("")?;
-        out.line(table.title())?;
-        out.line(table.text())?;
+        out.titled_table(&cache(log))?;
     }
     for one in timed {
         out.line("")?;
         out.line(format_args!("Model: {}", one.name()))?;
         for table in [draws(log, one), units(one), shares(one)] {
             out.line("")?;
-            out.line(table.title())?;
-            out.line(table.text())?;
+            out.titled_table(&table)?;
         }
         if args.sensitivity {
             out.line("")?;
@@ -54,8 +51,7 @@ pub(super) fn print(
         }
     }
     out.line("")?;
-    out.line("Totals")?;
-    out.line(totals(input, log, timed).text())?;
+    out.titled_table(&totals(input, log, timed))?;
     if let Some(path) = &args.trace {
         out.line(format_args!("wrote {}", path.display()))?;
     }

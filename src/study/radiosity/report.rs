@@ -44,31 +44,22 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     found.heading("How it was solved");
     found.table(FoundTable::from(ways).csv("rows").field("ways"));
     residuals.into_iter().for_each(|chart| found.chart(chart));
-    let explained = |found: &mut Findings, table: Table, field, text: &str| {
-        let rows = !table.rows().is_empty();
-        found.table(FoundTable::from(table).field(field));
-        if rows {
-            found.paragraph(text);
-        }
-    };
-    explained(&mut found, ends, "ends", ENDS);
-    if !card.rows().is_empty() {
+    let has_rows = |table: &Table| !table.rows().is_empty();
+    found.explained_table(FoundTable::from(ends).field("ends"), ENDS);
+    if has_rows(&card) {
         found.heading("On the card");
     }
-    explained(&mut found, card, "card", ON_THE_CARD);
+    found.explained_table(FoundTable::from(card).field("card"), ON_THE_CARD);
     if !relit_pictures.is_empty() {
         found.heading("Relit");
         found.pictures(relit_pictures);
     }
     found.table(FoundTable::from(relit).field("relit"));
-    if sweep.rows().is_empty() {
-        found.keep_table(FoundTable::from(sweep).field("sweep"));
-        return Ok(found);
+    if has_rows(&sweep) {
+        found.heading("Other numbers of patches, other answers to open questions");
+        darkness.into_iter().for_each(|chart| found.chart(chart));
     }
-    found.heading("Other numbers of patches, other answers to open questions");
-    darkness.into_iter().for_each(|chart| found.chart(chart));
-    found.table(FoundTable::from(sweep).csv("sweep").field("sweep"));
-    found.paragraph(SWEEP);
+    found.explained_table(FoundTable::from(sweep).csv("sweep").field("sweep"), SWEEP);
     Ok(found)
 }
 
