@@ -1,4 +1,4 @@
-//! `--caster`: who finds first hits where no card is asked ray by ray.
+//! `--caster`: the ray caster behind first hits.
 
 use clap::ValueEnum;
 use refsim::device::Profile;
@@ -14,7 +14,7 @@ use crate::ray_engine::HostTracer;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::ray_engine::octree::OctreeParameters;
 
-/// Who finds first hits.
+/// A ray caster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum CasterArg {
     /// The host's octree, in single precision
@@ -23,7 +23,7 @@ pub(super) enum CasterArg {
     Engine,
 }
 
-/// A caster that was asked for, with options that fit it; nothing is built yet.
+/// A caster with its options, not yet built.
 pub(super) enum CasterChoice {
     Host,
     Engine { profile: Box<Profile>, executor: Executor },
@@ -36,7 +36,7 @@ pub(super) enum OpenCaster<'a> {
 }
 
 impl CasterArg {
-    /// Holds the options for cards against the caster, and looks up device and executor.
+    /// Checks that the options fit the caster, and looks up device and executor.
     pub(super) fn choose(
         self,
         device: Option<&str>,
@@ -90,7 +90,7 @@ impl<'a> OpenCaster<'a> {
         }
     }
 
-    /// What the engine did, if it is one.
+    /// The engine's counts, if it is one.
     pub(super) fn counts(&self) -> Option<EngineCounts> {
         match self {
             Self::Host(_) => None,
@@ -99,7 +99,7 @@ impl<'a> OpenCaster<'a> {
     }
 }
 
-/// What the engine did, in a sentence.
+/// The engine's counts as a sentence.
 pub(super) fn sentence(engine: &EngineCounts) -> String {
     format!(
         "engine: {:.1} % of rays met the card, in {} passes with {} tests; {} tests on the host",
@@ -110,7 +110,7 @@ pub(super) fn sentence(engine: &EngineCounts) -> String {
     )
 }
 
-/// The same for machines.
+/// The engine's counts as JSON.
 pub(super) fn document(engine: &EngineCounts) -> serde_json::Value {
     json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
             "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests })

@@ -9,7 +9,7 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
-use super::shown::{MOST_SHOWN, Shown};
+use super::shown::{MOST_SHOWN, ShownError};
 use super::{BAD_INPUT, Cli, LimitSource};
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
@@ -75,13 +75,13 @@ fn handler(terminal: bool) -> Box<dyn ReportHandler> {
 
 /// A diagnostic as text for a terminal or a log: of each list of errors the first few, or all.
 fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
-    struct Rendered(Shown, Box<dyn ReportHandler>);
+    struct Rendered(ShownError, Box<dyn ReportHandler>);
     impl std::fmt::Display for Rendered {
         fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
             self.1.debug(&self.0, f)
         }
     }
-    let shown = Shown::new(diagnostic, if all { usize::MAX } else { MOST_SHOWN });
+    let shown = ShownError::new(diagnostic, if all { usize::MAX } else { MOST_SHOWN });
     let more = shown.left_out();
     let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
     if more > 0 {
@@ -130,7 +130,8 @@ pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
         error.print().ok();
         return code;
     }
-    // The message quotes the arguments: it is made again, of arguments that are safe to show. Should these be fine, it is shown plain.
+    // The message quotes the arguments: it is made again, of arguments that are safe to show. Should these be fine, it
+    // is shown plain.
     match Cli::try_parse_from(safe) {
         Err(same) => same.print().ok(),
         Ok(_) => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),

@@ -1,4 +1,4 @@
-//! `--executor`, `--adapter`, `--native`: who computes on the card.
+//! `--executor`, `--adapter`, `--native`: how the card's programs are run.
 
 #[cfg(feature = "wgpu")]
 use std::io::Write as _;
@@ -8,7 +8,7 @@ use refsim::machine::{Executor, ExecutorKind};
 
 use super::Problem;
 
-/// Who computes on the card.
+/// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DeviceExecutor {
     /// The reference: a fragment at a time, by integers
@@ -75,7 +75,7 @@ impl DeviceExecutor {
     }
 }
 
-/// Who decides what a ray hits.
+/// What decides hits: exact arithmetic, or an executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Decider {
     /// Exact arithmetic: the truth

@@ -1,7 +1,8 @@
 //! What a signal that asks for the end leaves behind: nothing.
 
-/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, then ends as the signal would have ended the program, which
-/// shells report as 130, 143 and 129. A signal that the caller ignores, as `nohup` does SIGHUP, stays ignored.
+/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, then ends as the signal would have ended
+/// the program, which shells report as 130, 143 and 129. A signal that the caller ignores, as `nohup` does SIGHUP,
+/// stays ignored.
 #[cfg(unix)]
 pub(super) fn clean_up_on_signals() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

@@ -1,8 +1,7 @@
 //! `crossbar intersect`: first hits of your own rays on your own mesh.
 
-use std::fs::File;
-use std::io::{BufRead as _, BufReader, Write as _};
-use std::path::{Path, PathBuf};
+use std::io::Write as _;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
@@ -12,7 +11,7 @@ use serde_json::json;
 
 use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
-use super::{Out, Problem, Verdict, memory, view};
+use super::{Out, Problem, Verdict, view};
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
@@ -68,7 +67,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "C")]
     caster: Option<CasterArg>,
 
-    /// Say on standard error how long casting took, how many rays a second that is, and how long building took. Files
+    /// Say on standard error how long casting took, how many rays per second that is, and how long building took. Files
     /// are not counted
     #[arg(long)]
     time: bool,
@@ -78,14 +77,14 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// Who answers.
-enum Way {
+/// What finds the hits.
+enum HitSource {
     Exact,
     Card(Box<Profile>, Executor),
     Caster(CasterChoice),
 }
 
-/// What came of it, with the seconds that it took.
+/// The hits, and the seconds that building and casting took.
 struct Answer {
     hits: Vec<Candidate>,
     engine: Option<EngineCounts>,
@@ -96,11 +95,14 @@ struct Answer {
 /// No hit.
 const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
+/// Memory that rays and their hits take at most, per byte of the rays' file: 90 bytes for a line of at least 12.
+const RAYS_PER_BYTE: u64 = 8;
+
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
     view::require_mesh(&args.mesh)?;
     let mesh = load_obj(&args.mesh)?;
-    require_rays(&args.rays)?;
+    view::require_file(&args.rays, RAYS_PER_BYTE, "share the rays out to several files")?;
     let rays = load_rays(&args.rays)?;
     let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;
     write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
@@ -109,17 +111,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 }
 
 /// The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
-fn choose(args: &Args) -> miette::Result<Way> {
+fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
     if let Some(caster) = args.caster {
-        return caster.choose(device, args.executor, &args.gpu).map(Way::Caster);
+        return caster.choose(device, args.executor, &args.gpu).map(HitSource::Caster);
     }
     let profile = Box::new(Profile::named(device.unwrap_or(view::DEFAULT_DEVICE))?);
     let executor = Decider::choose(args.executor, device).open(&args.gpu)?;
-    Ok(executor.map_or(Way::Exact, |executor| Way::Card(profile, executor)))
+    Ok(executor.map_or(HitSource::Exact, |executor| HitSource::Card(profile, executor)))
 }
 
-impl Way {
+impl HitSource {
     fn answer(self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> miette::Result<Answer> {
         let start = Instant::now();
         let of_hit = |h: Option<Hit>| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t });
@@ -174,23 +176,4 @@ fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
     }
     out.line(format_args!("{found} of {rays} rays hit; written to {}", args.out.display()))?;
     Ok(())
-}
-
-/// What the rays of a file and their hits take. A pipe cannot be asked how many it holds.
-fn require_rays(path: &Path) -> Result<(), Problem> {
-    const PER_RAY: u64 = 90;
-    let Ok(file) = File::open(path) else { return Ok(()) };
-    if !file.metadata().is_ok_and(|kind| kind.is_file()) {
-        return Ok(());
-    }
-    let mut lines = 0_u64;
-    let mut text = BufReader::with_capacity(1 << 16, file);
-    while let Ok(some) = text.fill_buf()
-        && !some.is_empty()
-    {
-        let length = some.len();
-        lines += some.iter().filter(|&&byte| byte == b'\n').count() as u64;
-        text.consume(length);
-    }
-    memory::require(format_args!("{lines} rays"), lines.saturating_mul(PER_RAY), "share the rays out to several files")
 }

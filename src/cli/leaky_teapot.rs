@@ -27,7 +27,7 @@ Examples:
       two cards as they are, the rows as JSON on standard output
 
 With --device and --format both, every device runs in every format. Written to --out: index.html (self-contained), rows.csv,
-edges.csv, study.json, and a row NAME: NAME.png (shaded), NAME-map.png (what is wrong where), NAME.exr (t and triangle).";
+edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where), NAME.exr (t and triangle).";
 
 /// Trace the teapot in each number format, against exact arithmetic
 #[derive(Debug, clap::Args)]

@@ -1,8 +1,8 @@
 //! Work that would not fit into memory is refused before it begins.
 //!
-//! A command says what it needs at most, counted from the sizes that it is asked for. What there is: the memory that the system can
-//! give without swapping, what the process's control group still allows, and what `ulimit -v` still allows; the least of the three,
-//! or what `--memory-limit` says instead.
+//! A command says what it needs at most, counted from the sizes that it is asked for. What there is: the memory that
+//! the system can give without swapping, what the process's control group still allows, and what `ulimit -v` still
+//! allows; the least of the three, or what `--memory-limit` says instead.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -15,36 +15,29 @@ use super::Problem;
 /// What `--memory-limit` says; not set where nothing is said.
 static ASKED: OnceLock<u64> = OnceLock::new();
 
-/// What the program needs besides what it computes with: code, tables, buffers of files.
+/// Memory of the program itself: code, tables, buffers of files.
 const PROGRAM: u64 = 24 << 20;
-/// What the stack of a thread takes of the addresses that `ulimit -v` counts.
+/// Address space of a thread's stack, which `ulimit -v` counts.
 #[cfg(unix)]
 const STACK: u64 = 2 << 20;
 /// Needs below this are not worth asking the system.
 const SMALL: u64 = 16 << 20;
 
 /// Where a limit comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 pub enum LimitSource {
     /// `--memory-limit`.
+    #[strum(to_string = "allowed by `--memory-limit`")]
     Option,
     /// What the system can give.
+    #[strum(to_string = "free on this computer")]
     System,
     /// What the control group, a container for example, still allows.
+    #[strum(to_string = "left to this control group or container")]
     ControlGroup,
     /// What the limit of the process's addresses still allows.
+    #[strum(to_string = "left to this process by `ulimit -v`")]
     Process,
-}
-
-impl fmt::Display for LimitSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Option => "allowed by `--memory-limit`",
-            Self::System => "free on this computer",
-            Self::ControlGroup => "left to this control group or container",
-            Self::Process => "left to this process by `ulimit -v`",
-        })
-    }
 }
 
 /// What a command takes at most.
@@ -76,7 +69,8 @@ pub(super) fn limit_to(bytes: Option<ByteSize>) {
     }
 }
 
-/// Refuses work that needs more `bytes` than there are. `what` is the work, as in "tracing 512x512 pixels"; `help` how to ask for less.
+/// Refuses work that needs more `bytes` than there are. `what` is the work, as in "tracing 512x512 pixels"; `help` how
+/// to ask for less.
 ///
 /// # Errors
 /// [`Problem::Memory`].

@@ -1,8 +1,8 @@
-//! The command line: one file a subcommand, and the only place that prints.
+//! The command line: one file per subcommand, and the only place that prints.
 //!
-//! A command computes, writes its findings to an [`Out`] and says whether its check held ([`Verdict`]); bad input
-//! comes back as a [`miette::Report`]. Studies share one runner, `study`. This file turns the two into exit codes: 0 done, 1 the check failed, 2 bad
-//! input or usage. A reader that goes away (`| head`) ends the program quietly.
+//! A command computes, writes its findings to an [`Out`] and says whether its check held ([`Verdict`]); bad input comes
+//! back as a [`miette::Report`]. Studies share one runner, `study`. This file turns the two into exit codes: 0 done, 1
+//! the check failed, 2 bad input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
 mod caster;
@@ -65,7 +65,7 @@ struct Cli {
     #[arg(long, global = true, display_order = 900)]
     json: bool,
 
-    /// How many threads may work; the results are the same for every number [default: one a core]
+    /// How many threads may work; the results are the same for every number [default: one per core]
     #[arg(long, global = true, value_name = "N", display_order = 901,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -74,7 +74,8 @@ struct Cli {
     #[arg(long, global = true, display_order = 902)]
     all_errors: bool,
 
-    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or `ulimit -v` leaves]
+    /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or
+    /// `ulimit -v` leaves]
     #[arg(long, global = true, value_name = "BYTES", display_order = 903)]
     memory_limit: Option<ByteSize>,
 }

@@ -15,7 +15,7 @@ pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
     all_errors: bool,
-    /// Nobody reads any more, but the command goes on, because its exit code still says something.
+    /// The reader is gone, but the command goes on for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }
@@ -57,6 +57,15 @@ impl Out {
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
         let text = self.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
         self.line(text)
+    }
+
+    /// Writes a table under its title.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
+        self.line(table.title())?;
+        self.table(table)
     }
 
     /// Writes what a check found, in the form of an error.

@@ -9,7 +9,8 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 const WITHOUT_EFFECT: [&str; 9] =
     ["out", "executor", "adapter", "native", "json", "threads", "all_errors", "memory_limit", "help"];
 
-/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option replaces is left out.
+/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option
+/// replaces is left out.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
     let Some((name, matches)) = matches.subcommand() else { return program.get_name().to_owned() };
     let mut text = format!("{} {name}", program.get_name());

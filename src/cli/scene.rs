@@ -40,7 +40,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// All scenes, a line each.
+/// All scenes, one per line.
 fn all(out: &mut Out) -> miette::Result<()> {
     let scenes = || built::names().filter_map(|name| Some((name, built::description(name)?, built::build(name)?)));
     if out.json() {

@@ -12,7 +12,7 @@ pub(super) const MOST_SHOWN: usize = 20;
 
 /// A copy of a diagnostic that any renderer may write to a terminal as it is.
 #[derive(Debug)]
-pub(super) struct Shown {
+pub(super) struct ShownError {
     message: String,
     code: Option<String>,
     severity: Option<Severity>,
@@ -28,7 +28,7 @@ pub(super) struct Shown {
     cause_is_diagnostic: bool,
 }
 
-impl Shown {
+impl ShownError {
     /// The copy; of each list of related diagnostics the first `most`.
     pub(super) fn new(diagnostic: &dyn Diagnostic, most: usize) -> Self {
         Self::within(diagnostic, None, most)
@@ -87,19 +87,19 @@ impl Shown {
     }
 }
 
-impl fmt::Display for Shown {
+impl fmt::Display for ShownError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for Shown {
+impl std::error::Error for ShownError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         self.cause.as_deref().map(|cause| cause as &(dyn std::error::Error + 'static))
     }
 }
 
-impl Diagnostic for Shown {
+impl Diagnostic for ShownError {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.code.as_ref().map(|code| Box::new(code) as Box<dyn fmt::Display>)
     }

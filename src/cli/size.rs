@@ -8,7 +8,7 @@ const LONGEST: u32 = 16384;
 /// The size of a picture in pixels, each side 1 to 16384.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,

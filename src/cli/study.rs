@@ -1,4 +1,5 @@
-//! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the exit code.
+//! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the
+//! exit code.
 //!
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
 
@@ -47,8 +48,7 @@ pub(super) fn run(args: &impl StudyArgs, command_line: &str, out: &mut Out) -> m
         return Ok(found.verdict());
     }
     for table in found.printed_tables() {
-        out.line(table.title())?;
-        out.table(table)?;
+        out.titled_table(table)?;
         out.line("")?;
     }
     for line in found.printed_lines() {

@@ -31,15 +31,6 @@ impl From<SidesArg> for Sides {
     }
 }
 
-impl std::fmt::Display for SidesArg {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Front => "front",
-            Self::Both => "both",
-        })
-    }
-}
-
 /// The card where none is named.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
@@ -50,14 +41,15 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 }
 
 /// Where a camera stands, what it looks at, and what is up.
-pub(super) type Stand = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
+pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
-/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh, without a target, at its middle.
+/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh, without a target, at
+/// its middle.
 pub(super) fn framing(
     mesh: &Mesh,
     size: Size,
     tan_half_height: f32,
-    (eye, target, up): Stand,
+    (eye, target, up): Placement,
 ) -> miette::Result<Camera> {
     let Some([low, high]) = mesh.bounds() else {
         return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
@@ -67,7 +59,8 @@ pub(super) fn framing(
     let eye = eye.unwrap_or_else(|| {
         let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
         let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
-        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius / distance.
+        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius /
+        // distance.
         let tangent = f64::from(tan_half_height);
         let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
         let way = [0.3, -0.8, 0.52];
@@ -91,15 +84,17 @@ pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec
 
 /// Refuses a mesh, a Wavefront OBJ file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), Problem> {
-    /// Bytes that reading and holding a mesh takes at most, per byte of its text.
-    const PER_BYTE: u64 = 12;
+    require_file(path, 12, "name a smaller mesh")
+}
+
+/// Refuses a file whose contents take more memory than there is: `per_byte` bytes per byte of its text.
+///
+/// # Errors
+/// [`Problem::Memory`].
+pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(), Problem> {
     // What is no file takes what it takes: it cannot be asked for its size.
     let length = std::fs::metadata(path).map_or(0, |file| file.len());
-    memory::require(
-        format_args!("reading `{}`", path.display()),
-        length.saturating_mul(PER_BYTE),
-        "name a smaller mesh",
-    )
+    memory::require(format_args!("reading `{}`", path.display()), length.saturating_mul(per_byte), help)
 }
 
 /// Writes all files of a result together, and says where they are.

@@ -3,13 +3,14 @@
 /// The byte of a linear value, clipped to [0, 1]; NaN becomes black.
 pub fn encode(value: f64) -> u8 {
     let linear = if value > 0.0 { value.min(1.0) } else { 0.0 };
-    let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 };
+    let curved =
+        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * crate::elementary::pow(linear, 1.0 / 2.4) - 0.055 };
     (curved * 255.0 + 0.5) as u8
 }
 
 /// The linear value that the curve takes to `value`, both in [0, 1].
 pub fn decode(value: f64) -> f64 {
-    if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+    if value <= 0.040_45 { value / 12.92 } else { crate::elementary::pow((value + 0.055) / 1.055, 2.4) }
 }
 
 #[cfg(test)]

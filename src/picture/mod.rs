@@ -1,7 +1,9 @@
-//! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as these.
+//! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as
+//! these.
 //!
-//! A [`Picture`] keeps what was measured or read, in single precision. [`RgbImage`] is what a screen shows: 8 bits per channel, made
-//! from linear light by the one curve in [`display`]. Everything here is bytes in memory; `io::picture` reads files.
+//! A [`Picture`] keeps what was measured or read, in single precision. [`RgbImage`] is what a screen shows: 8 bits per
+//! channel, made from linear light by the one curve in [`display`]. Everything here is bytes in memory; `io::picture`
+//! reads files.
 
 pub mod display;
 mod exr;
@@ -158,7 +160,11 @@ impl Picture {
     /// # Errors
     /// [`PictureError::Samples`] unless it has one sample per pixel, and at least one.
     pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, PictureError> {
-        expect_samples(self.width, self.height, 1, samples.len())?;
+        let (width, height, found) = (self.width, self.height, samples.len() as u64);
+        let expected = u64::from(width) * u64::from(height);
+        if found != expected || expected == 0 {
+            return Err(PictureError::Samples { width, height, expected, found });
+        }
         self.channels.push(PictureChannel { name: name.to_owned(), unit, samples });
         Ok(self)
     }
@@ -212,13 +218,4 @@ impl Picture {
         let shown = pixels.iter().map(|pixel| pixel.map(|channel| display::encode(f64::from(channel) * exposure)));
         Ok(rgb8(self.width, self.height, shown))
     }
-}
-
-/// `found` samples must fill `width` by `height` pixels of `channels` samples each, and be at least one.
-fn expect_samples(width: u32, height: u32, channels: u64, found: usize) -> Result<(), PictureError> {
-    let (expected, found) = ((u64::from(width) * u64::from(height)).saturating_mul(channels), found as u64);
-    if found == expected && expected > 0 {
-        return Ok(());
-    }
-    Err(PictureError::Samples { width, height, expected, found })
 }

@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType, Rgb, RgbImage};
 
-use super::{PictureError, PictureFormat, expect_samples};
+use super::{PictureError, PictureFormat};
 
 /// An image from its samples, pixel by pixel, rows from the top.
 ///
@@ -16,12 +16,14 @@ pub fn buffer<P: Pixel>(
     height: u32,
     samples: Vec<P::Subpixel>,
 ) -> Result<ImageBuffer<P, Vec<P::Subpixel>>, PictureError> {
-    let (channels, found) = (u64::from(P::CHANNEL_COUNT), samples.len());
-    expect_samples(width, height, channels, found)?;
-    // Only a picture of more samples than there are addresses is refused here.
-    let expected = u64::MAX;
-    let refused = PictureError::Samples { width, height, expected, found: found as u64 };
-    ImageBuffer::from_vec(width, height, samples).ok_or(refused)
+    let (pixels, found) = (u64::from(width) * u64::from(height), samples.len() as u64);
+    let expected = pixels.saturating_mul(u64::from(P::CHANNEL_COUNT));
+    let refused = PictureError::Samples { width, height, expected, found };
+    if found == expected && expected > 0 {
+        ImageBuffer::from_vec(width, height, samples).ok_or(refused)
+    } else {
+        Err(refused)
+    }
 }
 
 /// An image of red, green and blue bytes, rows from the top; pixels that are not given are black.

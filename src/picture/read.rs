@@ -57,8 +57,9 @@ pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_byte
 }
 
 impl Picture {
-    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB values `R`, `G`, `B`
-    /// (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is read.
+    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB
+    /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is
+    /// read.
     ///
     /// # Errors
     /// [`PictureError`].

@@ -31,7 +31,8 @@ pub struct Excerpt {
 }
 
 impl Excerpt {
-    /// The piece of `source` around `labels`, and the labels as they lie in the piece. `None` without labels, or if one lies outside.
+    /// The piece of `source` around `labels`, and the labels as they lie in the piece. `None` without labels, or if one
+    /// lies outside.
     pub fn new(source: &dyn SourceCode, labels: &[LabeledSpan]) -> Option<(Self, Vec<LabeledSpan>)> {
         let low = labels.iter().map(LabeledSpan::offset).min()?;
         let high = labels.iter().map(|label| label.offset().saturating_add(label.len())).max()?;
@@ -92,7 +93,8 @@ impl SourceCode for Excerpt {
     }
 }
 
-/// A line without its end as a table quotes it: blanks around it left out, tabs made blanks, cut around the byte `focus` if it is long.
+/// A line without its end as a table quotes it: blanks around it left out, tabs made blanks, cut around the byte
+/// `focus` if it is long.
 pub fn quoted_line(line: &str, focus: usize) -> String {
     let mut text = String::new();
     push_line(&mut text, line.as_bytes(), 0, slice::from_ref(&(focus..focus)), slice::from_mut(&mut (0..0)));

@@ -91,8 +91,8 @@ impl NamedPicture {
     }
 }
 
-/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is only written
-/// to a file. Every picture and chart is encoded once, for its file and the page.
+/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is
+/// only written to a file. Every picture and chart is encoded once, for its file and the page.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub(super) title: String,
@@ -129,6 +129,15 @@ impl Findings {
             self.text.push(Passage::Table(self.tables.len()));
         }
         self.tables.push(table);
+    }
+
+    /// Appends a table and a paragraph on it to the page, if the table has rows.
+    pub fn explained_table(&mut self, table: FoundTable, text: &str) {
+        let rows = !table.table.rows().is_empty();
+        self.table(table);
+        if rows {
+            self.paragraph(text);
+        }
     }
 
     /// Appends a chart to the page; it is also written to `NAME.svg`.
@@ -210,7 +219,8 @@ impl Findings {
         Value::Object(document)
     }
 
-    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the files of its own.
+    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
+    /// files of its own.
     ///
     /// # Errors
     /// If an encoder refuses.

@@ -1,8 +1,8 @@
 //! What a study found, in the forms that people and programs read.
 //!
-//! [`Findings`] are text, tables, charts, pictures, files and a verdict; they know how to write themselves: a page (one HTML file with
-//! everything inside it), CSV, a JSON document, SVG, PNG, EXR. Everything here makes bytes: who calls it writes them, whole files at a
-//! time, through `io::atomic`.
+//! [`Findings`] are text, tables, charts, pictures, files and a verdict; they know how to write themselves: a page (one
+//! HTML file with everything inside it), CSV, a JSON document, SVG, PNG, EXR. Everything here makes bytes: who calls it
+//! writes them, whole files at a time, through `io::atomic`.
 
 mod chart;
 mod excerpt;

@@ -19,8 +19,8 @@ pub(super) enum Passage {
     Pictures(Range<usize>),
 }
 
-/// The page as one HTML file that needs nothing else: pictures (`pngs`), charts (`drawings`) and style are inside it, scripts there are
-/// none. The provenance comes last.
+/// The page as one HTML file that needs nothing else: pictures (`pngs`), charts (`drawings`) and style are inside it,
+/// scripts there are none. The provenance comes last.
 pub(super) fn html(findings: &Findings, pngs: &[Vec<u8>], drawings: &[String], provenance: &Provenance) -> String {
     let passage = |passage: &Passage| match passage {
         Passage::Heading(text) => html! { h2 { (text) } },

@@ -89,8 +89,14 @@ pub struct Table {
 
 impl Table {
     /// An empty table. The headings double as the names of the fields in CSV and JSON.
-    pub fn new(title: impl Into<String>, headings: &[&str]) -> Self {
-        Self { title: title.into(), headings: headings.iter().map(ToString::to_string).collect(), rows: Vec::new() }
+    pub fn new(title: impl Into<String>, headings: &[impl AsRef<str>]) -> Self {
+        let headings = headings.iter().map(|heading| heading.as_ref().to_owned()).collect();
+        Self { title: title.into(), headings, rows: Vec::new() }
+    }
+
+    /// An empty table whose columns are named by the words of a text.
+    pub fn of(title: impl Into<String>, columns: &str) -> Self {
+        Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
     /// Adds a row; what it lacks is left empty, what it has too much is dropped.
@@ -115,7 +121,7 @@ impl Table {
         &self.rows
     }
 
-    /// The table for a log or another program, without the title: one line a row, columns as wide as they need to be.
+    /// The table for a log or another program, without the title: one line per row, columns as wide as they need to be.
     pub fn text(&self) -> String {
         self.laid_out(comfy_table::Table::new().set_content_arrangement(ContentArrangement::Disabled))
     }

@@ -1,7 +1,8 @@
 //! Traces for the viewers of Chrome and Perfetto: the JSON object form of the trace event format.
 //!
-//! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata (`M`),
-//! arrows are flows (`s` to `f`). Times are given in picoseconds and written in microseconds, as the format wants.
+//! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata
+//! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds and written in microseconds, as the format
+//! wants.
 
 use std::io::{self, Write};
 
@@ -76,7 +77,7 @@ enum Event<'a> {
 }
 
 impl Trace {
-    /// Writes the file: slices in the order of time, one event a line.
+    /// Writes the file: slices in the order of time, one event per line.
     ///
     /// # Errors
     /// What `out` says.

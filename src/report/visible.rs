@@ -1,12 +1,14 @@
 //! Text from outside, made safe to look at: nothing in it moves a cursor, changes a colour or reorders letters.
 //!
-//! Every renderer goes through here: messages, tables, pages, and what commands print. A message that arrives escaped stays as it is.
+//! Every renderer goes through here: messages, tables, pages, and what commands print. A message that arrives escaped
+//! stays as it is.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character acts on what is shown around it instead of being shown: controls (C0, DEL, C1), Unicode's formatting
-/// characters (general category Cf: bidirectional overrides, joiners, tags) and its line and paragraph separators.
+/// Whether a character acts on what is shown around it instead of being shown: controls (C0, DEL, C1), Unicode's
+/// formatting characters (general category Cf: bidirectional overrides, joiners, tags) and its line and paragraph
+/// separators.
 pub const fn is_hidden(c: char) -> bool {
     matches!(c,
         '\u{0}'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{ad}'
@@ -28,8 +30,8 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden)
 }
 
-/// A JSON document in which every hidden character is written as JSON's own escape, `\u001b`. Readers get the same text: a finished
-/// document has hidden characters, apart from the line ends between its parts, only inside strings.
+/// A JSON document in which every hidden character is written as JSON's own escape, `\u001b`. Readers get the same
+/// text: a finished document has hidden characters, apart from the line ends between its parts, only inside strings.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
     let hidden = |c: char| c != '\n' && is_hidden(c);
     if !document.contains(hidden) {

@@ -1,4 +1,4 @@
-//! Studies: one folder a question. Parameters go in, [`Findings`] come out; nothing is printed or written here.
+//! Studies: one folder per question. Parameters go in, [`Findings`] come out; nothing is printed or written here.
 //!
 //! docs/command_line.md says what a new study needs.
 
@@ -11,7 +11,7 @@ pub mod timeline_trace;
 
 use crate::report::{Findings, Provenance};
 
-/// Hears what is being done, how many steps of it are done, and of how many.
+/// Called with the current step's name, how many units of it are done, and of how many.
 pub type ProgressFn<'a> = dyn FnMut(&str, u64, u64) + 'a;
 
 /// A question with its parameters, ready to be answered.
@@ -25,6 +25,6 @@ pub trait Study {
     /// [`Study::Error`].
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, Self::Error>;
 
-    /// Adds devices, switches and seed, as they are used, to where the findings come from.
+    /// Adds the devices, switches and seed that are used.
     fn provenance(&self, provenance: Provenance) -> Provenance;
 }

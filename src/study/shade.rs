@@ -84,8 +84,8 @@ fn unit(v: Vec3) -> Vec3 {
     if length > 0.0 { v.map(|x| x / length) } else { v }
 }
 
-/// Linear light to a byte by a display of gamma 2, which makes pictures of these hits comparable by bytes: not the sRGB curve of
-/// [`crate::picture::display`].
+/// Linear light to a byte by a curve of gamma 2. The study counts pixels whose bytes differ, so this curve is part of
+/// its figures, and stays beside sRGB.
 fn encode(linear: f64) -> u8 {
     (linear.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8
 }

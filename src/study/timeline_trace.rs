@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use crate::report::trace::{Arrow, Slice, Trace};
 
-/// Spans and waits on a lane a unit, arrows where the critical path goes from one to another. `model` made the timeline of what
-/// `what` names.
+/// Spans and waits on a lane per unit, arrows where the critical path goes from one to another. `model` made the
+/// timeline of what `what` names.
 pub fn trace(profile: &Profile, model: &str, what: &str, timeline: &Timeline) -> Trace {
     let spans = timeline.spans().iter().map(|span| Slice {
         lane: span.unit.index(),

@@ -308,7 +308,8 @@ fn the_example_of_the_documentation_runs() {
     assert_eq!(crossbar(&["run", "--help"], "").code, Some(0));
 }
 
-/// Four loops of 255 passes, one in the other: the run ends with the place, on every executor, in traces and comparisons.
+/// Four loops of 255 passes, one in the other: the run ends with the place, on every executor, in traces and
+/// comparisons.
 #[test]
 fn a_program_that_runs_too_long_is_an_error() {
     let folder = tempfile::tempdir().expect("a folder for the test");

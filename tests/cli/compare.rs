@@ -162,7 +162,8 @@ fn the_alpha_test() {
     assert_eq!(found["values"][0]["name"], "target 0 red");
 }
 
-/// The coordinate is rounded on its way into a register: the stage is that, and the instruction that reads it is named too.
+/// The coordinate is rounded on its way into a register: the stage is that, and the instruction that reads it is named
+/// too.
 #[test]
 fn an_input_register() {
     let text =
@@ -204,8 +205,8 @@ fn the_output_merge() {
     assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
 }
 
-/// An edge at column 3.02: on a grid of sixteenths that is 3, and the centre of column 3 lies on it, to the right of the
-/// quad; on one of 256ths it lies inside.
+/// An edge at column 3.02: on a grid of sixteenths that is 3, and the centre of column 3 lies on it, to the right of
+/// the quad; on one of 256ths it lies inside.
 #[test]
 fn the_coverage() {
     let text = r#"device = "r300"
@@ -264,7 +265,8 @@ fn a_trace() {
     insta::assert_snapshot!(trace);
 }
 
-/// 2 * 0.7 in s3.12: 0.7 is 2867 of 4096 parts, its double 5734; c1 is an eighth, its product 716.75 parts rounds to 717.
+/// 2 * 0.7 in s3.12: 0.7 is 2867 of 4096 parts, its double 5734; c1 is an eighth, its product 716.75 parts rounds to
+/// 717.
 #[test]
 fn a_trace_for_machines() {
     let text = r#"shader_model = "ps_1_4"

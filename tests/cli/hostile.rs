@@ -44,8 +44,8 @@ const HOSTILE: &[&str] = &[
     "🫖",
 ];
 
-/// Each subcommand with the options that take values, and arguments with which it fails before any work whatever they say: the test is of
-/// what it says, and of what it leaves.
+/// Each subcommand with the options that take values, and arguments with which it fails before any work whatever they
+/// say: the test is of what it says, and of what it leaves.
 const COMMANDS: &[(&[&str], &[&str])] = &[
     (&["alu", "add", "--format", "fp99"], &["--format", "--to", "--tininess"]),
     (&["check", "nowhere.psa"], &["--device", "--switch"]),

@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A command to which no signal is ignored, though one may be to whoever runs these tests (`nohup`, a script in the background): it would stay
-/// so for the program too, and work of minutes would run to its end.
+/// A command to which no signal is ignored, though one may be to whoever runs these tests (`nohup`, a script in the
+/// background): it would stay so for the program too, and work of minutes would run to its end.
 fn unignoring(program: &str) -> Command {
     if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
@@ -71,7 +71,8 @@ fn signals_leave_nothing_behind() {
 fn shells_see_130_and_143() {
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        // A shell without job control starts what is in the background with SIGINT ignored, so the program is in its foreground.
+        // A shell without job control starts what is in the background with SIGINT ignored, so the program is in its
+        // foreground.
         let script = format!(
             "(until ls -d .crossbar-* > /dev/null 2>&1; do sleep 0.02; done; kill -s {name} $(cat pid)) & \
              sh -c 'echo $$ > pid; exec \"$0\" \"$@\"' \"$@\"; echo $?"

@@ -1,4 +1,5 @@
-//! Work that does not fit into memory is refused before it begins, and what is said to be needed is about what is needed.
+//! Work that does not fit into memory is refused before it begins, and what is said to be needed is about what is
+//! needed.
 
 use std::fs;
 use std::path::Path;
@@ -128,7 +129,8 @@ fn peak(folder: &Path, arguments: &[&str]) -> f64 {
     }
 }
 
-/// What is said against what is measured: the peak of resident memory above that of the same command with next to no work.
+/// What is said against what is measured: the peak of resident memory above that of the same command with next to no
+/// work.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_is_said_is_what_is_taken() {

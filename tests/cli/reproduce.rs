@@ -30,7 +30,7 @@ fn the_rows_are_these() {
     assert_eq!(counted, 17, "every row has one verdict: {tally:?}");
     let file = |name: &str| std::fs::read_to_string(folder.path().join("found").join(name)).expect("it was written");
     assert!(file("index.html").contains("<svg") && file("figure-7-gamma-4.svg").starts_with("<svg"));
-    let written: serde_json::Value = serde_json::from_str(&file("reproduce.json")).expect("JSON");
+    let written: serde_json::Value = serde_json::from_str(&file("study.json")).expect("JSON");
     assert_eq!(written["rows"], document["rows"]);
     insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
 }

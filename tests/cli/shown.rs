@@ -118,8 +118,8 @@ fn lists_of_errors_are_cut_unless_all_are_asked_for() {
     assert_eq!(check(&bad_lines(3), &["--all-errors"]), check(&bad_lines(3), &[]));
 }
 
-/// Processor time of the program alone, so that a busy machine does not matter: eight times the errors may cost eight times the time,
-/// where a renderer that walks the text for each error would take 64 times.
+/// Processor time of the program alone, so that a busy machine does not matter: eight times the errors may cost eight
+/// times the time, where a renderer that walks the text for each error would take 64 times.
 #[test]
 fn a_report_costs_as_much_as_its_errors() {
     let seconds = |count: usize, more: &[&str]| {

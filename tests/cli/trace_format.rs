@@ -1,5 +1,5 @@
-//! A strict reader of the trace event format, in its JSON object form, as far as Crossbar writes it: complete events, metadata and
-//! flows. Whatever the format does not know, or a viewer would drop without a word, is an error.
+//! A strict reader of the trace event format, in its JSON object form, as far as Crossbar writes it: complete events,
+//! metadata and flows. Whatever the format does not know, or a viewer would drop without a word, is an error.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -82,8 +82,8 @@ pub(crate) struct Shown {
     pub(crate) about: Map<String, Value>,
 }
 
-/// Reads a trace and holds it to what viewers need: one named process, named threads with places, slices of each in order and side by
-/// side, flows in pairs whose ends lie in slices.
+/// Reads a trace and holds it to what viewers need: one named process, named threads with places, slices of each in
+/// order and side by side, flows in pairs whose ends lie in slices.
 pub(crate) fn read(text: &str) -> Result<Shown, String> {
     let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());

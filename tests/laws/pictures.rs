@@ -50,8 +50,8 @@ proptest! {
         prop_assert_eq!(read.display(1.0).expect("color"), image);
     }
 
-    /// Three mantissas of 8 bits share the exponent of the brightest: each channel is right to 1/128 of that, and what was read is
-    /// written and read again without loss.
+    /// Three mantissas of 8 bits share the exponent of the brightest: each channel is right to 1/128 of that, and what
+    /// was read is written and read again without loss.
     #[test]
     fn hdr_keeps_what_its_format_holds(color in prop::collection::vec(prop::array::uniform3(1e-6_f32..1e6), PIXELS)) {
         let read = Picture::decode(&hdr(&Picture::rgb(SIZE[0], SIZE[1], &color)).expect("a file")).expect("our own file");

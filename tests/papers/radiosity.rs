@@ -77,8 +77,8 @@ fn the_printed_rates_leave_four_sizes() {
     assert_eq!(model::passes(1540, 1, model::BLOCK), 7);
 }
 
-/// Section 3.1: 29.7 iterations a second and 141 MFLOP/s, compute bound, with a tenth of the bandwidth in use. No figure of the model comes
-/// from that paper.
+/// Section 3.1: 29.7 iterations a second and 141 MFLOP/s, compute bound, with a tenth of the bandwidth in use. No
+/// figure of the model comes from that paper.
 #[test]
 fn an_iteration_of_1540_patches_on_the_5900_ultra() {
     let timing = Timing { patches: 1540, packing: Packing::Rgb, storage: Storage::Fp32, cache: false };

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crossbar::report::{Series, Table};
 use crossbar::study::reproduce::report::{held, tables, tally_line};
 use crossbar::study::reproduce::{
-    Bound, ENTRIES, EntryFindings, FigureRow, Method, Origin, Prose, Reproduced, RowVerdict, Standing, choose, number,
+    Bound, ENTRIES, EntryFindings, Method, Origin, PaperRow, Prose, Reproduced, RowVerdict, Standing, choose, number,
     reproduce,
 };
 
@@ -14,7 +14,7 @@ use crossbar::study::reproduce::{
 static FOUND: LazyLock<Reproduced> =
     LazyLock::new(|| reproduce(ENTRIES, &mut |_, _, _| ()).expect("the entries can be worked out"));
 
-fn all() -> impl Iterator<Item = &'static FigureRow> {
+fn all() -> impl Iterator<Item = &'static PaperRow> {
     FOUND.iter().flat_map(|(_, found)| &found.rows)
 }
 
@@ -25,8 +25,8 @@ fn findings(id: &str) -> &'static EntryFindings {
 /// The rows: whoever changes the engine, a scene, a card or a weight sees here what it does to them.
 #[test]
 fn the_rows_are_these() {
-    let line = |row: &FigureRow| {
-        let FigureRow { what, device, method, target, ours, .. } = row;
+    let line = |row: &PaperRow| {
+        let PaperRow { what, device, method, target, ours, .. } = row;
         let (place, paper, unit, verdict) = (target.place, target.text(), target.unit, row.verdict());
         let explained = row.explanation().map(|e| format!(" [{}]", e.text())).unwrap_or_default();
         format!("{place}, {what}, {device}, {method}: {paper} {unit}, ours {ours:.3}: {verdict}{explained}")
@@ -39,7 +39,7 @@ fn the_rows_are_these() {
 #[test]
 fn the_equation_gives_every_printed_digit() {
     let rows = findings("equation-11").rows.iter().filter(|row| row.method == Method::Equation);
-    let verdicts: Vec<_> = rows.inspect(|row| assert_eq!(row.bound, Bound::Print)).map(FigureRow::verdict).collect();
+    let verdicts: Vec<_> = rows.inspect(|row| assert_eq!(row.bound, Bound::Print)).map(PaperRow::verdict).collect();
     use RowVerdict::{Calibrated, Reproduced};
     assert_eq!(verdicts, [Reproduced, Reproduced, Calibrated, Calibrated, Reproduced, Calibrated]);
 }
@@ -93,7 +93,8 @@ fn explanations_reach_what_they_explain() {
     assert_eq!(explained.len(), all().filter(|row| row.verdict() == RowVerdict::Explained).count());
 }
 
-/// The three experiments: what another reading of the rays on the card, another octree of the host alone and other costs of commands give.
+/// The three experiments: what another reading of the rays on the card, another octree of the host alone and other
+/// costs of commands give.
 #[test]
 fn what_the_paper_leaves_open_is_swept() {
     let columns = |id: &str, table: usize| findings(id).tables[table].headings().len() - 5;
@@ -142,7 +143,8 @@ fn no_figure_is_written_by_hand() {
     }
 }
 
-/// Numbers of a text that name nothing: not part of a word (`GeForce3`), and not behind `Table`, `equation` and the like.
+/// Numbers of a text that name nothing: not part of a word (`GeForce3`), and not behind `Table`, `equation` and the
+/// like.
 fn figures_in(text: &str) -> Vec<String> {
     const BEFORE: [&str; 7] = ["table", "figure", "equation", "section", "radeon", "step", "tables"];
     let words: Vec<&str> =

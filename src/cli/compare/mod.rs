@@ -87,9 +87,9 @@ pub(in crate::cli) struct Args {
     registers: bool,
 }
 
-/// What was asked for on one side.
+/// One side as requested.
 #[derive(Debug)]
-struct Wanted {
+struct SideRequest {
     name: &'static str,
     executor: Executor,
     overrides: Overrides,
@@ -97,7 +97,7 @@ struct Wanted {
 
 impl Args {
     /// The two sides, which must differ in something.
-    fn sides(&self) -> miette::Result<[Wanted; 2]> {
+    fn sides(&self) -> miette::Result<[SideRequest; 2]> {
         let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
         let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());
         let left_executor = self.left.unwrap_or(DeviceExecutor::Scalar);
@@ -120,8 +120,8 @@ impl Args {
         };
         let budget = self.step_budget;
         Ok([
-            wanted("left", left, budget, open(left_executor)?)?,
-            wanted("right", right, budget, open(right_executor)?)?,
+            request("left", left, budget, open(left_executor)?)?,
+            request("right", right, budget, open(right_executor)?)?,
         ])
     }
 
@@ -135,14 +135,14 @@ impl Args {
 }
 
 /// Device, format and switches as asked for.
-type Settings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
+type SideSettings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
 
-fn wanted(
+fn request(
     name: &'static str,
-    settings: Settings<'_>,
+    settings: SideSettings<'_>,
     step_budget: Option<u32>,
     executor: Executor,
-) -> miette::Result<Wanted> {
+) -> miette::Result<SideRequest> {
     let (device, format, switches) = settings;
     let overrides = || -> miette::Result<Overrides> {
         Ok(Overrides {
@@ -153,15 +153,15 @@ fn wanted(
         })
     };
     let overrides = overrides().wrap_err_with(|| format!("the {name} side cannot be set up"))?;
-    Ok(Wanted { name, executor, overrides })
+    Ok(SideRequest { name, executor, overrides })
 }
 
 pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let [left, right] = args.sides()?;
-    let read = |wanted: &Wanted| {
-        Setup::read_with(&args.case, &wanted.overrides)
+    let read = |request: &SideRequest| {
+        Setup::read_with(&args.case, &request.overrides)
             .map_err(miette::Report::from)
-            .wrap_err_with(|| format!("the case cannot be set up on the {} side", wanted.name))
+            .wrap_err_with(|| format!("the case cannot be set up on the {} side", request.name))
     };
     let setups = [read(&left)?, read(&right)?];
     for setup in &setups {
@@ -173,7 +173,7 @@ pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict>
     ];
     let comparison = case::compare(&sides[0], &sides[1], args.scope(setups[0].size)?)?;
     out.outlive_reader();
-    let shown = show::Shown { case: &args.case, sides: &sides, comparison: &comparison };
+    let shown = show::ShownComparison { case: &args.case, sides: &sides, comparison: &comparison };
     if out.json() {
         out.document(&shown.document())?;
     } else {

@@ -15,8 +15,8 @@ use crate::{
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
-/// What is shown.
-pub(super) struct Shown<'a> {
+/// A comparison with its sides.
+pub(super) struct ShownComparison<'a> {
     pub(super) case: &'a Path,
     pub(super) sides: &'a [Side<'a>; 2],
     pub(super) comparison: &'a Comparison,
@@ -82,7 +82,7 @@ fn surfaces_table(surfaces: &[SurfaceDifference]) -> Table {
     table
 }
 
-impl Shown<'_> {
+impl ShownComparison<'_> {
     fn setup(&self) -> &Setup {
         self.sides[0].setup
     }

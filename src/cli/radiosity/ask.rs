@@ -37,9 +37,9 @@ impl FromStr for SolverArg {
 /// How elements lie in texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum PackingArg {
-    /// One texel an element: red, green and blue at once
+    /// One element per texel: red, green and blue at once
     Rgb,
-    /// Four elements a texel, a channel after the other
+    /// Four elements per texel, one channel after the other
     Luminance,
 }
 

@@ -29,8 +29,8 @@ Examples:
       half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
 
 Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, with --sweep \
-sweep.csv and sweep.svg, pictures of every way \
-(NAME-flat.png, NAME-smooth.png) and of --frames; with a way on a card timeline.json, a trace for https://ui.perfetto.dev or \
+sweep.csv and sweep.svg, pictures of every method \
+(NAME-flat.png, NAME-smooth.png) and of --frames; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
 chrome://tracing. docs/papers/radiosity.md explains all of it.";
 
 /// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
@@ -53,7 +53,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "HOW", default_value = "rays")]
     factors: FactorsArg,
 
-    /// For rays: strata along a side of a patch, so the square of it in rays a pair
+    /// For rays: strata along a side of a patch; their square is the number of rays per pair
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
     strata: u32,
 
@@ -61,7 +61,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 64)]
     hemicube: u32,
 
-    /// Which random numbers
+    /// Random seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
@@ -69,16 +69,17 @@ pub(super) struct Args {
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     require_closed: Option<f64>,
 
-    /// Make form factors obey what form factors obey; `closure` makes them reciprocal too
+    /// Enforce reciprocity or closure of form factors; `closure` enforces both
     #[arg(long, value_enum, value_name = "LAW")]
     enforce: Option<Law>,
 
-    /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and direct]
+    /// card, jacobi, gauss-seidel, sor:FACTOR, shooting or direct; may be repeated [default: card, gauss-seidel and
+    /// direct]
     #[arg(long, value_name = "S")]
     solver: Vec<ask::SolverArg>,
 
-    /// For the card: one texel an element and three channels at once, or four elements a texel and a channel at a time; may be
-    /// repeated [default: rgb]
+    /// For the card: one element per texel and all channels at once, or four elements per texel and one channel at a
+    /// time; may be repeated [default: rgb]
     #[arg(long, value_enum, value_name = "P")]
     packing: Vec<ask::PackingArg>,
 
@@ -101,7 +102,8 @@ pub(super) struct Args {
     #[command(flatten)]
     gpu: GpuArgs,
 
-    /// Stop when the residual's length is this share of the emittance's [default: 1e-4; 0 with --iterations]
+    /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
+    /// --iterations]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     tolerance: Option<f64>,
 
@@ -136,7 +138,8 @@ pub(super) struct Args {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// What radiance is multiplied by in pictures; 1 is white [default: so that what does not shine is grey in the mean]
+    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, surfaces that
+    /// do not emit at 18 % grey on average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
 
@@ -159,7 +162,7 @@ enum FactorsArg {
 /// What form factors obey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Law {
-    /// Areas times form factors are the same from both sides
+    /// Area times form factor is the same from both sides
     Reciprocity,
     /// Form factors of a patch sum to 1
     Closure,
@@ -176,7 +179,8 @@ impl StudyArgs for Args {
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         const PER_PAIR: u64 = 64;
         const PER_PIXEL_AND_PICTURE: u64 = 100;
-        // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their own.
+        // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their
+        // own.
         let patches = self.per_side.map_or(u64::from(self.patches), |_| 0);
         let pictures = (ask::methods(self)?.len() + self.frames.len()) as u64;
         let matrices = patches * patches * PER_PAIR;

@@ -44,7 +44,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_enum, value_name = "R")]
     renderer: Option<Renderer>,
 
-    /// Samples a pixel [default: 1 for eye, 4 for whitted, else 16]
+    /// Samples per pixel [default: 1 for eye, 4 for whitted, else 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     samples: Option<u32>,
 
@@ -52,7 +52,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
 
-    /// Which random numbers
+    /// Random seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
@@ -84,7 +84,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_enum, value_name = "C")]
     caster: Option<CasterArg>,
 
-    /// Say on standard error how long it took, and how many rays a second that is
+    /// Say on standard error how long it took, and how many rays per second that is
     #[arg(long)]
     time: bool,
 }
@@ -143,7 +143,8 @@ fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), 
 /// Half a step of single precision, the host's.
 const SINGLE: f64 = 1.0 / 16_777_216.0;
 
-/// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are single precision.
+/// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are
+/// single precision.
 fn unit_roundoff(format: Format) -> f64 {
     let bits = match format.kind {
         FormatKind::Fixed { frac_bits, .. } => frac_bits,
@@ -154,7 +155,7 @@ fn unit_roundoff(format: Format) -> f64 {
     (if nearest { step / 2.0 } else { step }).max(SINGLE)
 }
 
-/// A picture without any light is not what anybody asks for.
+/// Refuses a scene without lights that the renderer knows: the picture would be black.
 fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
     let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
     let dark = match renderer {

@@ -29,12 +29,12 @@ pub(super) struct Traced<'a> {
 }
 
 /// A named value.
-struct Row {
+struct TraceRow {
     name: String,
     number: Number,
 }
 
-impl Row {
+impl TraceRow {
     fn new(program: &Program, register: &Register, component: usize, format: Format, bits: u32) -> Self {
         Self { name: crate::compare::component(program, register, component), number: Number { format, bits } }
     }
@@ -54,38 +54,38 @@ impl Traced<'_> {
     }
 
     /// What the rasteriser gave the program, as far as it can be read, and the depth.
-    fn interpolated(&self, fragment: &FragmentTrace) -> Vec<Row> {
+    fn interpolated(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
         let reads = inputs_read(&self.setup.pixel);
         let input = &fragment.shading.input;
         let sets = input.t.iter().enumerate().map(|(n, t)| (RegisterFile::Texture, n, TEXCOORD_COMPONENT, t));
         let position = [(RegisterFile::WindowPosition, 0, POSITION_COMPONENT, &input.position)];
         let colors = input.v.iter().enumerate().map(|(n, v)| (RegisterFile::Input, n, COLOR_COMPONENT, v));
-        let mut rows: Vec<Row> = colors
+        let mut rows: Vec<TraceRow> = colors
             .chain(sets)
             .chain(position)
             .filter(|(_, n, first, _)| reads.has(first + 4 * n))
             .flat_map(|(file, n, _, value)| {
                 let register = Register::new(file, n as u16);
-                (0..4).map(move |c| Row::new(&self.setup.pixel, &register, c, Format::FP32, value[c]))
+                (0..4).map(move |c| TraceRow::new(&self.setup.pixel, &register, c, Format::FP32, value[c]))
             })
             .collect();
         if reads.has(FOG_COMPONENT) {
             let number = Number { format: Format::FP32, bits: input.fog };
-            rows.push(Row { name: "fog".to_owned(), number });
+            rows.push(TraceRow { name: "fog".to_owned(), number });
         }
-        rows.push(Row { name: "depth".to_owned(), number: Number { format: Format::FP32, bits: input.depth } });
+        rows.push(TraceRow { name: "depth".to_owned(), number: Number { format: Format::FP32, bits: input.depth } });
         rows
     }
 
-    fn delivered(&self, fragment: &FragmentTrace) -> Vec<Row> {
+    fn delivered(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
         let registers = fragment.shading.delivered.iter();
         registers
-            .flat_map(|(r, value)| (0..4).map(|c| Row::new(&self.setup.pixel, r, c, self.format(), value[c])))
+            .flat_map(|(r, value)| (0..4).map(|c| TraceRow::new(&self.setup.pixel, r, c, self.format(), value[c])))
             .collect()
     }
 
     /// What a step wrote, component by component; truth values of predicates are 0 and 1.
-    fn written(&self, step: &Step) -> Vec<Row> {
+    fn written(&self, step: &Step) -> Vec<TraceRow> {
         let instruction = self.setup.pixel.instructions.get(step.instruction);
         let Some(destination) = instruction.and_then(|i| i.destination) else { return Vec::new() };
         let file = destination.register.file;
@@ -93,7 +93,7 @@ impl Traced<'_> {
         let format = FragmentFormats::new(&self.setup.profile.rules).of_file(file);
         let shown = |c: usize| {
             let one = if step.value[c] != 0 { self.format().one() } else { 0 };
-            Row::new(&self.setup.pixel, &destination.register, c, format, if truth { one } else { step.value[c] })
+            TraceRow::new(&self.setup.pixel, &destination.register, c, format, if truth { one } else { step.value[c] })
         };
         step.mask.components().map(shown).collect()
     }
@@ -235,7 +235,7 @@ impl Traced<'_> {
     }
 
     fn pass_json(&self, fragment: &FragmentTrace) -> Value {
-        let rows = |rows: Vec<Row>| rows.iter().map(Row::json).collect::<Vec<_>>();
+        let rows = |rows: Vec<TraceRow>| rows.iter().map(TraceRow::json).collect::<Vec<_>>();
         let shading = &fragment.shading;
         json!({
             "instance": fragment.instance,
@@ -262,7 +262,7 @@ impl Traced<'_> {
             out.insert("register".to_owned(), instruction.destination.map(|d| d.register.to_string()).into());
         }
         out.insert("mask".to_owned(), letters(step.mask).into());
-        out.insert("written".to_owned(), self.written(step).iter().map(Row::json).collect());
+        out.insert("written".to_owned(), self.written(step).iter().map(TraceRow::json).collect());
         let flags = self.knows_flags.then(|| flag_names(step.flags));
         out.insert("flags".to_owned(), flags.map_or(Value::Null, |flags| json!(flags)));
         Value::Object(out)

@@ -14,7 +14,7 @@ use super::size::Size;
 use super::{Out, Problem, ProgressBar, Verdict};
 use crate::io::atomic::write_file;
 use crate::study::timeline_trace::trace;
-use run::{Input, Timed};
+use run::{Input, TimedLog};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -44,7 +44,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     rays: Option<Size>,
 
-    /// With --rays: the mesh, a Wavefront OBJ file [default: the teapot, 8 x 8 quads a patch]
+    /// With --rays: the mesh, a Wavefront OBJ file [default: the teapot, 8 x 8 quads per patch]
     #[arg(long, value_name = "M.obj", requires = "rays", conflicts_with = "case")]
     mesh: Option<PathBuf>,
 
@@ -129,7 +129,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     drop(bar);
     let mut timed = Vec::new();
     for level in args.model.levels() {
-        timed.push(Timed::new(*level, &input, &log, args)?);
+        timed.push(TimedLog::new(*level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.trace, timed.last()) {
         let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);

@@ -1,4 +1,4 @@
-//! What is timed, and the timing of it.
+//! The input of the timing model, and its replay.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ const TANGENT: f32 = 0.375;
 /// Bytes per eye ray: the ray, its hit, its share of the log and of the buckets' cards.
 const PER_RAY: u64 = 90;
 
-/// What is timed.
+/// A case, or rays on a mesh.
 pub(super) enum Input {
     Case(Box<Setup>),
     Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
@@ -68,7 +68,7 @@ impl Input {
         }
     }
 
-    /// What people call it.
+    /// A title for people.
     pub(super) fn title(&self) -> String {
         match self {
             Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
@@ -86,7 +86,7 @@ impl Input {
         }
     }
 
-    /// What is asked of the card; with what becomes of every texel in the texture cache, if `cache`.
+    /// The run's log; with the hits and misses of every texel in the texture cache, if `cache`.
     pub(super) fn log(&self, cache: bool) -> miette::Result<Vec<Event>> {
         let caches = if cache { Some(TextureCaches::new(self.profile()).map_err(no_figure)?) } else { None };
         let watcher = caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) });
@@ -107,7 +107,7 @@ impl Input {
     }
 }
 
-/// What a device lacks that has no time.
+/// A figure that the timing model needs and the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }
@@ -129,14 +129,14 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
 }
 
 /// One model's view of a log.
-pub(super) struct Timed {
+pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,
     /// Empty unless it was asked for.
     pub(super) sensitivity: Vec<Sensitivity>,
 }
 
-impl Timed {
+impl TimedLog {
     pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
         let model = Model::new(level, input.profile()).map_err(no_figure)?;
         let options = Options {

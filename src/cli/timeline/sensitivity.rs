@@ -1,4 +1,4 @@
-//! What a guess does to the total.
+//! Sensitivity of the total to each guess.
 
 use miette::IntoDiagnostic as _;
 use refsim::event::Event;

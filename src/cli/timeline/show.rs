@@ -7,7 +7,7 @@ use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
-use super::run::{Input, Timed};
+use super::run::{Input, TimedLog};
 use super::{Args, ReadBackArg};
 use crate::cli::Out;
 use crate::report::visible::visible_line;
@@ -16,23 +16,26 @@ use crate::report::{Cell, Table};
 /// Draws that the table shows; the document has all.
 const MOST_DRAWS: usize = 16;
 
-pub(super) fn print(args: &Args, input: &Input, log: &[Event], timed: &[Timed], out: &mut Out) -> miette::Result<()> {
+pub(super) fn print(
+    args: &Args,
+    input: &Input,
+    log: &[Event],
+    timed: &[TimedLog],
+    out: &mut Out,
+) -> miette::Result<()> {
     let profile = input.profile();
     out.line(visible_line(&input.title()))?;
     out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
     if args.cache {
-        let table = cache(log);
         out.line("")?;
-        out.line(table.title())?;
-        out.line(table.text())?;
+        out.titled_table(&cache(log))?;
     }
     for one in timed {
         out.line("")?;
         out.line(format_args!("Model: {}", one.name()))?;
         for table in [draws(log, one), units(one), shares(one)] {
             out.line("")?;
-            out.line(table.title())?;
-            out.line(table.text())?;
+            out.titled_table(&table)?;
         }
         if args.sensitivity {
             out.line("")?;
@@ -48,8 +51,7 @@ pub(super) fn print(args: &Args, input: &Input, log: &[Event], timed: &[Timed], 
         }
     }
     out.line("")?;
-    out.line("Totals")?;
-    out.line(totals(input, log, timed).text())?;
+    out.titled_table(&totals(input, log, timed))?;
     if let Some(path) = &args.trace {
         out.line(format_args!("wrote {}", path.display()))?;
     }
@@ -78,7 +80,7 @@ fn change(from: Picoseconds, to: Picoseconds) -> Cell {
 }
 
 /// The draws of a log, each with its cost.
-fn costs<'a>(log: &'a [Event], timed: &'a Timed) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
+fn costs<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
     log.iter().filter_map(record).zip(&timed.replay.draws)
 }
 
@@ -89,7 +91,7 @@ fn record(event: &Event) -> Option<&DrawRecord> {
     }
 }
 
-fn draws(log: &[Event], timed: &Timed) -> Table {
+fn draws(log: &[Event], timed: &TimedLog) -> Table {
     let headings = ["draw", "triangles", "fragments", "front end", "shader", "memory", "total", "clocks", "bound by"];
     let count = timed.replay.draws.len();
     let title = if count > MOST_DRAWS { format!("Draws, {MOST_DRAWS} of {count}") } else { "Draws".to_owned() };
@@ -110,7 +112,7 @@ fn draws(log: &[Event], timed: &Timed) -> Table {
     table
 }
 
-/// What became of the texels, by sampler, over all draws.
+/// Texture cache hits and misses per sampler, over all draws.
 fn cache(log: &[Event]) -> Table {
     let headings = ["sampler", "texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
     let mut table = Table::new("Texture cache, also of half and of double the size", &headings);
@@ -132,7 +134,7 @@ fn cache(log: &[Event]) -> Table {
     table
 }
 
-fn units(timed: &Timed) -> Table {
+fn units(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let mut table = Table::new("Units", &["unit", "busy", "waiting", "idle", "busy %", "waits for"]);
     for Usage { unit, busy, waiting, idle, reasons } in timed.replay.timeline.usage() {
@@ -150,7 +152,7 @@ fn units(timed: &Timed) -> Table {
     table
 }
 
-fn shares(timed: &Timed) -> Table {
+fn shares(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let mut table = Table::new("Critical path: where the time went", &["unit", "with", "pieces", "time", "%"]);
     for part in timed.replay.timeline.where_the_time_went() {
@@ -165,7 +167,7 @@ fn shares(timed: &Timed) -> Table {
     table
 }
 
-fn guesses(timed: &Timed) -> Table {
+fn guesses(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
     let headings = ["guess", "value", "halved", "change %", "doubled", "change %"];
     let mut table = Table::new("Guesses: the total with half and with twice the figure", &headings);
@@ -183,17 +185,17 @@ fn guesses(timed: &Timed) -> Table {
     table
 }
 
-/// Things a second, rounded down.
+/// Rate per second, rounded down.
 fn a_second(count: u64, time: Picoseconds) -> u64 {
     let rate = u128::from(count) * 1_000_000_000_000 / u128::from(time.0.max(1));
     u64::try_from(rate).unwrap_or(u64::MAX)
 }
 
-fn fragments(log: &[Event], timed: &Timed) -> u64 {
+fn fragments(log: &[Event], timed: &TimedLog) -> u64 {
     costs(log, timed).map(|(record, _)| record.counts.fragments.generated).sum()
 }
 
-fn totals(input: &Input, log: &[Event], timed: &[Timed]) -> Table {
+fn totals(input: &Input, log: &[Event], timed: &[TimedLog]) -> Table {
     let mut table = Table::new("Totals", &["model", "total", "fragments/s", "rays/s"]);
     for one in timed {
         let whole = one.replay.timeline.makespan();
@@ -203,7 +205,7 @@ fn totals(input: &Input, log: &[Event], timed: &[Timed]) -> Table {
     table
 }
 
-pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed]) -> Value {
+pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[TimedLog]) -> Value {
     json!({
         "case": args.case.as_ref().map(|path| path.display().to_string()),
         "title": input.title(),
@@ -219,7 +221,7 @@ pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed
     })
 }
 
-fn model(input: &Input, log: &[Event], timed: &Timed) -> Value {
+fn model(input: &Input, log: &[Event], timed: &TimedLog) -> Value {
     let timeline = &timed.replay.timeline;
     let whole = timeline.makespan();
     let draws = costs(log, timed).map(|(record, cost)| {

@@ -1,8 +1,9 @@
-//! How many holes does the teapot get? Figure 4 of the Ray Engine paper, in any number format, against exact arithmetic.
+//! How many holes does the teapot get? Figure 4 of the Ray Engine paper, in any number format, against exact
+//! arithmetic.
 //!
-//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; what comes back is judged against first hits that are
-//! decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles share,
-//! where the paper's equations are evaluated once for each neighbour and need not agree.
+//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; what comes back is judged against
+//! first hits that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners
+//! that triangles share, where the paper's equations are evaluated once for each neighbour and need not agree.
 
 mod report;
 
@@ -21,7 +22,7 @@ use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EngineError, Hit, RayBatch};
 use crate::report::{Findings, Provenance, ReportError};
 
-/// What is asked.
+/// What to trace, and in which configurations.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     /// The surface.
@@ -36,7 +37,7 @@ pub struct Parameters {
     pub rays_per_edge: u32,
     /// Seed of the points on the edges.
     pub seed: u64,
-    /// Who computes.
+    /// The executor of the cards.
     pub executor: Executor,
     /// Whether every ray meets every triangle, or only those near its bucket.
     pub all_pairs: bool,
@@ -88,12 +89,12 @@ impl Tally {
     }
 }
 
-/// One configuration's answer.
+/// One configuration's hits, judged.
 #[derive(Clone, Debug)]
 pub struct TeapotRow {
-    /// Who answered.
+    /// The configuration.
     pub configuration: Configuration,
-    /// The program that ran.
+    /// The intersection program.
     pub kernel: &'static str,
     /// The eye rays' verdicts.
     pub tally: Tally,
@@ -115,7 +116,7 @@ pub struct TeapotRow {
 
 /// Why the study has no findings.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum TeapotError {
+pub enum LeakyTeapotError {
     /// A configuration has no intersection program, or the card refuses the work.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -126,7 +127,7 @@ pub enum TeapotError {
     Report(#[from] ReportError),
 }
 
-/// All answers, and the truth.
+/// Every configuration's hits, and the exact ones.
 #[derive(Clone, Debug)]
 pub struct TeapotOutcome {
     /// The exact picture.
@@ -139,13 +140,13 @@ pub struct TeapotOutcome {
     pub rows: Vec<TeapotRow>,
 }
 
-/// Rays with the truth about them.
-struct Judged {
+/// Rays with their exact hits.
+struct JudgedRays {
     rays: Vec<Ray>,
     truth: Vec<Option<NearestHit>>,
 }
 
-impl Judged {
+impl JudgedRays {
     fn new(tracer: &Tracer<'_>, rays: Vec<Ray>, sides: Sides) -> Self {
         let truth = tracer.nearest_all(&rays, sides);
         Self { rays, truth }
@@ -168,7 +169,7 @@ impl Judged {
     }
 }
 
-/// Asks all configurations. `progress` hears the label of each before it starts.
+/// Traces all configurations. `progress` hears the label of each before it starts.
 ///
 /// # Errors
 /// If a configuration has no intersection program, or the card refuses the work.
@@ -178,9 +179,9 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
     let steps = parameters.configurations.len() as u64 + 1;
     progress("exact arithmetic", 0, steps);
     let tracer = Tracer::new(mesh);
-    let view = Judged::new(&tracer, parameters.view.rays().to_vec(), *sides);
+    let view = JudgedRays::new(&tracer, parameters.view.rays().to_vec(), *sides);
     let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
-    let aim = |aimed: Vec<Aimed>| Judged::new(&tracer, aimed.into_iter().map(|a| a.ray).collect(), *sides);
+    let aim = |aimed: Vec<Aimed>| JudgedRays::new(&tracer, aimed.into_iter().map(|a| a.ray).collect(), *sides);
     let edges = eye.map(|eye| aim(aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed)));
     let vertices = eye.map(|eye| aim(aimed_at_vertices(mesh, eye)));
 
@@ -196,7 +197,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
         let (verdicts, tally) = view.judge(mesh, &answer.hits);
         let triangles: Vec<Option<u32>> = answer.hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
-        let aimed = |judged: &Option<Judged>| -> Result<Tally, EngineError> {
+        let aimed = |judged: &Option<JudgedRays>| -> Result<Tally, EngineError> {
             let Some(judged) = judged else { return Ok(Tally::default()) };
             Ok(judged.judge(mesh, &crossbar.intersect_list(mesh, &judged.rays, *sides)?).1)
         };
@@ -222,9 +223,9 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
 }
 
 impl Study for Parameters {
-    type Error = TeapotError;
+    type Error = LeakyTeapotError;
 
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, TeapotError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, LeakyTeapotError> {
         Ok(report::findings(self, run(self, progress)?)?)
     }
 

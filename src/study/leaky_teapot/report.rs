@@ -18,36 +18,15 @@ fn head(row: &TeapotRow) -> [Cell; 4] {
 
 /// The two tables: eye rays, and rays aimed at shared edges and vertices, if any were.
 fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
-    let mut rows = Table::new(
+    let mut rows = Table::of(
         "Eye rays against exact first hits",
-        &[
-            "row",
-            "device",
-            "format",
-            "switch",
-            "hits",
-            "leaks",
-            "false_hits",
-            "wrong_triangle",
-            "wrong_not_adjacent",
-            "largest_t_error",
-            "pixels_differing",
-        ],
+        "row device format switch hits leaks false_hits wrong_triangle wrong_not_adjacent largest_t_error \
+         pixels_differing",
     );
-    let mut edges = Table::new(
+    let mut edges = Table::of(
         "Rays aimed at shared edges and vertices: leaks where the surface is whole",
-        &[
-            "row",
-            "device",
-            "format",
-            "switch",
-            "edge_rays",
-            "edge_leaks",
-            "edge_leak_percent",
-            "vertex_rays",
-            "vertex_leaks",
-            "vertex_leak_percent",
-        ],
+        "row device format switch edge_rays edge_leaks edge_leak_percent vertex_rays vertex_leaks \
+         vertex_leak_percent",
     );
     for row in &outcome.rows {
         let t = &row.tally;
@@ -83,13 +62,13 @@ fn rounded(x: f64, steps: f64) -> f64 {
     (x * steps).round() / steps
 }
 
-/// A row, and the rows after it that answered every eye ray alike, to the bit.
+/// A row, and the rows after it with the same hits to the bit.
 struct Group<'a> {
     row: &'a TeapotRow,
     same: Vec<&'a TeapotRow>,
 }
 
-/// The rows by what they answered: most switches decide what these programs never ask.
+/// The rows by their hits: most switches change nothing for these programs.
 fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for row in &outcome.rows {

@@ -1,5 +1,5 @@
-//! Dynamic relighting: another light or another paint, the same form factors (section 1: "while the geometry is fixed, the emittance
-//! is not").
+//! Dynamic relighting: another light or another paint, the same form factors (section 1: "while the geometry is fixed,
+//! the emittance is not").
 
 use super::RadiosityError;
 use crate::radiosity::{Patches, System};

@@ -1,18 +1,18 @@
-//! How far a solution is from the truth.
+//! Error of a solution against the direct one.
 
-/// What a solution is off by, over all patches and channels.
+/// Error of a solution over all patches and channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Difference {
-    /// The largest difference, of the brightest patch's radiosity.
+pub struct SolutionError {
+    /// Largest absolute difference, relative to the brightest patch's radiosity.
     pub largest: f64,
-    /// The largest difference of a radiosity, of itself. Patches without any light do not count.
+    /// Largest relative difference. Patches without any light do not count.
     pub relative: f64,
-    /// The mean of that over patches that do not shine, with its sign: below 0 the room is too dark.
+    /// Mean signed relative difference over patches that do not emit: below 0 the room is too dark.
     pub bias: f64,
 }
 
-impl Difference {
-    /// Between what was found and the truth, a radiosity a patch.
+impl SolutionError {
+    /// Compares two solutions, a radiosity per patch.
     pub(super) fn between(found: &[[f64; 3]], truth: &[[f64; 3]], emittance: &[[f64; 3]]) -> Self {
         let brightest = truth.as_flattened().iter().copied().fold(0.0, f64::max);
         let mut off = Self::default();
@@ -34,7 +34,7 @@ impl Difference {
     }
 }
 
-/// What is no number is the largest of all.
+/// The maximum; NaN compares as +infinity.
 fn larger(worst: f64, off: f64) -> f64 {
     if off <= worst || worst.is_nan() { worst } else { off }
 }
@@ -48,8 +48,8 @@ mod tests {
         let truth = [[8.0, 8.0, 8.0], [1.0, 2.0, 0.0]];
         let found = [[8.0, 4.0, 8.0], [0.5, 2.0, 0.0]];
         let emittance = [[8.0; 3], [0.0; 3]];
-        let off = Difference::between(&found, &truth, &emittance);
-        assert_eq!(off, Difference { largest: 0.5, relative: 0.5, bias: -0.25 });
-        assert!(Difference::between(&[[f64::NAN; 3], [1.0; 3]], &truth, &emittance).largest.is_nan());
+        let off = SolutionError::between(&found, &truth, &emittance);
+        assert_eq!(off, SolutionError { largest: 0.5, relative: 0.5, bias: -0.25 });
+        assert!(SolutionError::between(&[[f64::NAN; 3], [1.0; 3]], &truth, &emittance).largest.is_nan());
     }
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with what a study of radiosity is asked.
+//! Errors of the radiosity study.
 
 use miette::Diagnostic;
 use refsim::device::DeviceError;
@@ -14,7 +14,7 @@ use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
 use crate::report::ReportError;
 
-/// Why there is no outcome.
+/// Why the study has no findings.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RadiosityError {
     /// The scene makes no patches.

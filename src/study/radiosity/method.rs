@@ -1,4 +1,4 @@
-//! One way of solving: a solver of the host, or equation 4 on the card.
+//! A method: a solver of the host, or equation 4 on the card.
 
 use std::fmt;
 
@@ -33,21 +33,21 @@ pub enum SolveMethod {
 
 /// Why an iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stopped {
+pub enum StopReason {
     /// The residual is small enough.
     Tolerance,
-    /// The same bits come back for ever.
+    /// The iteration is in a cycle of equal states.
     Cycle(Cycle),
-    /// There were to be no more; on a card, no state came back before.
+    /// The most iterations were made; on a card, without a cycle.
     Iterations,
-    /// It was no iteration.
+    /// The method does not iterate.
     Direct,
 }
 
-/// What a way costs on a card.
+/// What a method costs on a card.
 #[derive(Clone, Debug)]
 pub struct CardFacts {
-    /// Passes an iteration, of all its systems.
+    /// Passes per iteration, of all its systems.
     pub passes: usize,
     /// Texels of a block.
     pub block: usize,
@@ -57,21 +57,21 @@ pub struct CardFacts {
     pub matrix_bytes: f64,
     /// An iteration by the pipeline model; `None` for devices without time.
     pub time: Option<IterationTime>,
-    /// What was asked of the card to change the light, iterate and show: the start of a relit scene.
+    /// Log of changing the light, iterating and showing the room.
     pub log: Vec<Event>,
 }
 
-/// How a way was solved, its card still holding what it found.
+/// A method's solution, still on its card.
 pub(super) struct Solved {
     pub(super) way: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,
     pub(super) history: Vec<f64>,
-    /// Of no radiosity at all: what residuals are shares of.
+    /// Initial residual, for normalising.
     pub(super) emitted: f64,
-    pub(super) stopped: Stopped,
+    pub(super) stopped: StopReason,
     pub(super) relit: Option<Relit>,
     pub(super) card: Option<CardSolver>,
-    /// Radiosities after the iterations of which there are to be pictures.
+    /// Radiosities after the iterations that `--frames` names.
     pub(super) kept: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
@@ -79,7 +79,7 @@ impl SolveMethod {
     /// Elimination on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
-    /// A name that is unique among ways on one device, and fit for a file name.
+    /// A name that is unique among methods on one device, and fit for a file name.
     pub fn label(&self, profile: &Profile) -> String {
         match self {
             Self::Host(solver) => solver.to_string().replace(':', "-"),
@@ -92,7 +92,7 @@ impl SolveMethod {
     }
 }
 
-impl Stopped {
+impl StopReason {
     /// Why an iteration on a card stopped.
     pub(super) fn on_card(found: &CardSolution) -> Self {
         match (found.converged, found.cycle) {
@@ -103,7 +103,7 @@ impl Stopped {
     }
 }
 
-impl fmt::Display for Stopped {
+impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Tolerance => f.write_str("tolerance"),
@@ -115,7 +115,7 @@ impl fmt::Display for Stopped {
     }
 }
 
-/// The mean square of what is emitted, over all channels.
+/// Mean squared emittance, over all channels.
 fn emitted(system: &System) -> f64 {
     mean([0, 1, 2].map(|c| mean_square(&system.right_hand_side(c))))
 }
@@ -124,7 +124,7 @@ fn mean([r, g, b]: [f64; 3]) -> f64 {
     (r + g + b) / 3.0
 }
 
-/// Solves; after the changes again.
+/// Solves, and solves again after the changes.
 pub(super) fn solve(
     way: SolveMethod,
     system: &System,
@@ -163,9 +163,9 @@ fn on_host(
         history: (0..longest).map(|k| mean(at(k))).collect(),
         emitted: emitted(system),
         stopped: match (solver, converged) {
-            (Solver::Direct, _) => Stopped::Direct,
-            (_, true) => Stopped::Tolerance,
-            (_, false) => Stopped::Iterations,
+            (Solver::Direct, _) => StopReason::Direct,
+            (_, true) => StopReason::Tolerance,
+            (_, false) => StopReason::Iterations,
         },
         relit: relit.transpose()?,
         radiosity,
@@ -211,7 +211,7 @@ fn on_card(
         radiosity,
         history: found.history.iter().map(|(_, residual)| mean(*residual)).collect(),
         emitted: emitted(system),
-        stopped: Stopped::on_card(&found),
+        stopped: StopReason::on_card(&found),
         relit,
         card: Some(card),
         kept,

@@ -1,7 +1,7 @@
 //! Radiosity of a scene by several methods side by side: on a card, on the host, directly.
 //!
-//! What each method needs (iterations, passes, time), how far it is from the direct solution, and how the room looks. After a change of
-//! light or paint: how many iterations it needs from its own solution, and from zero.
+//! What each method needs (iterations, passes, time), how far it is from the direct solution, and how the room looks.
+//! After a change of light or paint: how many iterations it needs from its own solution, and from zero.
 
 mod change;
 mod difference;
@@ -26,40 +26,41 @@ use crate::scene::{Camera, Scene};
 use crate::study::{ProgressFn, Study};
 
 pub use change::{Change, Relit};
-pub use difference::Difference;
+pub use difference::SolutionError;
 pub use error::RadiosityError;
-pub use method::{CardFacts, CardMethod, SolveMethod, Stopped};
+pub use method::{CardFacts, CardMethod, SolveMethod, StopReason};
 pub use pictures::{IterationPicture, Pictures};
 pub use room::{FactorRequirements, Factors};
 pub use sweep::SweepRow;
 pub use time::IterationTime;
 
-use pictures::Studio;
+use pictures::PictureRenderer;
 
-/// What is to be found out.
+/// What to solve, how, and what to show of it.
 #[derive(Debug)]
 pub struct Parameters {
     /// The room.
     pub scene: Scene,
     /// How finely it is cut.
     pub subdivision: Subdivision,
-    /// Where form factors come from, and what is asked of them.
+    /// How form factors are found, and what they must satisfy.
     pub factors: FactorRequirements,
-    /// How it is solved: a row of the table each.
+    /// The methods: a row of the table for each.
     pub ways: Vec<SolveMethod>,
     /// The card for methods on a card.
     pub profile: Profile,
     /// The switches of the card that were set.
     pub switches: Vec<(String, String)>,
-    /// Who computes on it, and draws the pictures.
+    /// The executor of the card.
     pub executor: Executor,
     /// When iterations stop.
     pub options: Options,
     /// What changes after the first solution.
     pub changes: Vec<Change>,
-    /// From where pictures are taken.
+    /// The camera of the pictures.
     pub camera: Camera,
-    /// What radiance is multiplied by in pictures; `None` for auto-exposure: surfaces that do not emit at 18 % grey on average.
+    /// What radiance is multiplied by in pictures; `None` for auto-exposure: surfaces that do not emit at 18 % grey on
+    /// average.
     pub exposure: Option<f64>,
     /// Iterations of the first method on a card of which there are pictures.
     pub frames: Vec<u32>,
@@ -81,11 +82,11 @@ pub struct MethodRow {
     /// The final residual relative to the emittance, both by their Euclidean norms.
     pub residual: f64,
     /// Why it stopped.
-    pub stopped: Stopped,
+    pub stopped: StopReason,
     /// Energy-balance error relative to the emitted power, the largest of the channels.
     pub energy_balance_error: f64,
     /// The difference from the direct solution, if that was asked for.
-    pub off: Option<Difference>,
+    pub off: Option<SolutionError>,
     /// On a card.
     pub card: Option<CardFacts>,
     /// After the changes.
@@ -94,14 +95,14 @@ pub struct MethodRow {
     pub pictures: Pictures,
 }
 
-/// What was found.
+/// All solutions.
 #[derive(Debug)]
 pub struct RadiosityOutcome {
     /// The patches.
     pub patches: Patches,
-    /// MethodRow sums as found, before anything was enforced.
+    /// Row sums before anything was enforced.
     pub found_sums: RowSums,
-    /// The largest difference between A_i F_ij and A_j F_ji as found, as a share.
+    /// The largest relative difference between A_i F_ij and A_j F_ji, before anything was enforced.
     pub reciprocity_error: f64,
     /// Pictures' exposure.
     pub exposure: f64,
@@ -158,7 +159,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         let brightness = |s: &method::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });
-    let mut studio = Studio::new(&patches, parameters, exposure)?;
+    let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
     let (mut rows, ways) = (Vec::new(), solved.len() as u64);
     for one in solved {
@@ -183,7 +184,7 @@ fn row(
     mut one: method::Solved,
     system: &System,
     truth: Option<&[[f64; 3]]>,
-    studio: &mut Studio<'_>,
+    studio: &mut PictureRenderer<'_>,
     parameters: &Parameters,
 ) -> Result<MethodRow, RadiosityError> {
     let (pictures, card) = studio.show(&mut one, system)?;
@@ -192,7 +193,7 @@ fn row(
         label: one.way.label(&parameters.profile),
         residual: (last / one.emitted).sqrt(),
         energy_balance_error: energy_balance_error(system, &one.radiosity),
-        off: truth.map(|truth| Difference::between(&one.radiosity, truth, system.emittance())),
+        off: truth.map(|truth| SolutionError::between(&one.radiosity, truth, system.emittance())),
         pictures,
         card,
         way: one.way,

@@ -1,4 +1,5 @@
-//! How the room looks, drawn by the card: from the solver's own texture where one texture holds all three channels, else uploaded.
+//! How the room looks, drawn by the card: from the solver's own texture where one texture holds all three channels,
+//! else uploaded.
 
 use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
@@ -51,7 +52,7 @@ pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[
 }
 
 /// A card to draw on that no solution is on.
-pub(super) struct Studio<'a> {
+pub(super) struct PictureRenderer<'a> {
     patches: &'a Patches,
     parameters: &'a Parameters,
     exposure: f64,
@@ -59,7 +60,7 @@ pub(super) struct Studio<'a> {
     display: Display,
 }
 
-impl<'a> Studio<'a> {
+impl<'a> PictureRenderer<'a> {
     pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, RadiosityError> {
         let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;

@@ -44,31 +44,22 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     found.heading("How it was solved");
     found.table(FoundTable::from(ways).csv("rows").field("ways"));
     residuals.into_iter().for_each(|chart| found.chart(chart));
-    let explained = |found: &mut Findings, table: Table, field, text: &str| {
-        let rows = !table.rows().is_empty();
-        found.table(FoundTable::from(table).field(field));
-        if rows {
-            found.paragraph(text);
-        }
-    };
-    explained(&mut found, ends, "ends", ENDS);
-    if !card.rows().is_empty() {
+    let has_rows = |table: &Table| !table.rows().is_empty();
+    found.explained_table(FoundTable::from(ends).field("ends"), ENDS);
+    if has_rows(&card) {
         found.heading("On the card");
     }
-    explained(&mut found, card, "card", ON_THE_CARD);
+    found.explained_table(FoundTable::from(card).field("card"), ON_THE_CARD);
     if !relit_pictures.is_empty() {
         found.heading("Relit");
         found.pictures(relit_pictures);
     }
     found.table(FoundTable::from(relit).field("relit"));
-    if sweep.rows().is_empty() {
-        found.keep_table(FoundTable::from(sweep).field("sweep"));
-        return Ok(found);
+    if has_rows(&sweep) {
+        found.heading("Other numbers of patches, other answers to open questions");
+        darkness.into_iter().for_each(|chart| found.chart(chart));
     }
-    found.heading("Other numbers of patches, other answers to open questions");
-    darkness.into_iter().for_each(|chart| found.chart(chart));
-    found.table(FoundTable::from(sweep).csv("sweep").field("sweep"));
-    found.paragraph(SWEEP);
+    found.explained_table(FoundTable::from(sweep).csv("sweep").field("sweep"), SWEEP);
     Ok(found)
 }
 
@@ -95,7 +86,6 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     for row in &outcome.rows {
         headings.extend(["r", "g", "b"].map(|c| format!("{}_{c}", row.label)));
     }
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("Patches", &headings);
     for (i, patch) in outcome.patches.list().iter().enumerate() {
         let [x, y, z] = patch.center().to_array();
@@ -121,11 +111,12 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     (!lines.is_empty()).then(|| logarithmic("residual", names, lines, caption))
 }
 
-/// Settings of switches get a line of their own where they change the error by more than this factor; the table has all.
+/// Settings of switches get a line of their own where they change the error by more than this factor; the table has
+/// all.
 const APART: f64 = 1.5;
 
-/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a difference. `None`
-/// without a sweep.
+/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a
+/// difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
     let apart = |row: &SweepRow| {

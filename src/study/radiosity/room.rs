@@ -1,4 +1,4 @@
-//! From patches to form factors: where they come from, and what is asked of them.
+//! Form factors of the patches.
 
 use std::sync::Arc;
 
@@ -23,12 +23,12 @@ pub enum Factors {
     },
 }
 
-/// What is asked of form factors.
+/// How form factors are found, and what they must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorRequirements {
     /// Where they come from.
     pub from: Factors,
-    /// MethodRow sums may be so far from 1, or there is no solution.
+    /// Largest deviation of a row sum from 1; a larger one is an error.
     pub closed: Option<f64>,
     /// Make A_i F_ij and A_j F_ji equal.
     pub enforce_reciprocity: bool,
@@ -36,7 +36,7 @@ pub struct FactorRequirements {
     pub enforce_closure: bool,
 }
 
-/// Form factors with what they were before anything was enforced.
+/// Form factors, and their errors before anything was enforced.
 pub(super) struct Room {
     pub(super) factors: FormFactors,
     pub(super) found_sums: RowSums,

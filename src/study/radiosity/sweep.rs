@@ -1,21 +1,21 @@
-//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how far a
-//! figure depends on the size of the system, and on what is a guess about the card.
+//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how much
+//! a result depends on the size of the system, and on guesses about the card.
 
 use refsim::device::Profile;
 
-use super::{CardMethod, Difference, Parameters, ProgressFn, RadiosityError, SolveMethod, Stopped, room};
+use super::{CardMethod, Parameters, ProgressFn, RadiosityError, SolutionError, SolveMethod, StopReason, room};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crate::radiosity::solve::{Options, Solver};
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::study::configuration::Configuration;
 
-/// One number of patches, one way on the card, and all settings of its switches that found the same bits.
+/// One number of patches, one method on the card, and all settings of its switches that give the same bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRow {
     /// How many patches the room was cut into.
     pub patches: usize,
-    /// The way's name.
+    /// The method's name.
     pub way: String,
     /// Whether the card as it was asked for is among the settings.
     pub as_it_is: bool,
@@ -24,14 +24,14 @@ pub struct SweepRow {
     /// How many iterations it took.
     pub iterations: u32,
     /// Why it stopped.
-    pub stopped: Stopped,
-    /// How far it is from the direct solution.
-    pub off: Difference,
-    /// What its mean, [`Difference::bias`], should be to first order; `None` for formats without exponents.
+    pub stopped: StopReason,
+    /// Error against the direct solution.
+    pub off: SolutionError,
+    /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub predicted: Option<f64>,
 }
 
-/// Rows by patches, way and settings.
+/// Rows by patches, method and settings.
 pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, RadiosityError> {
     let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(*how) } else { None };
     let ways: Vec<CardMethod> = parameters.ways.iter().filter_map(on_card).collect();
@@ -86,14 +86,14 @@ fn solved(
         as_it_is: setting.switch.is_none(),
         switches: setting.switch.iter().cloned().collect(),
         iterations: solution.iterations(),
-        stopped: Stopped::on_card(&solution),
-        off: Difference::between(&widened, truth, system.emittance()),
+        stopped: StopReason::on_card(&solution),
+        off: SolutionError::between(&widened, truth, system.emittance()),
         predicted: bias(how, profile, system, truth)?,
     };
     Ok((solution.radiosity, row))
 }
 
-/// The mean that rounding alone should leave.
+/// The bias that rounding alone should cause.
 fn bias(
     how: CardMethod,
     profile: &Profile,
@@ -106,7 +106,7 @@ fn bias(
     let Some(accumulator) = Accumulator::of(&format, how.packing, block) else { return Ok(None) };
     let off = predicted(system, truth, accumulator)?;
     let found: Vec<[f64; 3]> = truth.iter().zip(off).map(|(b, off)| [0, 1, 2].map(|c| b[c] + off[c])).collect();
-    Ok(Some(Difference::between(&found, truth, system.emittance()).bias))
+    Ok(Some(SolutionError::between(&found, truth, system.emittance()).bias))
 }
 
 fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {

@@ -1,6 +1,6 @@
-//! What was found, as tables.
+//! The tables of the study.
 
-use super::{Difference, MethodRow, Parameters, RadiosityOutcome, SolveMethod, Stopped};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 /// The tables of a study.
@@ -41,18 +41,9 @@ pub(super) fn digits(x: f64, count: usize) -> Cell {
 }
 
 fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
-    let headings = [
-        "patches",
-        "form_factors",
-        "least_row_sum",
-        "largest_row_sum",
-        "light_escaping",
-        "partly_covered",
-        "blind_patches",
-        "reciprocity_error",
-        "enforced",
-    ];
-    let mut table = Table::new("The room; sums and errors as found, before anything was enforced", &headings);
+    let columns = "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches \
+         reciprocity_error enforced";
+    let mut table = Table::of("The room; sums and errors as found, before anything was enforced", columns);
     let wishes = &parameters.factors;
     let enforced = match (wishes.enforce_closure, wishes.enforce_reciprocity) {
         (true, _) => "closure, reciprocity",
@@ -75,22 +66,13 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 }
 
 fn ways(outcome: &RadiosityOutcome) -> Table {
-    let headings = [
-        "way",
-        "iterations",
-        "stopped_by",
-        "residual",
-        "light_unaccounted",
-        "largest_error",
-        "largest_relative",
-        "mean_relative",
-    ];
-    let mut table = Table::new(
+    let columns = "way iterations stopped_by residual light_unaccounted largest_error largest_relative mean_relative";
+    let mut table = Table::of(
         "Ways of solving; errors against the direct solution: of the brightest patch, of each patch, and with its sign in the mean",
-        &headings,
+        columns,
     );
     for row in &outcome.rows {
-        let off = |of: fn(Difference) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
+        let off = |of: fn(SolutionError) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
         table.push([
             row.label.as_str().into(),
             if row.way == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
@@ -105,23 +87,21 @@ fn ways(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Where iterations on a card end that no tolerance stops: at a fixed point, or in a cycle of states that come back bit
-/// for bit.
+/// How iterations on a card end that reach no tolerance: at a fixed point, or in a cycle of equal states.
 fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
-    let headings = ["way", "ends", "entered_after", "period", "values_changing", "of_values", "largest_change_%"];
-    let mut table =
-        Table::new("What iterations on the card come to; changes from one iteration to the next", &headings);
+    let columns = "way ends entered_after period values_changing of_values largest_change_%";
+    let mut table = Table::of("What iterations on the card come to; changes from one iteration to the next", columns);
     let values = 3 * outcome.patches.list().len();
     for row in outcome.rows.iter().filter(|row| row.card.is_some()) {
         let ends = match row.stopped {
-            Stopped::Tolerance => "within the tolerance".to_owned(),
-            Stopped::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
-            Stopped::Cycle(_) => "in a cycle".to_owned(),
-            Stopped::Iterations | Stopped::Direct => {
+            StopReason::Tolerance => "within the tolerance".to_owned(),
+            StopReason::Cycle(cycle) if cycle.is_fixed_point() => "at a fixed point".to_owned(),
+            StopReason::Cycle(_) => "in a cycle".to_owned(),
+            StopReason::Iterations | StopReason::Direct => {
                 format!("no cycle within {} iterations", parameters.options.most_iterations)
             }
         };
-        let cycle = if let Stopped::Cycle(cycle) = row.stopped { Some(cycle) } else { None };
+        let cycle = if let StopReason::Cycle(cycle) = row.stopped { Some(cycle) } else { None };
         table.push([
             row.label.as_str().into(),
             ends.into(),
@@ -137,12 +117,9 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 
 /// The sweep over numbers of patches and switches.
 fn sweep(outcome: &RadiosityOutcome) -> Table {
-    let headings =
-        ["patches", "way", "switches", "iterations", "stopped_by", "largest_error", "mean_relative", "predicted_mean"];
-    let mut table = Table::new(
-        "Other numbers of patches, and each open switch of the card turned alone; errors as above",
-        &headings,
-    );
+    let columns = "patches way switches iterations stopped_by largest_error mean_relative predicted_mean";
+    let mut table =
+        Table::of("Other numbers of patches, and each open switch of the card turned alone; errors as above", columns);
     for row in &outcome.sweep {
         table.push([
             row.patches.into(),
@@ -159,20 +136,9 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
 }
 
 fn card(outcome: &RadiosityOutcome) -> Table {
-    let headings = [
-        "way",
-        "passes",
-        "texels_a_pass",
-        "instructions",
-        "matrix_MB",
-        "iteration_us",
-        "iterations_per_s",
-        "MFLOP_per_s",
-        "bound_by",
-        "bandwidth_used_%",
-    ];
-    let mut table =
-        Table::new("An iteration of all three channels on the card, as the pipeline model has it", &headings);
+    let columns = "way passes texels_a_pass instructions matrix_MB iteration_us iterations_per_s MFLOP_per_s bound_by \
+         bandwidth_used_%";
+    let mut table = Table::of("An iteration of all three channels on the card, as the pipeline model has it", columns);
     for (row, facts) in outcome.rows.iter().filter_map(|row| Some((row, row.card.as_ref()?))) {
         let head: [Cell; 5] = [
             row.label.as_str().into(),
@@ -199,9 +165,9 @@ fn card(outcome: &RadiosityOutcome) -> Table {
 }
 
 fn relit(outcome: &RadiosityOutcome) -> Table {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "After the changes: iterations from the solution before, and from nothing",
-        &["way", "from_the_last", "from_nothing", "saved_%"],
+        "way from_the_last from_nothing saved_%",
     );
     for (row, relit) in outcome.rows.iter().filter_map(|row| Some((row, row.relit.as_ref()?))) {
         let count = |n: Option<usize>| n.map_or_else(|| Cell::from("not reached"), Cell::from);
@@ -219,7 +185,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
 }
 
 impl MethodRow {
-    /// How many iterations it took.
+    /// Iterations made.
     pub fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }

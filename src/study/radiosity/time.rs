@@ -1,4 +1,4 @@
-//! What an iteration costs on the card, and the log of a relit scene.
+//! Time of an iteration on the card, and the log of a relit scene.
 
 use refsim::timing::{Bottleneck, TimingError};
 
@@ -17,17 +17,17 @@ const CHANNELS: f64 = 3.0;
 /// An iteration of all three channels by the pipeline model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IterationTime {
-    /// From one iteration to the next.
+    /// Seconds per iteration.
     pub seconds: f64,
-    /// Million operations a second: two an element and channel, indexing not counted.
+    /// Million operations per second: two per element and channel, indexing not counted.
     pub mflops: f64,
-    /// What the longest draw waits for most.
+    /// The longest draw's bottleneck.
     pub bound_by: Bottleneck,
-    /// Bytes moved, of the most that the memory can move in that time.
+    /// Memory bandwidth in use, in [0, 1].
     pub bandwidth: f64,
 }
 
-/// Changes the light, iterates, shows the room, and says what it takes.
+/// Changes the light, iterates and shows the room on the card, and measures that.
 pub(super) fn facts(
     card: &mut CardSolver,
     how: CardMethod,

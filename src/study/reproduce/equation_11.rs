@@ -4,15 +4,16 @@ use refsim::device::Profile;
 
 use super::pipeline::model;
 use super::{
-    Bound, EntryFindings, FigureRow, Method, Origin, Prose, ReproduceError, Standing, Target, figure, number, pipeline,
+    Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, figure, number,
+    pipeline,
 };
 use crate::ray_engine::model::CostRates;
 
-/// Bytes a ray: a triangle id; an id with three barycentric coordinates.
+/// Bytes per ray: a triangle id; an id with three barycentric coordinates.
 pub(super) const GAMMAS: [f64; 2] = [4.0, 16.0];
 /// Triangles of the paper's example.
 pub(super) const TEN: f64 = 10.0;
-/// Printed millions of tests a second at ten triangles, in the text under figure 7.
+/// Printed millions of tests per second at ten triangles, in the text under figure 7.
 pub(super) const TEN_TRIANGLES: [(&str, f64); 2] = [("nv20", 240.0), ("nv25", 286.0)];
 /// In millions.
 pub(super) const MEGA: f64 = 1e6;
@@ -36,15 +37,16 @@ const IMPLIED: &str = "equation 11 solved for the fill rate: T / (T / 286 M/s - 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let mut rows = Vec::new();
     for (gamma, value) in GAMMAS.into_iter().zip([62.5, 15.6]) {
-        rows.extend(read_back(gamma, Target::printed(value, 1, "M/s", PLACE))?);
+        rows.extend(read_back(gamma, PaperFigure::printed(value, 1, "M/s", PLACE))?);
     }
-    rows.extend(fill("nv20", Target::printed(390.0, 0, "M/s", PLACE), "this figure")?);
+    rows.extend(fill("nv20", PaperFigure::printed(390.0, 0, "M/s", PLACE), "this figure")?);
     let [_, ti4600] = TEN_TRIANGLES;
     let implied = CostRates::implied_fill(ti4600.1 * MEGA, TEN, GAMMAS[0], rates("nv25")?.readback_bytes_per_s) / MEGA;
-    let implied = Target { origin: Origin::Implied(IMPLIED.to_owned()), ..Target::printed(implied, 1, "M/s", PLACE) };
+    let implied =
+        PaperFigure { origin: Origin::Implied(IMPLIED.to_owned()), ..PaperFigure::printed(implied, 1, "M/s", PLACE) };
     rows.extend(fill("nv25", implied, "286 M/s at ten triangles, which implies it")?);
     for (device, value) in TEN_TRIANGLES {
-        rows.extend(ten_triangles(device, Target::printed(value, 0, "M/s", PLACE))?);
+        rows.extend(ten_triangles(device, PaperFigure::printed(value, 0, "M/s", PLACE))?);
     }
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
@@ -68,29 +70,30 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
 }
 
 /// Results read back: the equation's quotient of printed figures, and the pipeline's bus, which has the printed rate.
-fn read_back(gamma: f64, target: Target) -> Result<[FigureRow; 2], ReproduceError> {
+fn read_back(gamma: f64, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
     let what = format!("results read back, {gamma} B each");
     let equation = (rates("nv20")?.results_per_s(gamma) / MEGA, Standing::Predicted { from: READ_BACK });
     let pipeline = (pipeline::results_per_s("nv20", gamma)? / MEGA, Standing::Calibrated { on: READ_BACK });
     Ok([
-        FigureRow::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
-        FigureRow::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        PaperRow::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
+        PaperRow::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }
 
 /// The fill rate: the equation's input, and the pipeline's prediction.
-fn fill(device: &'static str, target: Target, on: &'static str) -> Result<[FigureRow; 2], ReproduceError> {
+fn fill(device: &'static str, target: PaperFigure, on: &'static str) -> Result<[PaperRow; 2], ReproduceError> {
     let what = "fill rate, two textures a pixel";
     let equation = (rates(device)?.fill_pixels_per_s / MEGA, Standing::Calibrated { on });
     let pipeline = (pipeline::dual_textured(device)?.pixels_per_s() / MEGA, Standing::Predicted { from: "" });
     Ok([
-        FigureRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        FigureRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        PaperRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        PaperRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }
 
-/// Ten triangles: equation 11 on both cards, the GeForce4's with the fill rate that this figure implies; and the pipeline.
-fn ten_triangles(device: &'static str, target: Target) -> Result<[FigureRow; 2], ReproduceError> {
+/// Ten triangles: equation 11 on both cards, the GeForce4's with the fill rate that this figure implies; and the
+/// pipeline.
+fn ten_triangles(device: &'static str, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
     let what = "tests, ten triangles, 4 B a ray";
     let standing = if device == "nv20" {
         Standing::Predicted { from: RATES }
@@ -101,7 +104,7 @@ fn ten_triangles(device: &'static str, target: Target) -> Result<[FigureRow; 2],
     let pipeline = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
     let pipeline = (pipeline, Standing::Predicted { from: READ_BACK });
     Ok([
-        FigureRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        FigureRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
+        PaperRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
+        PaperRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
     ])
 }

@@ -1,4 +1,4 @@
-//! Figure 7: tests a second by the number of triangles; and the least number at which a card pays.
+//! Figure 7: tests per second by the number of triangles; and the least number at which a card pays.
 
 use super::equation_11::{GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
 use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline};
@@ -11,15 +11,14 @@ const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti460
 const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 /// Triangles of the plot.
 const PLOTTED: u32 = 50;
-/// Tests a second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
+/// Tests per second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
 const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
-    let mut tests =
-        Table::new("Millions of ray-triangle tests a second", &["device", "gamma_B", "triangles", "rates", "pipeline"]);
-    let mut limits = Table::new(
+    let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
+    let mut limits = Table::of(
         "Where a card pays: T_min by the host's tests a second",
-        &["device", "gamma_B", "half_rate_T", "T_min_20M", "T_min_40M", "T_min_80M", "T_min_200M"],
+        "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
     );
     let mut charts = Vec::new();
     for gamma in GAMMAS {

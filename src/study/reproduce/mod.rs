@@ -1,7 +1,8 @@
-//! The papers' printed figures beside ours: one file an entry, each a list of rows with tables and charts.
+//! The papers' printed figures beside ours: one file per entry, each a list of rows with tables and charts.
 //!
-//! Every row has the paper's value with its origin, ours with the printed figures that went into it, and a bound that was stated
-//! beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the value ([`Sweep`]).
+//! Every row has the paper's value with its origin, ours with the printed figures that went into it, and a bound that
+//! was stated beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the
+//! value ([`Sweep`]).
 
 mod equation_11;
 mod figure_7;
@@ -24,7 +25,7 @@ use crate::study::{ProgressFn, Study};
 
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
-pub use row::{Bound, Explanation, FigureRow, Method, Origin, RowVerdict, Setting, Standing, Sweep, Target};
+pub use row::{Bound, Explanation, Method, Origin, PaperFigure, PaperRow, RowVerdict, Setting, Standing, Sweep};
 use shared::Shared;
 
 /// Why a figure could not be worked out.
@@ -90,7 +91,7 @@ pub struct EntryFindings {
     /// How it was done, as paragraphs.
     pub text: Vec<Prose>,
     /// The paper's figures beside ours.
-    pub rows: Vec<FigureRow>,
+    pub rows: Vec<PaperRow>,
     /// What would have to be known to say why rows are off.
     pub questions: Vec<&'static str>,
     /// What else there is to show.
@@ -101,7 +102,7 @@ pub struct EntryFindings {
 
 /// A table or figure of a paper.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct ReproduceEntry {
     /// The name on the command line.
     pub id: &'static str,
     /// What it is, and where it is printed.
@@ -110,15 +111,16 @@ pub struct Entry {
 }
 
 /// Entries with what they found.
-pub type Reproduced = Vec<(Entry, EntryFindings)>;
+pub type Reproduced = Vec<(ReproduceEntry, EntryFindings)>;
 
-/// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the name of each.
+/// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the
+/// name of each.
 ///
 /// # Errors
 /// [`ReproduceError`].
-pub fn reproduce(entries: &[Entry], progress: &mut ProgressFn<'_>) -> Result<Reproduced, ReproduceError> {
+pub fn reproduce(entries: &[ReproduceEntry], progress: &mut ProgressFn<'_>) -> Result<Reproduced, ReproduceError> {
     let shared = Shared::default();
-    let work = |(done, entry): (u64, &Entry)| {
+    let work = |(done, entry): (u64, &ReproduceEntry)| {
         progress(entry.id, done, entries.len() as u64);
         Ok((*entry, (entry.work)(&shared)?))
     };
@@ -129,7 +131,7 @@ pub fn reproduce(entries: &[Entry], progress: &mut ProgressFn<'_>) -> Result<Rep
 #[derive(Clone, Debug)]
 pub struct Parameters {
     /// The entries.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<ReproduceEntry>,
 }
 
 impl Study for Parameters {
@@ -146,58 +148,58 @@ impl Study for Parameters {
 }
 
 /// All entries, in the order of the papers.
-pub const ENTRIES: &[Entry] = &[
-    Entry {
+pub const ENTRIES: &[ReproduceEntry] = &[
+    ReproduceEntry {
         id: "radeon-8500",
         title: "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)",
         work: |_| radeon_8500::findings(),
     },
-    Entry {
+    ReproduceEntry {
         id: "vertex-variant",
         title: "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)",
         work: |_| vertex_variant::findings(),
     },
-    Entry {
+    ReproduceEntry {
         id: "equation-11",
         title: "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
         work: |_| equation_11::findings(),
     },
-    Entry {
+    ReproduceEntry {
         id: "figure-7",
         title: "Tests a second by the number of triangles (Ray Engine, figure 7)",
         work: |_| figure_7::findings(),
     },
-    Entry {
+    ReproduceEntry {
         id: "ray-engine-tables-1-2",
         title: "Rays a second of five scenes, and the share of them on the card (Ray Engine, tables 1 and 2)",
         work: tables::table_1,
     },
-    Entry {
+    ReproduceEntry {
         id: "ray-engine-table-3",
         title: "What the card, asynchronous read-back and an infinitely fast card bring (Ray Engine, table 3)",
         work: tables::table_3,
     },
-    Entry {
+    ReproduceEntry {
         id: "ray-engine-table-4",
         title: "The number of triangles that go to the card (Ray Engine, table 4)",
         work: tables::table_4,
     },
-    Entry {
+    ReproduceEntry {
         id: "ray-engine-table-5",
         title: "The number of rays that go to the card (Ray Engine, table 5)",
         work: tables::table_5,
     },
-    Entry {
+    ReproduceEntry {
         id: "radiosity-figure-3",
         title: "Jacobi and Gauss-Seidel, residual by iteration (radiosity, figure 3)",
         work: |_| radiosity::figure_3(),
     },
-    Entry {
+    ReproduceEntry {
         id: "radiosity-rates",
         title: "29.7 iterations and 141 MFLOP a second on a GeForce FX 5900 Ultra (radiosity, section 3.1)",
         work: |_| radiosity::rates(),
     },
-    Entry {
+    ReproduceEntry {
         id: "radiosity-figure-4",
         title: "The time of an iteration by the size of the matrix, on card and host (radiosity, figure 4)",
         work: |_| radiosity::figure_4(),
@@ -213,11 +215,11 @@ pub fn names() -> Vec<&'static str> {
 ///
 /// # Errors
 /// [`ReproduceError::Unknown`].
-pub fn choose(wanted: &[String]) -> Result<Vec<Entry>, ReproduceError> {
+pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, ReproduceError> {
     if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
         return Err(ReproduceError::Unknown { found: found.clone() });
     }
-    let chosen = |entry: &&Entry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
+    let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
     Ok(ENTRIES.iter().filter(chosen).copied().collect())
 }
 

@@ -20,17 +20,17 @@ use crate::report::{Cell, Table};
 const SIDE: u32 = 256;
 /// Quads of a draw that measures a fill rate: enough that filling and draining the pipeline does not show.
 const QUADS: usize = 64;
-/// Two textures a pixel, as the ray origins and directions are, and what a ps_1_1 card can do with them in one clock.
+/// Two textures per pixel, as the ray origins and directions are, and what a ps_1_1 card can do with them in one clock.
 pub const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
 /// A draw with its cost.
-pub(super) struct Timed {
+pub(super) struct TimedDraw {
     pub(super) record: DrawRecord,
     pub(super) cost: DrawCost,
 }
 
-impl Timed {
-    /// Fragments a second.
+impl TimedDraw {
+    /// Fragments per second.
     pub(super) fn pixels_per_s(&self) -> f64 {
         self.record.counts.fragments.generated as f64 / self.cost.total.seconds()
     }
@@ -47,17 +47,17 @@ pub(super) fn model(device: &str) -> Result<Model, ReproduceError> {
 }
 
 /// The costliest draw of a log, timed.
-pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<Timed, ReproduceError> {
+pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, ReproduceError> {
     let model = model(device)?;
     let draws = log.into_iter().filter_map(|event| match event {
-        Event::Draw(record) => Some(Timed { cost: model.draw(&record), record: *record }),
+        Event::Draw(record) => Some(TimedDraw { cost: model.draw(&record), record: *record }),
         _ => None,
     });
     draws.max_by_key(|draw| draw.cost.total).ok_or_else(|| failed(device)(&"no draw was recorded"))
 }
 
 /// Screen-filling quads with two textures of the screen's size, tested and written.
-pub(super) fn dual_textured(device: &str) -> Result<Timed, ReproduceError> {
+pub(super) fn dual_textured(device: &str) -> Result<TimedDraw, ReproduceError> {
     timed(device, screen_quads(device, QUADS)?)
 }
 
@@ -77,19 +77,9 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
 
 /// What a dual-textured pixel costs each unit of some cards.
 pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "A dual-textured pixel in the pipeline model",
-        &[
-            "device",
-            "texture_B",
-            "depth_B",
-            "color_B",
-            "arithmetic_clocks",
-            "texture_clocks",
-            "output_clocks",
-            "memory_clocks",
-            "bound_by",
-        ],
+        "device texture_B depth_B color_B arithmetic_clocks texture_clocks output_clocks memory_clocks bound_by",
     );
     for &device in devices {
         let drawn = dual_textured(device)?;

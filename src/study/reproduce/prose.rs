@@ -1,15 +1,15 @@
-//! Sentences of a report, whose figures are the run's.
+//! Sentences whose numbers are computed, not written by hand.
 
 use std::fmt;
 
-/// A number with so many digits behind the point.
+/// A number with `decimals` digits after the point.
 pub fn number(value: f64, decimals: usize) -> String {
     // Plus 0, so that nothing reads -0.
     let scale = (0..decimals).fold(1.0, |scale: f64, _| scale * 10.0);
     format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
 }
 
-/// A paragraph: a text without figures, and the figures that stand where it says `{}`.
+/// A paragraph: a template, and the numbers that replace its `{}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prose {
     template: &'static str,
@@ -17,7 +17,7 @@ pub struct Prose {
 }
 
 impl Prose {
-    /// A paragraph with its figures, one a `{}`.
+    /// A paragraph with its numbers, one per `{}`.
     pub fn new(template: &'static str, figures: impl IntoIterator<Item = String>) -> Self {
         Self { template, figures: figures.into_iter().collect() }
     }

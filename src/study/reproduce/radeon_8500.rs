@@ -1,11 +1,11 @@
-//! Section 4.4: 114 M ray-triangle tests a second on a Radeon 8500.
+//! Section 4.4: 114 M ray-triangle tests per second on a Radeon 8500.
 
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
-use super::pipeline::{Timed, failed, model, timed};
-use super::{Bound, EntryFindings, FigureRow, Method, Prose, ReproduceError, Standing, Target, figure, number};
+use super::pipeline::{TimedDraw, failed, model, timed};
+use super::{Bound, EntryFindings, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, figure, number};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
@@ -18,7 +18,7 @@ const DEVICE: &str = "r200";
 const SIDE: u32 = 256;
 /// "Thousands of triangles" (section 6.1).
 const TRIANGLES: usize = 2048;
-/// Tests a second as printed, in millions.
+/// Tests per second as printed, in millions.
 const PRINTED: f64 = 114.0;
 
 const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and vertices do not show, so the figure is the pixel \
@@ -45,16 +45,16 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     })
 }
 
-fn kernels() -> Result<(Vec<FigureRow>, Table), ReproduceError> {
+fn kernels() -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     let mesh = mesh()?;
     let camera = Camera::teapot(SIDE, SIDE).map_err(|e| failed(DEVICE)(&e))?;
     let eye = camera.rays();
     // The same rays, each started a little further on, have no common origin any more.
     let moved = eye.iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * i as f32)).collect::<Result<Vec<_>, _>>()?;
     let mut rows = Vec::new();
-    let mut slots = Table::new(
+    let mut slots = Table::of(
         "Slots and clocks of a test in one pipeline of four",
-        &["program", "phase", "pairs", "texture_slots", "M_tests_per_s", "bound_by"],
+        "program phase pairs texture_slots M_tests_per_s bound_by",
     );
     for (what, rays) in [("rays of one origin", eye), ("rays of any origin", moved)] {
         let (kernel, drawn) = run(&mesh, rays)?;
@@ -74,10 +74,10 @@ fn kernels() -> Result<(Vec<FigureRow>, Table), ReproduceError> {
             drawn.cost.bottleneck.to_string().into(),
         ]);
         let standing = Standing::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
-        rows.push(FigureRow::new(
+        rows.push(PaperRow::new(
             format!("tests, {what} ({kernel})"),
             (DEVICE, Method::Pipeline),
-            Target::printed(PRINTED, 0, "M/s", "section 4.4"),
+            PaperFigure::printed(PRINTED, 0, "M/s", "section 4.4"),
             (rate, standing),
             Bound::PREDICTION,
         ));
@@ -85,7 +85,7 @@ fn kernels() -> Result<(Vec<FigureRow>, Table), ReproduceError> {
     Ok((rows, slots))
 }
 
-fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, Timed), ReproduceError> {
+fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), ReproduceError> {
     let rays = RayBatch::new(SIDE, SIDE, rays).map_err(|e| failed(DEVICE)(&e))?;
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
     let answer = card.intersect_recorded(mesh, &rays, Sides::Front)?;

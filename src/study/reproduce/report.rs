@@ -3,36 +3,19 @@
 use serde_json::json;
 use strum::VariantArray as _;
 
-use super::{EntryChart, FigureRow, Reproduced, RowVerdict};
+use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
-const HEADINGS: [&str; 17] = [
-    "entry",
-    "what",
-    "device",
-    "method",
-    "place",
-    "origin",
-    "unit",
-    "paper",
-    "ours",
-    "difference_%",
-    "standing",
-    "printed_inputs",
-    "bound",
-    "low",
-    "high",
-    "verdict",
-    "explanation",
-];
+const COLUMNS: &str = "entry what device method place origin unit paper ours difference_% standing printed_inputs bound low high \
+     verdict explanation";
 
-fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &FigureRow)> {
+fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
 }
 
 /// Every row with all that is known of it, for machines.
 fn rows(found: &Reproduced) -> Table {
-    let mut table = Table::new("The papers' figures and ours", &HEADINGS);
+    let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
         let [low, high] = limits(row);
         let target = &row.target;
@@ -59,7 +42,7 @@ fn rows(found: &Reproduced) -> Table {
     table
 }
 
-fn limits(row: &FigureRow) -> [Cell; 2] {
+fn limits(row: &PaperRow) -> [Cell; 2] {
     let limit = |value: Option<f64>| value.map(|value| rounded(value, 100.0)).into();
     let interval = row.bound.interval(&row.target);
     [limit(interval.map(|[low, _]| low)), limit(interval.map(|[_, high]| high))]
@@ -68,7 +51,7 @@ fn limits(row: &FigureRow) -> [Cell; 2] {
 const SHOWN: [&str; 10] =
     ["what", "device", "method", "place", "unit", "paper", "ours", "difference_%", "bound", "verdict"];
 
-fn shown(row: &FigureRow) -> [Cell; 10] {
+fn shown(row: &PaperRow) -> [Cell; 10] {
     let target = &row.target;
     let steps = if row.ours.abs() < 1000.0 { 10.0 } else { 1.0 };
     let steps = if row.ours.abs() < 10.0 { 100.0 } else { steps };
@@ -86,7 +69,7 @@ fn shown(row: &FigureRow) -> [Cell; 10] {
     ]
 }
 
-fn calibrated(row: &FigureRow) -> bool {
+fn calibrated(row: &PaperRow) -> bool {
     matches!(row.standing, super::Standing::Calibrated { .. })
 }
 
@@ -100,9 +83,10 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
     [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
 }
 
-/// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those outside their bounds.
+/// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those
+/// outside their bounds.
 fn notes(found: &Reproduced) -> Table {
-    let mut table = Table::new("Origins, calibrations and explanations", &["what", "place", "paper", "says", "of"]);
+    let mut table = Table::of("Origins, calibrations and explanations", "what place paper says of");
     for (_, row) in all(found) {
         let mut note = |kind: &str, text: &str| {
             if !text.is_empty() {
@@ -126,7 +110,7 @@ fn notes(found: &Reproduced) -> Table {
 
 /// How many rows came out how.
 fn tally(found: &Reproduced) -> Table {
-    let mut table = Table::new("Tally", &["verdict", "rows"]);
+    let mut table = Table::of("Tally", "verdict rows");
     for verdict in RowVerdict::VARIANTS {
         table.push([verdict.to_string().into(), count(found, *verdict).into()]);
     }

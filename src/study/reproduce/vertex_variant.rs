@@ -1,11 +1,11 @@
-//! Section 3.4: 4.1 M ray-triangle tests a second in a vertex program.
+//! Section 3.4: 4.1 M ray-triangle tests per second in a vertex program.
 
 use refsim::device::Profile;
 use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
 use super::pipeline::{failed, model, timed};
-use super::{Bound, EntryFindings, FigureRow, Method, Prose, ReproduceError, Standing, Target, figure, number};
+use super::{Bound, EntryFindings, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, figure, number};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::Table;
@@ -13,7 +13,7 @@ use crate::scene::Camera;
 
 /// The cards of the day with vertex programs.
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
-/// Tests a second as printed, in millions.
+/// Tests per second as printed, in millions.
 const PRINTED: f64 = 4.1;
 
 const HOW: &str = "The road not taken: a ray as constants, a triangle as three vertices that cover the ray's pixel where it is hit. Our \
@@ -22,16 +22,9 @@ const HOW: &str = "The road not taken: a ray as constants, a triangle as three v
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let (mut rows, mut seen) = (Vec::new(), None);
-    let mut table = Table::new(
+    let mut table = Table::of(
         "A test in the vertex units",
-        &[
-            "device",
-            "instructions_per_vertex",
-            "vertices_per_test",
-            "clocks_per_vertex_and_unit",
-            "vertex_units",
-            "bound_by",
-        ],
+        "device instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
     );
     for device in DEVICES {
         let fail = failed(device);
@@ -63,10 +56,10 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
             device.to_owned(),
             number(printed_clocks, 0),
         ]);
-        rows.push(FigureRow::new(
+        rows.push(PaperRow::new(
             "tests in the vertex units, no card named",
             (device, Method::Pipeline),
-            Target::printed(PRINTED, 1, "M/s", "section 3.4"),
+            PaperFigure::printed(PRINTED, 1, "M/s", "section 3.4"),
             (tests / drawn.cost.total.seconds() / MEGA, Standing::Predicted { from: "" }),
             Bound::PREDICTION,
         ));

@@ -7,7 +7,7 @@ use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};
 use crate::report::{Chart, Scale, Series, Table};
 use crate::study::reproduce::report::rounded;
-use crate::study::reproduce::{Bound, EntryChart, FigureRow, Method, Prose, Setting, Standing, Sweep, Target};
+use crate::study::reproduce::{Bound, EntryChart, Method, PaperFigure, PaperRow, Prose, Setting, Standing, Sweep};
 
 /// Patches; the number hardly matters to how fast iterations converge.
 const CUT: usize = 400;
@@ -17,7 +17,8 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// "About twice as many iterations to converge". As wide as any prediction: 1.65 to 2.35, not whatever rounds to 2.
 const TWICE: f64 = 2.0;
-/// Where the rows count: a residual at which nobody sees the error any more. The paper does not say where its own solution had converged.
+/// Where the rows count: a residual at which nobody sees the error any more. The paper does not say where its own
+/// solution had converged.
 const CONVERGED: f64 = 1e-4;
 /// Residuals down to which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -28,9 +29,9 @@ const HOW: &str = "A closed Cornell box without blocks, its form factors in clos
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let system = closed_box()?;
-    let mut table = Table::new(
+    let mut table = Table::of(
         "Iterations until the residual is so small a share of what it was",
-        &["channel", "residual", "jacobi", "gauss_seidel", "ratio"],
+        "channel residual jacobi gauss_seidel ratio",
     );
     let (mut lines, mut late, mut both) = (Vec::new(), Vec::new(), Vec::new());
     for (channel, name) in CHANNELS.into_iter().enumerate() {
@@ -77,17 +78,17 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     })
 }
 
-fn row(which: String, ours: f64) -> FigureRow {
+fn row(which: String, ours: f64) -> PaperRow {
     let what = format!("Jacobi's iterations over Gauss-Seidel's, {which}");
-    let target = Target::printed(TWICE, 1, "times", "section 3.1");
-    FigureRow::new(what, ("-", Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
+    let target = PaperFigure::printed(TWICE, 1, "times", "section 3.1");
+    PaperRow::new(what, ("-", Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
 }
 
-/// The ratios where solutions have converged, a row a channel, which the sweep over the residual may explain.
-fn converged(channels: &[(Solution, Solution)]) -> Vec<FigureRow> {
+/// The ratios where solutions have converged, a row per channel, which the sweep over the residual may explain.
+fn converged(channels: &[(Solution, Solution)]) -> Vec<PaperRow> {
     let ratios = |share: f64| channels.iter().map(|(jacobi, seidel)| ratio(jacobi, seidel, share)).collect::<Vec<_>>();
     let named = CHANNELS.iter().zip(ratios(CONVERGED));
-    let mut rows: Vec<FigureRow> =
+    let mut rows: Vec<PaperRow> =
         named.map(|(name, ours)| row(format!("{name}, residual {CONVERGED}"), ours)).collect();
     let setting = |share: f64| Setting { at: share.to_string(), values: ratios(share) };
     let sweep = Sweep { name: "where iterations end", parameter: "residual", settings: RESIDUALS.map(setting).into() };

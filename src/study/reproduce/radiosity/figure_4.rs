@@ -4,7 +4,7 @@ use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceE
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, Series, Table};
-use crate::study::reproduce::{Bound, EntryChart, FigureRow, Method, Origin, Prose, Standing, Target, number};
+use crate::study::reproduce::{Bound, EntryChart, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 /// Sizes; the card of the paper had textures of at most 2048 texels a side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
@@ -73,24 +73,24 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 }
 
 /// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
-fn overtakes(points: &[Point]) -> Option<FigureRow> {
+fn overtakes(points: &[Point]) -> Option<PaperRow> {
     let largest = points.last()?;
     let implied = Origin::Implied(
         "the card overtakes the host above 2000 patches: time of the host over the card's, at least 1".to_owned(),
     );
-    Some(FigureRow::new(
+    Some(PaperRow::new(
         format!("host's time over the card's at {} patches", largest.patches),
         (CARD, Method::Pipeline),
-        Target { origin: implied, ..Target::printed(1.0, 2, "times", "section 3.1") },
+        PaperFigure { origin: implied, ..PaperFigure::printed(1.0, 2, "times", "section 3.1") },
         (largest.host / largest.rgb, Standing::Predicted { from: "40 iterations/s of the host" }),
         Bound::AtLeast,
     ))
 }
 
 fn table(points: &[Point]) -> Table {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "Milliseconds of an iteration, and nanoseconds an element",
-        &["patches", "rgb_ms", "rgb_ns", "luminance_ms", "luminance_ns", "host_ms", "host_ns", "host_over_rgb"],
+        "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
     );
     let rounded = |x: f64| Cell::Real((x * 1000.0).round() / 1000.0);
     for p in points {

@@ -1,8 +1,8 @@
 //! The paper's host: Gauss-Seidel on an Athlon, limited by its memory as the text says.
 //!
-//! An element costs an addition that waits for the one before, and, where the matrix does not fit the cache, its share of a cache
-//! line from memory. A matrix is read from end to end again and again, so of one that is W bytes long a cache of C bytes still
-//! holds C / W when it is asked again, at best.
+//! An element costs an addition that waits for the one before, and, where the matrix does not fit the cache, its share
+//! of a cache line from memory. A matrix is read from end to end again and again, so of one that is W bytes long a
+//! cache of C bytes still holds C / W when it is asked again, at best.
 
 use super::{PATCHES, PRINTED_HOST};
 
@@ -20,12 +20,12 @@ fn missed(patches: f64) -> f64 {
     (1.0 - CACHE_BYTES / (ELEMENT_BYTES * patches * patches)).max(0.0)
 }
 
-/// Seconds an element from the cache.
+/// Seconds per element from the cache.
 fn cached() -> f64 {
     ADD_CLOCKS / CLOCK_HZ
 }
 
-/// Seconds an element from memory beside that: what is left of the printed rate, the one printed figure of the host.
+/// Seconds per element from memory beside that: what is left of the printed rate, the one printed figure of the host.
 fn from_memory() -> f64 {
     let n = f64::from(PATCHES);
     (1.0 / (PRINTED_HOST.0 * n * n) - cached()) / missed(n)

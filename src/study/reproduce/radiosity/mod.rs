@@ -21,9 +21,9 @@ const CARD: &str = "nv35";
 /// Patches of the paper's scene, which it does not print: the least number for which both pairs of printed rates hold
 /// (docs/papers/radiosity.md). What other numbers give is in the table of [`rates`].
 const PATCHES: u32 = 1540;
-/// Section 3.1: Jacobi iterations a second on the card, and MFLOP/s.
+/// Section 3.1: Jacobi iterations per second on the card, and MFLOP/s.
 const PRINTED_CARD: (f64, f64) = (29.7, 141.0);
-/// Gauss-Seidel iterations a second on the host, and MFLOP/s.
+/// Gauss-Seidel iterations per second on the host, and MFLOP/s.
 const PRINTED_HOST: (f64, f64) = (40.0, 190.0);
 
 /// An iteration of so many patches on the paper's card, by the pipeline model.

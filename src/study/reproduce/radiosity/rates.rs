@@ -1,4 +1,5 @@
-//! The printed rates: 29.7 iterations and 141 MFLOP a second on the card, 40 and 190 on the host. And what the number of patches decides.
+//! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And what the number
+//! of patches decides.
 
 use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::radiosity::model;
@@ -6,11 +7,11 @@ use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::report::rounded;
-use crate::study::reproduce::{Bound, FigureRow, Method, Origin, Prose, Standing, Target, number};
+use crate::study::reproduce::{Bound, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 const PLACE: &str = "section 3.1";
-/// Numbers of patches that are compared: six whole blocks; six sides of 16 x 16; the four at which both pairs of rates hold, with
-/// their neighbours; a round number.
+/// Numbers of patches that are compared: six whole blocks; six sides of 16 x 16; the four at which both pairs of rates
+/// hold, with their neighbours; a round number.
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
 /// What chose the number of patches.
 const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
@@ -55,8 +56,8 @@ fn profile_width() -> Result<f64, ReproduceError> {
     crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
-fn rows(paper: &TimedIteration) -> Vec<FigureRow> {
-    let printed = |value: f64, decimals: usize, unit: &'static str| Target::printed(value, decimals, unit, PLACE);
+fn rows(paper: &TimedIteration) -> Vec<PaperRow> {
+    let printed = |value: f64, decimals: usize, unit: &'static str| PaperFigure::printed(value, decimals, unit, PLACE);
     let calibrated = Standing::Calibrated { on: CHOSE_N };
     let predicted = Standing::Predicted { from: CHOSE_N };
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, PRINTED_CARD.0), model::mflops(PATCHES, PRINTED_HOST.0));
@@ -64,7 +65,7 @@ fn rows(paper: &TimedIteration) -> Vec<FigureRow> {
     let inferred =
         Origin::Inferred("ceil(N / 254) for the inferred number of patches; the paper prints neither".to_owned());
     vec![
-        FigureRow::new(
+        PaperRow::new(
             "Jacobi iterations",
             (CARD, Method::Pipeline),
             printed(PRINTED_CARD.0, 1, "1/s"),
@@ -72,36 +73,36 @@ fn rows(paper: &TimedIteration) -> Vec<FigureRow> {
             Bound::PREDICTION,
         ),
         // The paper's own arithmetic: so many operations an iteration, times its rate.
-        FigureRow::new(
+        PaperRow::new(
             "operations of Jacobi, 2 N N times the printed rate",
             (CARD, Method::Equation),
             printed(PRINTED_CARD.1, 0, "MFLOP/s"),
             (jacobi, calibrated),
             Bound::Print,
         ),
-        FigureRow::new(
+        PaperRow::new(
             "operations of Gauss-Seidel, 2 N N times the printed rate",
             (HOST, Method::Equation),
             printed(PRINTED_HOST.1, 0, "MFLOP/s"),
             (gauss_seidel, calibrated),
             Bound::Print,
         ),
-        FigureRow::new(
+        PaperRow::new(
             "Gauss-Seidel iterations",
             (HOST, Method::Host),
             printed(PRINTED_HOST.0, 0, "1/s"),
             (1.0 / host::iteration(PATCHES), Standing::Calibrated { on: "this figure, which sets what memory costs" }),
             Bound::Print,
         ),
-        FigureRow::new(
+        PaperRow::new(
             "passes an iteration",
             (CARD, Method::Pipeline),
-            Target { origin: inferred, ..printed(passes, 0, "passes") },
+            PaperFigure { origin: inferred, ..printed(passes, 0, "passes") },
             (paper.passes as f64, calibrated),
             Bound::Print,
         ),
         // "Only a fraction (perhaps as little as 10%)": nothing that is much less than all of it contradicts that.
-        FigureRow::new(
+        PaperRow::new(
             "bandwidth used, at least; \"perhaps as little as\"",
             (CARD, Method::Pipeline),
             printed(10.0, 0, "%"),
@@ -120,18 +121,10 @@ fn fits(patches: u32) -> bool {
 
 /// What the number of patches decides.
 fn sizes() -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         "What the number of patches decides",
-        &[
-            "patches",
-            "passes",
-            "iterations_per_s",
-            "difference_%",
-            "MFLOP/s_of_Jacobi",
-            "reads_141",
-            "MFLOP/s_of_Gauss-Seidel",
-            "reads_190",
-        ],
+        "patches passes iterations_per_s difference_% MFLOP/s_of_Jacobi reads_141 MFLOP/s_of_Gauss-Seidel \
+         reads_190",
     );
     for patches in SIZES {
         let timed = iteration(patches, Packing::Rgb, Storage::Fp32)?;
@@ -152,21 +145,10 @@ fn sizes() -> Result<Table, ReproduceError> {
 
 /// What an iteration costs in each packing and precision.
 fn costs() -> Result<Table, ReproduceError> {
-    let mut table = Table::new(
+    let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),
-        &[
-            "packing",
-            "storage",
-            "passes",
-            "draws",
-            "texture_clocks",
-            "arithmetic_clocks",
-            "memory_clocks",
-            "filled_%",
-            "bandwidth_%",
-            "iterations_per_s",
-            "bound_by",
-        ],
+        "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
+         iterations_per_s bound_by",
     );
     let rounded = |x: f64| Cell::Real((x * 10.0).round() / 10.0);
     for packing in [Packing::Rgb, Packing::Luminance] {

@@ -1,17 +1,18 @@
-//! How far a value may be off.
+//! Tolerances, stated before values are computed.
 
-use super::Target;
+use super::PaperFigure;
 use crate::study::reproduce::prose::number;
 
-/// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed on top.
+/// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed
+/// on top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// It reads as printed, rounded to as many digits.
     Print,
     /// By this share of the paper's value.
     Relative(f64),
-    /// By this share of what the paper's value is above another one that the model was calibrated on. Who predicts nothing but that other
-    /// value is outside.
+    /// By this share of what the paper's value is above another one that the model was calibrated on. Who predicts
+    /// nothing but that other value is outside.
     Gain {
         /// The share.
         share: f64,
@@ -31,7 +32,7 @@ impl Bound {
     pub const SHARE: f64 = 0.15;
 
     /// The least and the largest value within the bound; nothing where everything is.
-    pub fn interval(&self, target: &Target) -> Option<[f64; 2]> {
+    pub fn interval(&self, target: &PaperFigure) -> Option<[f64; 2]> {
         let around = |by: f64| Some([target.value - by, target.value + by]);
         match *self {
             Self::Print => around(target.rounding()),
@@ -59,11 +60,11 @@ impl Bound {
 mod tests {
     use super::*;
 
-    fn target(value: f64, decimals: usize) -> Target {
-        Target::printed(value, decimals, "M/s", "section 6.1")
+    fn target(value: f64, decimals: usize) -> PaperFigure {
+        PaperFigure::printed(value, decimals, "M/s", "section 6.1")
     }
 
-    fn admits(bound: Bound, target: &Target, value: f64) -> bool {
+    fn admits(bound: Bound, target: &PaperFigure, value: f64) -> bool {
         bound.interval(target).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
@@ -80,7 +81,7 @@ mod tests {
         assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
     }
 
-    /// "About twice" is not met by whatever rounds to 2.
+    /// "About twice" is not met by everything that rounds to 2.
     #[test]
     fn about_twice_is_no_wider_than_any_prediction() {
         let twice = target(2.0, 1);
@@ -88,7 +89,7 @@ mod tests {
         assert!(!admits(Bound::PREDICTION, &twice, 2.4));
     }
 
-    /// Who says that the card brings nothing has not predicted what it brings.
+    /// A prediction that the card brings nothing is outside.
     #[test]
     fn the_calibrated_value_itself_is_outside() {
         let gained = target(147_630.0, 0);

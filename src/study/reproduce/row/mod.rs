@@ -1,7 +1,7 @@
 //! A figure of a paper beside ours, judged by a bound that was stated beforehand.
 //!
-//! A verdict can't be talked into: [`Explanation`]s are made by a [`Sweep`] of the same run alone, and a calibrated value is kept apart and
-//! still has to lie within its bound.
+//! A verdict can't be talked into: [`Explanation`]s are made by a [`Sweep`] of the same run alone, and a calibrated
+//! value is kept apart and still has to lie within its bound.
 
 mod bound;
 mod sweep;
@@ -35,7 +35,7 @@ impl Origin {
 
 /// A paper's figure.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Target {
+pub struct PaperFigure {
     /// The value, in units of `unit`.
     pub value: f64,
     /// Digits behind the point, as printed.
@@ -44,17 +44,17 @@ pub struct Target {
     pub unit: &'static str,
     /// Where it stands.
     pub place: &'static str,
-    /// Whether it stands there in so many words.
+    /// Whether it is printed, implied or inferred.
     pub origin: Origin,
 }
 
-impl Target {
+impl PaperFigure {
     /// A figure that stands in the paper.
     pub const fn printed(value: f64, decimals: usize, unit: &'static str, place: &'static str) -> Self {
         Self { value, decimals, unit, place, origin: Origin::Printed }
     }
 
-    /// What rounding to the printed digits may have taken away or added.
+    /// Half a unit of the last printed digit.
     pub fn rounding(&self) -> f64 {
         (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
     }
@@ -66,7 +66,7 @@ impl Target {
     }
 }
 
-/// How our value came about.
+/// How our value was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Method {
@@ -83,7 +83,7 @@ pub enum Method {
     Solver,
 }
 
-/// How our value stands to the papers' figures.
+/// Whether printed figures went into our value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Standing {
@@ -130,31 +130,31 @@ pub enum RowVerdict {
 
 /// One figure of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FigureRow {
+pub struct PaperRow {
     /// What is measured.
     pub what: String,
     /// The card, or the host.
     pub device: &'static str,
-    /// How ours came about.
+    /// How ours was computed.
     pub method: Method,
     /// The paper's.
-    pub target: Target,
+    pub target: PaperFigure,
     /// Ours, in the unit of the paper's.
     pub ours: f64,
-    /// How ours stands to the papers' figures.
+    /// Whether printed figures went into ours.
     pub standing: Standing,
-    /// What was stated beforehand.
+    /// The tolerance, stated beforehand.
     pub bound: Bound,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
 }
 
-impl FigureRow {
+impl PaperRow {
     /// A row without explanation.
     pub fn new(
         what: impl Into<String>,
         (device, method): (&'static str, Method),
-        target: Target,
+        target: PaperFigure,
         (ours, standing): (f64, Standing),
         bound: Bound,
     ) -> Self {
@@ -166,7 +166,7 @@ impl FigureRow {
         self.bound.interval(&self.target).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
-    /// Ours less the paper's, as a share of the paper's.
+    /// Relative difference: (ours - printed) / printed.
     pub fn difference(&self) -> f64 {
         (self.ours - self.target.value) / self.target.value
     }
@@ -185,7 +185,7 @@ impl FigureRow {
         }
     }
 
-    /// What of this run reaches the figure, if the row is outside its bound.
+    /// The sweep that explains the row, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
         self.explanation.as_ref()
     }
@@ -195,10 +195,10 @@ impl FigureRow {
 pub(super) mod tests {
     use super::*;
 
-    pub(super) fn row(ours: f64) -> FigureRow {
-        let target = Target::printed(15.6, 1, "M/s", "section 6.1");
+    pub(super) fn row(ours: f64) -> PaperRow {
+        let target = PaperFigure::printed(15.6, 1, "M/s", "section 6.1");
         let standing = Standing::Predicted { from: "" };
-        FigureRow::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
+        PaperRow::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
     }
 
     #[test]
@@ -212,13 +212,13 @@ pub(super) mod tests {
     #[test]
     fn a_calibrated_value_proves_nothing_and_still_has_a_bound() {
         let standing = Standing::Calibrated { on: "itself" };
-        assert_eq!(FigureRow { standing, ..row(15.6) }.verdict(), RowVerdict::Calibrated);
-        assert_eq!(FigureRow { standing, ..row(10.0) }.verdict(), RowVerdict::Missed);
+        assert_eq!(PaperRow { standing, ..row(15.6) }.verdict(), RowVerdict::Calibrated);
+        assert_eq!(PaperRow { standing, ..row(10.0) }.verdict(), RowVerdict::Missed);
     }
 
     #[test]
     fn vague_text_is_no_success() {
-        assert_eq!(FigureRow { bound: Bound::TooVague, ..row(15.6) }.verdict(), RowVerdict::TooVague);
+        assert_eq!(PaperRow { bound: Bound::TooVague, ..row(15.6) }.verdict(), RowVerdict::TooVague);
     }
 
     #[test]

@@ -1,32 +1,33 @@
-//! What the papers do not print, varied: the only thing that can explain a row.
+//! Sweeps over what the papers do not print: the only thing that can explain a row.
 
-use super::{FigureRow, Standing};
+use super::{PaperRow, Standing};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::prose::number;
 use crate::study::reproduce::report::rounded;
 
-/// One setting of what is varied, and what rows would be under it.
+/// One setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
     /// The setting, as in "2" of a factor.
     pub at: String,
-    /// A value a row, in the order of the rows and in their units.
+    /// A value per row, in the order of the rows and in their units.
     pub values: Vec<f64>,
 }
 
-/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out at one of the
-/// settings, which was chosen before any of them was.
+/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out
+/// at one of the settings, which was chosen before any of them was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     /// Its name, as rows refer to it.
     pub name: &'static str,
-    /// What is varied, with its unit.
+    /// The parameter, with its unit.
     pub parameter: &'static str,
     /// The settings.
     pub settings: Vec<Setting>,
 }
 
-/// What reaches a figure that a row misses. Made by [`Sweep::explain`] alone, from values of the run.
+/// A sweep's setting that reaches a figure that the row misses. Made by [`Sweep::explain`] alone, from values of the
+/// run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     sweep: &'static str,
@@ -66,10 +67,11 @@ impl Explanation {
 }
 
 impl Sweep {
-    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains nothing if a
-    /// row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows are never explained.
-    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut FigureRow>) {
-        let mut rows: Vec<&mut FigureRow> = rows.into_iter().collect();
+    /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains
+    /// nothing if a row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows
+    /// are never explained.
+    pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
+        let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         for setting in &self.settings {
             let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
             if rows.iter().zip(&held).any(|(row, held)| row.admits(row.ours) && !held) {
@@ -91,14 +93,14 @@ impl Sweep {
         }
     }
 
-    /// A line a row, a column a setting; what is within its bound is marked. Values are shown by `show`, in its unit if it has one.
-    pub fn table(&self, title: &str, rows: &[FigureRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
+    /// A line per row, a column per setting; what is within its bound is marked. Values are shown by `show`, in its
+    /// unit if it has one.
+    pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =
             self.settings.iter().map(|setting| format!("{}={}", self.parameter.replace(' ', "_"), setting.at));
         let headings: Vec<String> =
             ["what", "place", "unit", "paper", "ours"].map(str::to_owned).into_iter().chain(settings).collect();
-        let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
         let mut table = Table::new(format!("{title}; * within the bound"), &headings);
         for (i, row) in rows.iter().enumerate() {
             let text = |value: f64| -> Cell {
@@ -135,7 +137,7 @@ mod tests {
     fn what_a_setting_reaches_is_explained_by_it() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [16.0, 15.0]]).explain(&mut rows);
-        assert_eq!(rows.each_ref().map(FigureRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
+        assert_eq!(rows.each_ref().map(PaperRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
         let explanation = rows[0].explanation().expect("the second setting");
         assert_eq!((explanation.at(), explanation.value()), ("1", 16.0));
         assert!(rows[1].explanation().is_none(), "what holds needs no explanation");
@@ -148,7 +150,7 @@ mod tests {
         assert_eq!(rows[0].verdict(), RowVerdict::Missed);
     }
 
-    /// The setting that brings one row home must not drive another one out.
+    /// A setting that reaches one row must not lose another one.
     #[test]
     fn a_setting_that_loses_another_row_explains_nothing() {
         let mut rows = [row(20.0), row(15.6)];

@@ -1,4 +1,5 @@
-//! One run of the Ray Engine over a renderer's bundles: what it did, and how long that takes on the host and card of the paper.
+//! One run of the Ray Engine over a renderer's bundles: what it did, and how long that takes on the host and card of
+//! the paper.
 
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event};
@@ -20,7 +21,8 @@ use crate::ray_engine::octree::OctreeParameters;
 const COMPUTES: &str = "ideal-fp32";
 /// The card that the time is of: "execution rates measured on the GeForce 4".
 pub(super) const TIMES: &str = "nv25";
-/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was worked out.
+/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was
+/// worked out.
 pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
 /// An engine's run over a workload.
@@ -30,8 +32,8 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Plays the bundles to an engine, one after the other, and lets it finish once in the end: secondary rays enter the cache while
-    /// others still wait in it, as they do where a renderer goes on with whatever comes out.
+    /// Plays the bundles to an engine, one after the other, and lets it finish once in the end: secondary rays enter
+    /// the cache while others still wait in it, as they do where a renderer goes on with whatever comes out.
     pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, ReproduceError> {
         let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
@@ -42,13 +44,13 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
-    /// What was asked of the card and done on the host.
+    /// Log of the card's commands and the host's work.
     pub(super) fn log(&self) -> &[Event] {
         &self.log
     }
 }
 
-/// What a host does for a workload without card and ray tree: the first row of Table 3.
+/// A host that casts a workload without card and ray tree: the first row of Table 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HostOnly {
     pub(super) counts: HostCounts,
@@ -70,13 +72,13 @@ impl HostOnly {
         model.map_err(|e| failed(TIMES)(&e))
     }
 
-    /// Rays a second on a host.
+    /// Rays per second on a host.
     pub(super) fn rays_per_s(&self, host: &HostModel) -> f64 {
         self.rays as f64 / host.time_of_all(&self.counts).seconds()
     }
 }
 
-/// What the commands of a run cost, beside equation 11.
+/// Cost model of a run's commands, beside equation 11.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Commands {
     /// Nothing: equation 11 is all there is.
@@ -114,7 +116,7 @@ impl Costs for GeForce4 {
     }
 }
 
-/// Rays a second of a run.
+/// Rays per second of a run.
 pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Result<f64, ReproduceError> {
     let free = commands == Commands::Free;
     let card = GeForce4 { rates: Model::new(Level::Rates, &Profile::named(TIMES)?)?, free };

@@ -8,11 +8,10 @@ use super::speed_ups::SpeedUpRun;
 use super::teapot::TeapotRoom;
 use crate::report::{Cell, Table};
 
-/// Microseconds a ray that the host spends on each kind of operation: alone, and in the lines of a table.
+/// Microseconds per ray that the host spends on each kind of operation: alone, and in the lines of a table.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
     let kinds = HostOperation::ALL.iter().map(|operation| format!("{operation}_us"));
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("The host's time a ray", &headings);
     table.push(row("host alone", &room.host, &room.work.alone.counts, room.work.alone.rays));
     for line in lines {

@@ -1,10 +1,11 @@
-//! Tables 1 to 5 of the Ray Engine: rays a second of whole renderings.
+//! Tables 1 to 5 of the Ray Engine: rays per second of whole renderings.
 //!
-//! The paper's host is known by one figure, the 135,812 rays a second of Table 3's first row; from it the scale of the host model is
-//! calibrated, on our counts for our teapot room. Everything else is predicted: what the engine does is run and counted, the card takes
-//! what equation 11 and its commands take. Scenes, pictures and octree are ours, since none of the paper's is printed. What such a choice
-//! decides is swept: the octree of the host alone ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]), and what is called
-//! a ray on the card ([`shares`]).
+//! The paper's host is known by one figure, the 135,812 rays per second of Table 3's first row; from it the scale of
+//! the host model is calibrated, on our counts for our teapot room. Everything else is predicted: what the engine does
+//! is run and counted, the card takes what equation 11 and its commands take. Scenes, pictures and octree are ours,
+//! since none of the paper's is printed. What such a choice decides is swept: the octree of the host alone
+//! ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]), and what is called a ray on the card
+//! ([`shares`]).
 
 mod engine_run;
 mod host_work;
@@ -54,7 +55,7 @@ fn how(room: &TeapotRoom) -> Prose {
 const QUESTION: &str = "which scene, picture and octree the authors had, what their driver's commands cost, and how often their rays met the card: \
     none of it is printed.";
 
-/// Rays a second of the host alone, as printed.
+/// Rays per second of the host alone, as printed.
 const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 
 /// A speed-up over the host alone, in per cent.

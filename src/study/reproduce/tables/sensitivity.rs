@@ -1,4 +1,4 @@
-//! What each guess of host and queue does to Table 3.
+//! Sensitivity of Table 3 to each guess about host and queue.
 
 use std::rc::Rc;
 
@@ -18,13 +18,12 @@ fn keys() -> Vec<String> {
     host.chain(queue).collect()
 }
 
-/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated anew each
-/// time, so that it does the work alone in the same time.
+/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated
+/// anew each time, so that it does the work alone in the same time.
 pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
         .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))
         .collect();
-    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
     let mut table = Table::new("Speed-ups of Table 3 with one guess doubled", &headings);
     let stated = speed_ups(alone, lines, HostWeights::default(), QueueFigures::default())?;
     push(&mut table, "as stated", &stated);

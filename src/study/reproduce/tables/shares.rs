@@ -1,6 +1,6 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings of it.
 
-use super::super::{Bound, FigureRow, Method, Setting, Standing, Sweep, Target};
+use super::super::{Bound, Method, PaperFigure, PaperRow, Setting, Standing, Sweep};
 use super::engine_run::TIMES;
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
@@ -24,11 +24,11 @@ pub(super) struct Share<'a> {
 }
 
 /// Rows by the first reading, explained by the second where that reaches them, and the two readings side by side.
-pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<FigureRow>, Table) {
+pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<PaperRow>, Table) {
     let row = |share: &Share<'_>| {
-        let target = Target::printed(share.printed, 0, "%", place);
+        let target = PaperFigure::printed(share.printed, 0, "%", place);
         let what = format!("{}: rays on the card", share.what);
-        FigureRow::new(
+        PaperRow::new(
             what,
             (TIMES, Method::Engine),
             target,
@@ -36,7 +36,7 @@ pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<FigureRow>
             Bound::PREDICTION,
         )
     };
-    let mut rows: Vec<FigureRow> = shares.iter().map(row).collect();
+    let mut rows: Vec<PaperRow> = shares.iter().map(row).collect();
     let setting = |(at, of): (&str, Reading)| Setting {
         at: at.to_owned(),
         values: shares.iter().map(|share| 100.0 * of(share.counts)).collect(),

@@ -1,8 +1,9 @@
-//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them has to bear the others.
+//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them
+//! has to bear the others.
 
 use std::rc::Rc;
 
-use super::super::{Bound, FigureRow, Method, ReproduceError, Standing, Sweep, Target};
+use super::super::{Bound, Method, PaperFigure, PaperRow, ReproduceError, Standing, Sweep};
 use super::engine_run::{Commands, Run, TIMES};
 use super::teapot::{TeapotRoom, Variant};
 use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
@@ -16,7 +17,7 @@ const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
 
 /// A row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
 pub(super) struct SpeedUpRun {
-    pub(super) row: FigureRow,
+    pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
 }
 
@@ -32,7 +33,7 @@ impl SpeedUpRun {
     }
 }
 
-/// All rows, and what they would be under other guesses.
+/// All rows, and their values under other guesses.
 pub(super) struct SpeedUps {
     pub(super) lines: Vec<SpeedUpRun>,
     pub(super) commands: Sweep,
@@ -46,13 +47,13 @@ impl SpeedUps {
     }
 
     /// The rows of a table with that of the host alone.
-    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<FigureRow> {
+    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<PaperRow> {
         std::iter::once(room.host_alone(place)).chain(self.of(place).into_iter().map(|line| line.row.clone())).collect()
     }
 
     /// All rows under each setting of a sweep, as speed-ups.
     pub(super) fn table(&self, sweep: &Sweep, title: &str) -> Table {
-        let rows: Vec<FigureRow> = self.lines.iter().map(|line| line.row.clone()).collect();
+        let rows: Vec<PaperRow> = self.lines.iter().map(|line| line.row.clone()).collect();
         sweep.table(title, &rows, (Some("%"), speed_up))
     }
 
@@ -66,7 +67,7 @@ impl SpeedUps {
     }
 }
 
-/// What is printed: name, table, rays a second, and how the engine runs.
+/// The printed figures: name, table, rays per second, and the engine's variant.
 fn printed() -> Vec<(String, &'static str, f64, Variant)> {
     let plus = Variant::PLUS_CARD;
     let readback = |readback| Variant { readback, ..plus.clone() };
@@ -98,8 +99,8 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let ours = sweeps::rates(&runs, &room.host, commands())?;
     let mut lines = Vec::new();
     for (((what, place, value, _), run), ours) in printed.into_iter().zip(&runs).zip(ours) {
-        let target = Target::printed(value, 0, "rays/s", place);
-        let row = FigureRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
+        let target = PaperFigure::printed(value, 0, "rays/s", place);
+        let row = PaperRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
         lines.push(SpeedUpRun { row, run: Rc::clone(run) });
     }
     let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
@@ -109,33 +110,20 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> FigureRow {
+pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
     let standing = Standing::Calibrated { on: "this figure" };
     let ours = room.work.alone.rays_per_s(&room.host);
-    let target = Target::printed(HOST_ALONE, 0, "rays/s", place);
-    FigureRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
+    let target = PaperFigure::printed(HOST_ALONE, 0, "rays/s", place);
+    PaperRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
 }
 
-const HEADINGS: [&str; 14] = [
-    "run",
-    "printed_rays_per_s",
-    "ours_rays_per_s",
-    "printed_%",
-    "ours_%",
-    "points_off",
-    "ours_if_commands_were_free_%",
-    "passes_per_1000_rays",
-    "rays_per_pass",
-    "triangles_per_pass",
-    "cells_per_ray",
-    "host_tests_per_ray",
-    "card_visits_per_ray",
-    "forced_per_ray",
-];
+const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% points_off ours_if_commands_were_free_% \
+     passes_per_1000_rays rays_per_pass triangles_per_pass cells_per_ray host_tests_per_ray card_visits_per_ray \
+     forced_per_ray";
 
 /// The speed-ups of some lines over the host alone, and what their engines did.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, ReproduceError> {
-    let mut table = Table::new(format!("Speed-ups over the host alone, {place}"), &HEADINGS);
+    let mut table = Table::of(format!("Speed-ups over the host alone, {place}"), COLUMNS);
     for line in lines {
         let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);
         let (counts, rays) = (&line.run.counts, line.run.counts.rays as f64);

@@ -1,4 +1,4 @@
-//! What the rows of Tables 3 to 5 hang on and no paper prints, varied.
+//! Sweeps over parameters that Tables 3 to 5 depend on and no paper prints.
 
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ const HALVES: [u64; 4] = [2, 3, 4, 6];
 /// Triangles of a leaf of the host's octree.
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
-/// Rays a second of runs; each log is replayed once, however often its run stands in the list.
+/// Rays per second of runs; each log is replayed once, however often its run stands in the list.
 pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, ReproduceError> {
     let mut distinct: Vec<&Rc<Run>> = Vec::new();
     for run in runs {
@@ -52,8 +52,8 @@ fn scaled(halves: u64) -> QueueFigures {
     figures
 }
 
-/// The octree of the host alone, by the triangles of its leaves; the engine keeps its own. The host is calibrated anew each time, so that it
-/// takes the printed time for what it then counts.
+/// The octree of the host alone, by the triangles of its leaves; the engine keeps its own. The host is calibrated anew
+/// each time, so that it takes the printed time for what it then counts.
 pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
     let setting = |most_triangles: usize| {
         let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });

@@ -1,11 +1,11 @@
-//! Tables 1 and 2: rays a second, and the share of rays on the card, for five scenes and applications.
+//! Tables 1 and 2: rays per second, and the share of rays on the card, for five scenes and applications.
 
 use std::rc::Rc;
 
 use rayon::prelude::*;
 
 use super::super::shared::Shared;
-use super::super::{Bound, EntryChart, EntryFindings, FigureRow, Method, ReproduceError, Target};
+use super::super::{Bound, EntryChart, EntryFindings, Method, PaperFigure, PaperRow, ReproduceError};
 use super::engine_run::{Run, TIMES, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
@@ -14,7 +14,7 @@ use super::{HOST_ALONE, QUESTION, RATE, commands, figure, speed_up};
 use crate::report::{Chart, Series, Table};
 
 /// A line of both tables.
-struct Scene {
+struct PrintedScene {
     what: &'static str,
     tick: &'static str,
     job: Option<Job>,
@@ -27,9 +27,9 @@ struct Scene {
 
 const EYES: Job = Job { scene: "office-floor", view: Some("top"), asks: Asks::Eyes, side: 512 };
 
-const SCENES: [Scene; 5] = [
+const SCENES: [PrintedScene; 5] = [
     // The room of Tables 3 to 5. Section 6.3: 256 rays and an octree tuned by hand; ours is not tuned.
-    Scene {
+    PrintedScene {
         what: "teapot room, classical",
         tick: "teapot, classical",
         job: None,
@@ -38,7 +38,7 @@ const SCENES: [Scene; 5] = [
         share: 89.0,
         rays: 256,
     },
-    Scene {
+    PrintedScene {
         what: "teapot room, Monte Carlo",
         tick: "teapot, Monte Carlo",
         job: Some(Job { scene: "teapot-room", view: None, asks: Asks::MonteCarlo(4), side: 112 }),
@@ -47,7 +47,7 @@ const SCENES: [Scene; 5] = [
         share: 71.0,
         rays: 64,
     },
-    Scene {
+    PrintedScene {
         what: "office",
         tick: "office",
         job: Some(Job { scene: "office", view: None, asks: Asks::Classical, side: 224 }),
@@ -56,7 +56,7 @@ const SCENES: [Scene; 5] = [
         share: 65.0,
         rays: 64,
     },
-    Scene {
+    PrintedScene {
         what: "office floor, top view",
         tick: "floor, top",
         job: Some(EYES),
@@ -65,7 +65,7 @@ const SCENES: [Scene; 5] = [
         share: 70.0,
         rays: 64,
     },
-    Scene {
+    PrintedScene {
         what: "office floor, side view",
         tick: "floor, side",
         job: Some(Job { view: Some("side"), ..EYES }),
@@ -86,7 +86,7 @@ const READINGS: &str = "A printed share of rays on the card is read in two ways:
     the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text decides neither. Rows take the \
     first, which was chosen before any of them was worked out.";
 
-/// What a scene's run did.
+/// A scene's run.
 struct Ran {
     run: Rc<Run>,
     triangles: usize,
@@ -144,19 +144,19 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     })
 }
 
-fn rates(ran: &[Ran]) -> Vec<FigureRow> {
+fn rates(ran: &[Ran]) -> Vec<PaperRow> {
     let by = (TIMES, Method::Engine);
-    let row = |(i, (scene, ran)): (usize, (&Scene, &Ran))| {
-        let target = Target::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
+    let row = |(i, (scene, ran)): (usize, (&PrintedScene, &Ran))| {
+        let target = PaperFigure::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
         // The first row's room is the one on which the host was calibrated; of the others no host alone is printed.
         let gain = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
         let bound = if i == 0 { gain } else { Bound::PREDICTION };
-        FigureRow::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)
+        PaperRow::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)
     };
-    let mut rows: Vec<FigureRow> = SCENES.iter().zip(ran).enumerate().map(row).collect();
-    let tuned = Target::printed(TUNED, 0, "%", "section 6.3");
+    let mut rows: Vec<PaperRow> = SCENES.iter().zip(ran).enumerate().map(row).collect();
+    let tuned = PaperFigure::printed(TUNED, 0, "%", "section 6.3");
     let ours = ran.first().map_or(f64::NAN, |ran| speed_up(ran.rays_per_s));
-    rows.insert(1, FigureRow::new("the same, over the host alone", by, tuned, (ours, RATE), Bound::PREDICTION));
+    rows.insert(1, PaperRow::new("the same, over the host alone", by, tuned, (ours, RATE), Bound::PREDICTION));
     rows
 }
 
@@ -177,16 +177,9 @@ fn rates_chart(ran: &[Ran], ticks: &[&str]) -> Chart {
 }
 
 fn table(ran: &[Ran]) -> Table {
-    let headings = [
-        "scene",
-        "polygons_printed",
-        "triangles",
-        "rays_traced",
-        "printed_rays_per_s",
-        "ours_rays_per_s",
-        "host_alone_rays_per_s",
-    ];
-    let mut table = Table::new("Five scenes", &headings);
+    let columns =
+        "scene polygons_printed triangles rays_traced printed_rays_per_s ours_rays_per_s host_alone_rays_per_s";
+    let mut table = Table::of("Five scenes", columns);
     for (scene, ran) in SCENES.iter().zip(ran) {
         table.push([
             scene.what.into(),

@@ -1,4 +1,5 @@
-//! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of the host alone.
+//! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of
+//! the host alone.
 
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
@@ -42,7 +43,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     })
 }
 
-/// What the printed figures and ours leave for a pass.
+/// The time per pass that the printed figures and ours leave.
 fn passes(lines: &[&SpeedUpRun]) -> Prose {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
     let [plus, asynchronous, fast] = lines else { return Prose::from("") };

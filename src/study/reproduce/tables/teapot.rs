@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
 use super::super::shared::get_or_try;
-use super::super::{FigureRow, ReproduceError};
+use super::super::{PaperRow, ReproduceError};
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::speed_ups::{self, SpeedUps};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
@@ -27,8 +27,8 @@ impl Variant {
     /// "Plus GPU": 5 to 15 triangles, 64 rays (section 6.3).
     pub(super) const PLUS_CARD: Self = Self { triangles: 5..=15, rays: 64, readback: Readback::Synchronous };
 
-    /// The engine of the tables: triangles outside the bucket culled by the vertex program, buckets tested against cells, rays put into the
-    /// tree in random order (section 5.3).
+    /// The engine of the tables: triangles outside the bucket culled by the vertex program, buckets tested against
+    /// cells, rays put into the tree in random order (section 5.3).
     pub(super) fn parameters(&self) -> EngineParameters {
         EngineParameters {
             triangles: self.triangles.clone(),
@@ -80,7 +80,7 @@ impl TeapotRoom {
         self.runs.borrow().iter().find(|(made, _)| made == variant).map(|(_, run)| Rc::clone(run))
     }
 
-    /// Rays a second of a run on the calibrated host.
+    /// Rays per second of a run on the calibrated host.
     pub(super) fn rays_per_s(&self, run: &Run, commands: Commands) -> Result<f64, ReproduceError> {
         rays_per_s(run, &self.host, commands)
     }
@@ -91,7 +91,7 @@ impl TeapotRoom {
     }
 
     /// The first row of Tables 3 to 5: what the host's scale was calibrated on.
-    pub(super) fn host_alone(&self, place: &'static str) -> FigureRow {
+    pub(super) fn host_alone(&self, place: &'static str) -> PaperRow {
         speed_ups::host_alone(self, place)
     }
 }

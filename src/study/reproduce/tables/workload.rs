@@ -1,4 +1,4 @@
-//! What renderers ask: their bundles of rays, written down once and played to engines of all kinds.
+//! Workloads: the ray bundles of a renderer, recorded once and replayed to engines.
 
 use super::super::ReproduceError;
 use super::super::pipeline::failed;
@@ -10,14 +10,14 @@ use crate::ray_engine::{HostCounts, HostTracer};
 use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
 
-/// Which renderer asks.
+/// The renderer that casts the rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asks {
     /// Eye rays alone.
     Eyes,
     /// Whitted's: what the paper calls classical.
     Classical,
-    /// Distributed ray tracing with so many samples a pixel: Monte Carlo.
+    /// Distributed ray tracing with so many samples per pixel: Monte Carlo.
     MonteCarlo(u32),
 }
 
@@ -38,14 +38,14 @@ pub(super) const CLASSICAL_TEAPOT: Job = Job { scene: "teapot-room", view: None,
 #[derive(Clone, Debug)]
 pub(super) struct Workload {
     pub(super) mesh: Mesh,
-    /// In the order in which the renderer asked.
+    /// In the order in which they were cast.
     pub(super) bundles: Vec<Vec<Ray>>,
-    /// What a host does for them without card and ray tree.
+    /// The work of a host that casts them without card and ray tree.
     pub(super) alone: HostOnly,
 }
 
 impl Workload {
-    /// What a host does for the same rays with another octree.
+    /// The work of a host that casts the same rays with another octree.
     pub(super) fn alone_with(&self, octree: OctreeParameters) -> HostOnly {
         let tracer = HostTracer::new(&self.mesh, octree, Sides::Both);
         let mut cost = HostCounts::default();
@@ -56,7 +56,7 @@ impl Workload {
     }
 }
 
-/// A host tracer that writes down what it is asked, and what that costs.
+/// A host tracer that records its rays and counts its work.
 struct Recording {
     tracer: HostTracer,
     bundles: Vec<Vec<Ray>>,
@@ -73,7 +73,7 @@ impl Caster for Recording {
 }
 
 impl Job {
-    /// What the renderer asks.
+    /// The renderer.
     pub(super) fn workload(&self) -> Result<Workload, ReproduceError> {
         let fail = failed(TIMES);
         let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
