@@ -31,6 +31,7 @@ const CROSSBAR: Law = (
     &[
         ("linalg", &[]),
         ("geom", &["linalg"]),
+        ("tracer", &["geom"]),
         ("scene", &["geom", "linalg"]),
         ("io", &["geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
@@ -39,10 +40,13 @@ const CROSSBAR: Law = (
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "geom", "scene", "linalg", "io"]),
-        ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
-        ("renderer", &["geom", "scene", "linalg"]),
-        ("study", &["ray_engine", "radiosity", "renderer", "report", "card", "geom", "scene", "linalg", "io"]),
+        ("radiosity", &["card", "tracer", "geom", "scene", "linalg", "io"]),
+        ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
+        ("renderer", &["tracer", "geom", "scene", "linalg"]),
+        (
+            "study",
+            &["ray_engine", "radiosity", "renderer", "report", "card", "tracer", "geom", "scene", "linalg", "io"],
+        ),
         (
             "cli",
             &[
@@ -55,6 +59,7 @@ const CROSSBAR: Law = (
                 "shader",
                 "report",
                 "card",
+                "tracer",
                 "geom",
                 "scene",
                 "linalg",
@@ -67,7 +72,8 @@ const CROSSBAR: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] =
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

@@ -3,7 +3,7 @@
 //! docs/papers/radiosity.md maps each equation.
 //!
 //! - [`Patches`]: a scene cut into patches;
-//! - [`FormFactors`]: how much of each patch's light reaches each other one, with visibility asked of a [`crate::geom::Caster`];
+//! - [`FormFactors`]: how much of each patch's light reaches each other one, with visibility asked of a [`crate::tracer::Caster`];
 //! - [`System`]: form factors, reflectances and emittances, and the matrix of equation 2;
 //! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a direct solve as truth;
 //! - [`packing`], [`card_order`]: textures, and the Jacobi step in the order of a card's passes, in f32;

@@ -15,8 +15,8 @@ use refsim::texture::{Image, Region, SamplerState};
 
 use super::outputs::{Code, Told};
 use super::units::{Units, ray_textures};
-use super::{EngineError, Form, Hit, Kernel, RayBatch};
-use crate::geom::{Mesh, Ray};
+use super::{EngineError, Form, Kernel, RayBatch};
+use crate::geom::{Hit, Mesh, Ray};
 
 /// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
 #[derive(Debug)]

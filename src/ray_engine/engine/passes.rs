@@ -16,7 +16,7 @@ const ROWS: usize = 4;
 
 /// A pass that was given to the card.
 #[derive(Debug)]
-pub(super) struct Pass {
+pub(super) struct PassInFlight {
     /// Its rays.
     pub(super) waiting: Vec<Waiting>,
     /// What they hit. The emulator knows at once; the host must not look before it has taken the pass.
@@ -32,7 +32,7 @@ pub(super) struct Pass {
 pub(super) struct Passes {
     card: PassCard,
     readback: Readback,
-    flying: VecDeque<Pass>,
+    flying: VecDeque<PassInFlight>,
     /// Textures and targets that no pass in flight uses, the one not used longest first.
     free: VecDeque<usize>,
     /// How many there are.
@@ -79,13 +79,13 @@ impl Passes {
         let drawn = self.card.draw(sheet, mesh, triangles, &batch)?;
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
         let (hits, fence) = self.card.read_back(&drawn, triangles, &batch, wait)?;
-        self.flying.push_back(Pass { waiting, hits, fence, sheet });
+        self.flying.push_back(PassInFlight { waiting, hits, fence, sheet });
         // A quad covers the screen or nothing.
         Ok((drawn.events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
     }
 
     /// The oldest pass in flight, waited for.
-    pub(super) fn take(&mut self) -> Option<Pass> {
+    pub(super) fn take(&mut self) -> Option<PassInFlight> {
         let pass = self.flying.pop_front()?;
         if let Some(fence) = pass.fence {
             self.card.finish(fence);

@@ -64,7 +64,7 @@ enum Kind {
 }
 
 #[derive(Clone, Debug)]
-struct Node {
+struct RayTreeNode {
     /// Rays in all buckets below.
     count: usize,
     parent: Option<u32>,
@@ -76,7 +76,7 @@ struct Node {
 pub struct RayTree {
     parameters: RayTreeParameters,
     /// The first six are the faces' roots.
-    nodes: Vec<Node>,
+    nodes: Vec<RayTreeNode>,
     free: Vec<u32>,
     counts: RayTreeCounts,
 }
@@ -85,7 +85,7 @@ impl RayTree {
     /// An empty tree. A bucket holds one ray at least.
     pub fn new(parameters: RayTreeParameters) -> Self {
         let parameters = RayTreeParameters { bucket: parameters.bucket.max(1), ..parameters };
-        let root = Node { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
+        let root = RayTreeNode { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
         Self { parameters, nodes: vec![root; key::FACES], free: Vec::new(), counts: RayTreeCounts::default() }
     }
 
@@ -107,7 +107,7 @@ impl RayTree {
     /// The shares of full that the buckets which hold anything are, in no particular order. (The paper: typically 50 to 80 %.)
     pub fn fullness(&self) -> Vec<f64> {
         let share = |rays: &Vec<Entry>| rays.len() as f64 / self.parameters.bucket as f64;
-        let bucket = |node: &Node| match &node.kind {
+        let bucket = |node: &RayTreeNode| match &node.kind {
             Kind::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
             _ => None,
         };
@@ -120,7 +120,9 @@ impl RayTree {
             Kind::Bucket(rays) => rays.capacity() * size_of::<Entry>(),
             Kind::Inner(..) => 0,
         });
-        self.nodes.capacity() * size_of::<Node>() + self.free.capacity() * size_of::<u32>() + buckets.sum::<usize>()
+        self.nodes.capacity() * size_of::<RayTreeNode>()
+            + self.free.capacity() * size_of::<u32>()
+            + buckets.sum::<usize>()
     }
 
     /// Puts a ray in.
@@ -154,8 +156,8 @@ impl RayTree {
         for entry in std::mem::take(rays) {
             parts[split.child(&entry.key)].push(entry);
         }
-        let children =
-            parts.map(|rays| self.make(Node { count: rays.len(), parent: Some(node), kind: Kind::Bucket(rays) }));
+        let children = parts
+            .map(|rays| self.make(RayTreeNode { count: rays.len(), parent: Some(node), kind: Kind::Bucket(rays) }));
         self.nodes[node as usize].kind = Kind::Inner(split, children);
         self.counts.splits += 1;
         for child in children {
@@ -164,7 +166,7 @@ impl RayTree {
     }
 
     /// A place for a node.
-    fn make(&mut self, node: Node) -> u32 {
+    fn make(&mut self, node: RayTreeNode) -> u32 {
         if let Some(place) = self.free.pop() {
             self.nodes[place as usize] = node;
             return place;

@@ -1,6 +1,6 @@
 //! Taking a batch out: the fullest bucket that a greedy search finds, filled up from its siblings.
 
-use super::{Entry, Kind, Node, RayTree, key};
+use super::{Entry, Kind, RayTree, RayTreeNode, key};
 
 /// Rays that go to the card together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -97,7 +97,7 @@ impl RayTree {
             Kind::Inner(_, children) => {
                 for child in children {
                     self.collect(child, into);
-                    self.nodes[child as usize] = Node { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
+                    self.nodes[child as usize] = RayTreeNode { count: 0, parent: None, kind: Kind::Bucket(Vec::new()) };
                     self.free.push(child);
                 }
             }
