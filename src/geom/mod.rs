@@ -9,7 +9,7 @@
 //! - [`angle`]: sine and cosine with the same bits everywhere;
 //! - [`elementary`]: logarithm and arc tangent with the same bits everywhere;
 //! - [`vector`]: what glam's vectors lack;
-//! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
+//! - [`random`]: a counter-based random number generator.
 
 pub mod adjacency;
 pub mod aimed;

@@ -18,7 +18,8 @@ use super::units::{Units, ray_textures};
 use super::{EngineError, Form, Kernel, RayBatch};
 use crate::geom::{Hit, Mesh, Ray};
 
-/// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for t.
+/// What a bucket of rays takes of a machine's memory: rays in textures, a colour target for ids and a depth buffer for
+/// t.
 #[derive(Debug)]
 pub(super) struct Sheet {
     /// All ray textures made so far: sampler, size, texture. Origins take one texel or one a ray.
@@ -171,7 +172,8 @@ impl Reading<'_> {
     }
 }
 
-/// Rays into textures that were made before, where there are some of the size, else into new ones. Samplers with their textures.
+/// Rays into textures that were made before, where there are some of the size, else into new ones. Samplers with their
+/// textures.
 fn upload(
     made: &mut Vec<(usize, Region, TextureId)>,
     machine: &mut Machine,

@@ -112,8 +112,8 @@ impl Crossbar {
         Self { profile: profile.into(), executor: executor.into(), all_pairs: false, kernels: Arc::default() }
     }
 
-    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3), or
-    /// every ray meets every triangle. Buckets are the default.
+    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3),
+    /// or every ray meets every triangle. Buckets are the default.
     #[must_use]
     pub fn all_pairs(mut self, all_pairs: bool) -> Self {
         self.all_pairs = all_pairs;
@@ -128,8 +128,9 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
-    /// The same, and the log of the card: one bucket after the other, as on a card with one set of textures and targets. The answer is
-    /// that of [`Crossbar::intersect`], and the log the same for every executor and number of threads.
+    /// The same, and the log of the card: one bucket after the other, as on a card with one set of textures and
+    /// targets. The answer is that of [`Crossbar::intersect`], and the log the same for every executor and number of
+    /// threads.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -137,7 +138,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: None })
     }
 
-    /// The same log with what a watcher makes of every texel that is read; each bucket has one of its own. The scalar executor draws, slowly.
+    /// The same log with what a watcher makes of every texel that is read; each bucket has one of its own. The scalar
+    /// executor draws, slowly.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -151,8 +153,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
-    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the vertex program: the hits
-    /// are the same to the bit. Quads that were culled make no fragments.
+    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the
+    /// vertex program: the hits are the same to the bit. Quads that were culled make no fragments.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -184,8 +186,8 @@ impl Crossbar {
         Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
     }
 
-    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as wanted:
-    /// every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
+    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as
+    /// wanted: every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -271,8 +273,8 @@ impl Crossbar {
         Ok(hits)
     }
 
-    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that its
-    /// rays are to meet in rising order.
+    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that
+    /// its rays are to meet in rising order.
     fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
         let everything = || (0..mesh.len() as u32).collect();
         let Some(origin) = rays.common_origin().filter(|_| !self.all_pairs) else {

@@ -24,8 +24,8 @@ impl KeptCard {
         Self { work: None, rays, kernel }
     }
 
-    /// Clears the targets, draws every triangle over every ray, and reads back: the answer of [`super::Crossbar::intersect`]
-    /// with all pairs.
+    /// Clears the targets, draws every triangle over every ray, and reads back: the answer of
+    /// [`super::Crossbar::intersect`] with all pairs.
     ///
     /// # Errors
     /// [`EngineError::Machine`] if the card refuses the work.

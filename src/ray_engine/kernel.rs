@@ -42,8 +42,8 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4` in
-    /// fixed-point formats, as the cards did.
+    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4`
+    /// in fixed-point formats, as the cards did.
     ///
     /// # Errors
     /// [`EngineError::NoKernel`] if the device runs neither.
@@ -73,8 +73,8 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
-    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric coordinates, or both. A
-    /// card without float programs and targets gives ids.
+    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric
+    /// coordinates, or both. A card without float programs and targets gives ids.
     ///
     /// # Errors
     /// As [`Kernel::choose`].

@@ -8,14 +8,14 @@ use super::crossbar::{color_of_id, id_of_color};
 /// What is read back of each ray of a pass (sections 4.2 and 6.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Outputs {
-    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare the hits of several
-    /// cells, computes t of the one triangle again.
+    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare
+    /// the hits of several cells, computes t of the one triangle again.
     Id,
     /// The triangle and the t-buffer: 8 bytes.
     #[default]
     IdAndT,
-    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with [`Outputs::Id`]. Cards
-    /// without float targets return the triangle alone, and the host computes the rest.
+    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with
+    /// [`Outputs::Id`]. Cards without float targets return the triangle alone, and the host computes the rest.
     IdAndBarycentrics,
 }
 
@@ -40,7 +40,8 @@ pub(super) struct Told {
 }
 
 impl Code {
-    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells them apart.
+    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells
+    /// them apart.
     pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
         let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
         if weights {

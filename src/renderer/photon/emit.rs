@@ -4,11 +4,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::Hit;
+use crate::renderer::counting::{CountingCaster, RayKind};
 use crate::renderer::lights::Lights;
 use crate::renderer::lobes::{Lobes, one_way};
 use crate::renderer::photon_map::Photon;
 use crate::renderer::surfel::Surfel;
-use crate::renderer::counting::{CountingCaster, RayKind};
 use crate::renderer::wave::{Dice, PathRay};
 use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
