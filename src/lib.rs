@@ -42,3 +42,4 @@ pub mod report;
 pub mod scene;
 pub mod shader;
 pub mod study;
+pub mod tracer;

@@ -10,12 +10,13 @@ use crate::geom::{ExactT, Hit, Ray, RayError};
 /// In what way an answer is wrong; the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum DisagreementKind {
     /// A triangle that the mesh does not have.
     NoSuchTriangle,
     /// No hit where there is a surface: a hole.
     Leak,
-    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is seen.
+    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is
+    /// seen.
     LeakThrough,
     /// A hit where the ray meets nothing.
     FalseHit,
@@ -31,7 +32,7 @@ pub enum Kind {
     NearTie,
 }
 
-impl Kind {
+impl DisagreementKind {
     /// All of them, the worst first.
     pub const ALL: [Self; 9] = [
         Self::NoSuchTriangle,
@@ -68,7 +69,7 @@ impl Kind {
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for DisagreementKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -98,14 +99,14 @@ pub struct Disagreement {
     /// Where it goes.
     pub direction: [f32; 3],
     /// In what way.
-    pub kind: Kind,
+    pub kind: DisagreementKind,
     /// What it truly hits, if anything.
     pub expected: Option<Expected>,
     /// What was found, if anything.
     #[serde(serialize_with = "found")]
     pub found: Option<Hit>,
-    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one side has
-    /// a t, or one is not finite.
+    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one
+    /// side has a t, or one is not finite.
     pub t_ulps: Option<u64>,
     /// Where the ray truly meets the triangle that was found, if it does, from either side; in JSON the nearest double.
     #[serde(serialize_with = "nearest_double_if_any")]
@@ -141,16 +142,17 @@ impl Disagreement {
         Ray::new(self.origin, self.direction)
     }
 
-    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the ray.
+    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the
+    /// ray.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
     }
 }
 
 /// Three numbers in parentheses; -0 shows its sign, and every f32 enough digits to be read back.
-pub(super) struct Vector(pub(super) [f32; 3]);
+pub(super) struct ShownVector(pub(super) [f32; 3]);
 
-impl fmt::Display for Vector {
+impl fmt::Display for ShownVector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [x, y, z] = self.0.map(short);
         write!(f, "({x}, {y}, {z})")
@@ -170,7 +172,7 @@ fn short_double(x: f64) -> String {
 
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (from, along) = (Vector(self.origin), Vector(self.direction));
+        let (from, along) = (ShownVector(self.origin), ShownVector(self.direction));
         write!(f, "ray {} from {from} along {along}: {}: expected ", self.ray, self.kind)?;
         match &self.expected {
             None => f.write_str("nothing")?,
@@ -190,8 +192,10 @@ impl fmt::Display for Disagreement {
             Some(ulps) => write!(f, ", {ulps} ULPs off")?,
         }
         match &self.met_at {
-            Some(met) if self.kind != Kind::TOff => write!(f, " (the ray meets it at {})", short_double(met.to_f64())),
-            None if self.kind != Kind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
+            Some(met) if self.kind != DisagreementKind::TOff => {
+                write!(f, " (the ray meets it at {})", short_double(met.to_f64()))
+            }
+            None if self.kind != DisagreementKind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
             _ => Ok(()),
         }
     }

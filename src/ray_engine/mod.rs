@@ -1,7 +1,8 @@
 //! System 1: the Ray Engine. Ray-triangle intersection as a pixel program; the crossbar of rays and triangles.
 //!
 //! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
-//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
+//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each
+//! equation.
 
 mod barycentrics;
 mod bundle;
@@ -9,13 +10,9 @@ mod card;
 mod crossbar;
 mod cull;
 pub mod engine;
-mod host_packet;
-mod host_test;
-mod host_tracer;
 mod kernel;
 pub mod kernels;
 pub mod model;
-pub mod octree;
 mod outputs;
 mod pass;
 mod range;
@@ -27,9 +24,7 @@ mod resident;
 mod units;
 mod vertex_crossbar;
 
-pub use crate::geom::Hit;
 pub use crossbar::{Answer, Crossbar, EngineError, MakeWatcher};
-pub use host_tracer::{HostCounts, HostTracer};
 pub use kernel::{Form, Kernel};
 pub use outputs::Outputs;
 pub use rays::{RayBatch, RayBatchError};

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::counting::{CountingCaster, RayCounts, RayKind};
 use super::settings::{Lens, RenderError, Settings};
-use super::tracer::{Kind, RayCounts, Tracer};
-use super::wave::{Dice, Flight, Shade, follow};
+use super::wave::{Dice, PathRay, Shade, follow};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::picture::{self, ChannelUnit, PictureError, RgbImage, Samples};
@@ -13,7 +13,7 @@ use crate::scene::Camera;
 
 /// Linear radiance of each pixel, rows from the top, with what was first hit through its middle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct RenderedPicture {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -22,7 +22,8 @@ pub struct Picture {
     pub color: Vec<[f64; 3]>,
     /// Estimated variance of that mean: of the samples, over their number; 0 of one sample.
     pub variance: Vec<[f64; 3]>,
-    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is the depth along the view.
+    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is
+    /// the depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: none, unless a scene's figures are beyond reason.
     pub not_finite: u64,
@@ -30,7 +31,7 @@ pub struct Picture {
     pub counts: RayCounts,
 }
 
-impl Picture {
+impl RenderedPicture {
     /// Color in single precision, and of what is first hit `t` (infinite for nothing) and `triangle` (`u32::MAX` for nothing).
     ///
     /// # Errors
@@ -72,17 +73,17 @@ impl Film {
 
 /// Renders by a shader. `fan` says how many rays one ray from the eye may become at a time, about.
 pub(super) fn expose(
-    tracer: &mut Tracer<'_>,
+    tracer: &mut CountingCaster<'_>,
     camera: &Camera,
     settings: &Settings,
     fan: usize,
     shader: &impl Shade,
-) -> Result<Picture, RenderError> {
+) -> Result<RenderedPicture, RenderError> {
     settings.checked()?;
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
     let mut film = Film { sum: vec![DVec3::ZERO; pixels], squares: vec![DVec3::ZERO; pixels], not_finite: 0 };
-    // With one sample a pixel and no lens the rays of the picture are those through the middles.
+    // With one sample per pixel and no lens the rays of the picture are those through the middles.
     let middles = settings.samples == 1 && settings.lens.is_none();
     let mut first = if middles { Vec::with_capacity(pixels) } else { through_middles(tracer, camera, settings)? };
     let total = pixels as u64 * samples;
@@ -94,7 +95,7 @@ pub(super) fn expose(
         let flights = (start..end).into_par_iter().map(|index| {
             let (pixel, sample) = (index / samples, index % samples);
             let dice = Dice::new(settings.seed, pixel, sample);
-            Flight::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
+            PathRay::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
         });
         let wave = follow(tracer, flights.collect(), shader)?;
         for (index, light) in (start..end).zip(wave.light) {
@@ -108,7 +109,7 @@ pub(super) fn expose(
     }
     let (color, variance) = means(&film, settings.samples);
     let (width, height, counts) = (camera.width(), camera.height(), tracer.counts);
-    Ok(Picture { width, height, color, variance, first, not_finite: film.not_finite, counts })
+    Ok(RenderedPicture { width, height, color, variance, first, not_finite: film.not_finite, counts })
 }
 
 /// Means, and the variances of the means.
@@ -125,7 +126,7 @@ fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
 
 /// What the rays through the middles of the pixels meet.
 fn through_middles(
-    tracer: &mut Tracer<'_>,
+    tracer: &mut CountingCaster<'_>,
     camera: &Camera,
     settings: &Settings,
 ) -> Result<Vec<Option<Hit>>, RenderError> {
@@ -136,7 +137,7 @@ fn through_middles(
         let start = hits.len() as u64;
         let end = pixels.min(start + settings.bundle.clamp(1, 1 << 24) as u64);
         let rays: Vec<Ray> = (start..end).map(|pixel| middle(camera, pixel)).collect();
-        hits.extend(tracer.cast(&rays, |_| Kind::Eye)?);
+        hits.extend(tracer.cast(&rays, |_| RayKind::Eye)?);
         if (hits.len() as u64) < end {
             // A caster that answers too little; the rest is taken as missed.
             hits.resize(end as usize, None);

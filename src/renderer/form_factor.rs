@@ -1,19 +1,20 @@
-//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11, the estimate).
+//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11,
+//! the estimate).
 //!
-//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its front that arrives at
-//! b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean is F.
+//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its
+//! front that arrives at b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean
+//! is F.
 
 use std::f64::consts::PI;
 
+use super::counting::CountingCaster;
 use super::sampling::triangle;
-use super::surfel::{Place, between};
-use super::tracer::Tracer;
 use super::visibility::visible;
-use crate::geom::random::Keyed;
-use crate::geom::vector::wide;
-use crate::geom::{CastError, Caster, Ray};
+use crate::geom::Ray;
+use crate::geom::random::CounterRng;
 use crate::scene::Scene;
-use glam::DVec3;
+use crate::tracer::offset::{SINGLE, SurfacePoint};
+use crate::tracer::{CastError, Caster};
 
 /// An estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,8 +25,9 @@ pub struct FormFactor {
     pub variance: f64,
 }
 
-/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a` arrives at `b`. `samples` pairs
-/// of points decide; pairs that cannot see each other by their cosines alone cost no ray. 0 if either has no area.
+/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a`
+/// arrives at `b`. `samples` pairs of points decide; pairs that cannot see each other by their cosines alone cost no
+/// ray. 0 if either has no area.
 ///
 /// # Errors
 /// [`CastError`] if the caster fails.
@@ -38,11 +40,11 @@ pub fn form_factor(
     caster: &mut dyn Caster,
 ) -> Result<FormFactor, CastError> {
     let (from, to) = (Patch::new(scene, a), Patch::new(scene, b));
-    let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, Keyed::new(seed), sample));
+    let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, CounterRng::new(seed), sample));
     let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
     let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
     let mut ignore = |_| {};
-    let (seen, _) = visible(&rays, &mut Tracer::new(caster, &mut ignore))?;
+    let (seen, _) = visible(&rays, &mut CountingCaster::new(caster, &mut ignore))?;
     let (mut sum, mut squares) = (0.0, 0.0);
     for ((value, _), seen) in pairs.into_iter().flatten().zip(seen) {
         if seen {
@@ -57,7 +59,7 @@ pub fn form_factor(
 }
 
 /// Two points that face each other, the integrand without V, and the ray between them.
-fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<(f64, Ray)> {
+fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Option<(f64, Ray)> {
     let number = |dimension| random.unit(0, sample, dimension);
     let p = from.place(number(0), [number(1), number(2)])?;
     let q = to.place(number(3), [number(4), number(5)])?;
@@ -67,30 +69,26 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<
     if !(square > 0.0 && cosines.iter().all(|&cosine| cosine > 0.0)) {
         return None;
     }
-    Some((to.area * cosines[0] * cosines[1] / (PI * square * square), between(&p, &q)?))
+    Some((to.area * cosines[0] * cosines[1] / (PI * square * square), p.ray_to(&q)?))
 }
 
 /// Triangles from which points are drawn, uniformly over their area.
 struct Patch<'a> {
     scene: &'a Scene,
     triangles: &'a [u32],
-    table: super::sampling::Table,
+    table: super::sampling::DiscreteDistribution,
     area: f64,
 }
 
 impl<'a> Patch<'a> {
     fn new(scene: &'a Scene, triangles: &'a [u32]) -> Self {
-        let area = |id: &u32| {
-            let [a, b, c]: [DVec3; 3] = scene.mesh().corners(*id).unwrap_or([[0.0; 3]; 3]).map(wide);
-            (b - a).cross(c - a).length() / 2.0
-        };
-        let table = super::sampling::Table::new(triangles.iter().map(area));
+        let table = super::sampling::DiscreteDistribution::new(triangles.iter().map(|&id| scene.mesh().area(id)));
         let area = table.total();
         Self { scene, triangles, table, area }
     }
 
-    fn place(&self, which: f64, u: [f64; 2]) -> Option<Place> {
+    fn place(&self, which: f64, u: [f64; 2]) -> Option<SurfacePoint> {
         let (entry, _) = self.table.draw(which)?;
-        Place::new(self.scene, self.triangles[entry], triangle(u), super::settings::SINGLE)
+        SurfacePoint::new(self.scene.mesh(), self.triangles[entry], triangle(u), SINGLE)
     }
 }

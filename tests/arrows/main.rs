@@ -42,6 +42,7 @@ const CROSSBAR: Law = (
         ("elementary", &[]),
         ("picture", &["elementary"]),
         ("geom", &["linalg"]),
+        ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["picture", "geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
@@ -50,9 +51,9 @@ const CROSSBAR: Law = (
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["picture", "io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "elementary", "picture", "geom", "scene", "linalg", "io"]),
-        ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
-        ("renderer", &["elementary", "picture", "geom", "scene", "linalg"]),
+        ("radiosity", &["card", "tracer", "elementary", "picture", "geom", "scene", "linalg", "io"]),
+        ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
+        ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
         (
             "study",
             &[
@@ -82,6 +83,7 @@ const CROSSBAR: Law = (
                 "report",
                 "picture",
                 "card",
+                "tracer",
                 "geom",
                 "scene",
                 "linalg",
@@ -115,7 +117,8 @@ const BATCH: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] =
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
 /// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
 /// where the rooms have files in common, may name no room at all.

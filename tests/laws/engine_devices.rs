@@ -1,13 +1,14 @@
 //! The engine on every kind of card and on every executor.
 
+use crossbar::geom::Hit;
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{Crossbar, Hit};
 use crossbar::scene::Camera;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};
@@ -20,7 +21,7 @@ fn profile(name: &str) -> Profile {
 fn scene() -> (Mesh, Vec<Ray>) {
     let whole = teapot(2).expect("a teapot");
     let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..96].to_vec()).expect("a part of it");
-    let (random, eye) = (Keyed::new(3), Camera::teapot(1, 1).expect("a camera").rays()[0].origin());
+    let (random, eye) = (CounterRng::new(3), Camera::teapot(1, 1).expect("a camera").rays()[0].origin());
     let ray = |i: u64| {
         let [a, b, c] = mesh.corners((i / 4) as u32).expect("a triangle");
         let [p, q] = [0, 1].map(|k| 0.5 * random.unit(i, 0, k) as f32);

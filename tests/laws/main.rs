@@ -20,6 +20,7 @@ mod octree;
 mod oracle;
 mod outputs;
 mod pictures;
+mod ply;
 mod radiosity;
 mod ranges;
 mod ray_tree;

@@ -11,7 +11,7 @@ pub(crate) fn mutated(good: impl Into<Vec<u8>>, edits: Range<usize>) -> impl Str
     edits.prop_map(move |edits| {
         let mut bytes = good.clone();
         for (place, kind, byte) in edits {
-            let at = place.index(bytes.len());
+            let at = place.index(bytes.len().max(1));
             match kind {
                 0 => bytes[at] = byte,
                 1 => bytes.insert(at, byte),

@@ -1,15 +1,16 @@
 //! The Ray Engine: rays go in, in any order and number; first hits come out (sections 5 and 6.2).
 //!
-//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each ray
-//! through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache. A cache
-//! of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell. What is left in
-//! caches at the end is forced to the host.
+//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each
+//! ray through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache.
+//! A cache of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell.
+//! What is left in caches at the end is forced to the host.
 //!
-//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the card or on the
-//! host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins. So order, sizes of caches, `R_min`
-//! and threads change counts and time, never a hit. (On cards of other formats the hit depends on who tests it: there the
-//! caches matter, as they did. And where fp32 finds a triangle that the ray does not truly meet, outside the cells on its way, the octree and
-//! its cells decide whether it is asked: one answer in thousands of scenes made to be hard; docs/papers/ray_engine.md counts them.)
+//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the
+//! card or on the host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins.
+//! So order, sizes of caches, `R_min` and threads change counts and time, never a hit. (On cards of other formats the
+//! hit depends on who tests it: there the caches matter, as they did. And where fp32 finds a triangle that the ray does
+//! not truly meet, outside the cells on its way, the octree and its cells decide whether it is asked: one answer in
+//! thousands of scenes made to be hard; docs/papers/ray_engine.md counts them.)
 
 mod counts;
 mod flight;
@@ -26,13 +27,14 @@ use refsim::machine::Executor;
 use refsim::timing::host::HostOperation;
 
 use super::barycentrics::plane_point;
-use super::host_tracer::HostTracer;
-use super::octree::{CellId, GpuCells};
 use super::pass::PassRequirements;
 use super::ray_tree::RayTree;
-use super::{Crossbar, EngineError, Hit};
-use crate::geom::{CastError, Caster, Mesh, Ray};
-use flight::{Answered, Cache, Flights};
+use super::{Crossbar, EngineError};
+use crate::geom::{Hit, Mesh, Ray};
+use crate::tracer::HostTracer;
+use crate::tracer::octree::{CellId, GpuCells};
+use crate::tracer::{CastError, Caster};
+use flight::{Answered, Cache, RaysInFlight};
 use order::order;
 use passes::Passes;
 
@@ -48,7 +50,8 @@ pub struct Ticket(pub u64);
 pub struct LocatedHit {
     /// Triangle and t.
     pub hit: Hit,
-    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can be far off.
+    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can
+    /// be far off.
     pub weights: [f32; 3],
 }
 
@@ -61,12 +64,12 @@ pub struct RayEngine<'a> {
     passes: Passes,
     parameters: EngineParameters,
     tree: RayTree,
-    flights: Flights,
+    flights: RaysInFlight,
     /// The caches of the GPU cells that have rays.
     caches: BTreeMap<usize, Cache>,
     /// Rays that can go on, and from where.
     ready: VecDeque<(u32, f64)>,
-    /// Cells whose caches hold a whole pass, once a pass.
+    /// Cells whose caches hold a whole pass, once per pass.
     full: VecDeque<CellId>,
     answered: Vec<Answered>,
     counts: EngineCounts,
@@ -84,7 +87,7 @@ impl<'a> RayEngine<'a> {
         executor: impl Into<Executor>,
         parameters: EngineParameters,
     ) -> Result<Self, EngineError> {
-        let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
+        let tracer = HostTracer::with_octree(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
         let EngineParameters { outputs, small_ids, cull, .. } = parameters;
         let wish = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
@@ -97,7 +100,7 @@ impl<'a> RayEngine<'a> {
             passes,
             tree: RayTree::new(parameters.tree),
             parameters: EngineParameters { rays: parameters.rays.max(1), ..parameters },
-            flights: Flights::default(),
+            flights: RaysInFlight::default(),
             caches: BTreeMap::new(),
             ready: VecDeque::new(),
             full: VecDeque::new(),
@@ -146,7 +149,8 @@ impl<'a> RayEngine<'a> {
     }
 
     /// The same with the place of each hit in its triangle: from the card where it computed that and found the hit
-    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The bits are the same on fp32.
+    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The
+    /// bits are the same on fp32.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
@@ -202,9 +206,9 @@ impl<'a> RayEngine<'a> {
         &self.cells
     }
 
-    /// Shares of full of the tree's buckets.
-    pub fn fullness(&self) -> Vec<f64> {
-        self.tree.fullness()
+    /// Bucket occupancy of the ray tree, in [0, 1].
+    pub fn occupancy(&self) -> Vec<f64> {
+        self.tree.occupancy()
     }
 
     /// Bytes that waiting rays take, in the tree, in flight and in caches.
@@ -213,7 +217,8 @@ impl<'a> RayEngine<'a> {
         self.tree.bytes() + self.flights.bytes() + caches
     }
 
-    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine records.
+    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine
+    /// records.
     pub fn note_host(&mut self, operation: HostOperation, count: u64) {
         self.note(operation, count);
     }

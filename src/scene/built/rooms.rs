@@ -1,5 +1,5 @@
-//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of straight walls.
-//! z is up, y goes back, walls face inwards.
+//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of
+//! straight walls. z is up, y goes back, walls face inwards.
 
 use crate::geom::Mesh;
 use crate::scene::{Color, Material, Scene, Surface, View};
@@ -16,14 +16,14 @@ const LIGHT: Color = [17.0, 12.0, 4.0];
 
 /// Collects quadrilaterals.
 #[derive(Default)]
-struct Builder {
+struct RoomBuilder {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     materials: Vec<Material>,
     material_of: Vec<u32>,
 }
 
-impl Builder {
+impl RoomBuilder {
     /// Corners counter-clockwise from the front.
     fn quad(&mut self, corners: [[f32; 3]; 4], material: u32) {
         let first = self.positions.len() as u32;
@@ -57,15 +57,16 @@ impl Builder {
     }
 }
 
-/// The closed unit cube, a material a wall in the order of [`WALLS`].
+/// The closed unit cube, a material per wall in the order of [`WALLS`].
 #[must_use]
 pub fn cube(materials: [Material; 6]) -> Scene {
-    let mut room = Builder { materials: materials.into(), ..Builder::default() };
+    let mut room = RoomBuilder { materials: materials.into(), ..RoomBuilder::default() };
     room.walls([1.0; 3], [0, 1, 2, 3, 4, 5].map(Some));
     room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
 }
 
-/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1 everywhere.
+/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1
+/// everywhere.
 #[must_use]
 pub fn furnace(reflectance: f32) -> Scene {
     let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
@@ -82,13 +83,14 @@ pub struct CornellBox {
     pub open: bool,
 }
 
-/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling, blocks as published.
+/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling,
+/// blocks as published.
 #[must_use]
 pub fn cornell(what: CornellBox) -> Scene {
     let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
     let painted =
         [("white", WHITE), ("red", RED), ("green", GREEN)].map(|(name, albedo)| Material::diffuse(name, albedo));
-    let mut room = Builder { materials: painted.into_iter().chain([light]).collect(), ..Builder::default() };
+    let mut room = RoomBuilder { materials: painted.into_iter().chain([light]).collect(), ..RoomBuilder::default() };
     let front = (!what.open).then_some(0);
     room.walls([5.5; 3], [Some(0), None, Some(1), Some(2), front, Some(0)]);
     ceiling_with_light(&mut room);
@@ -104,7 +106,7 @@ pub fn cornell(what: CornellBox) -> Scene {
 }
 
 /// Nine pieces, the middle one shines.
-fn ceiling_with_light(room: &mut Builder) {
+fn ceiling_with_light(room: &mut RoomBuilder) {
     let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
     for j in 0..3 {
         for i in 0..3 {
@@ -115,7 +117,7 @@ fn ceiling_with_light(room: &mut Builder) {
 }
 
 /// Four sides and a top on a quadrilateral of the floor, whose corners run clockwise from above.
-fn block(room: &mut Builder, floor: [[f32; 2]; 4], height: f32) {
+fn block(room: &mut RoomBuilder, floor: [[f32; 2]; 4], height: f32) {
     let at = |[x, y]: [f32; 2], z: f32| [x, y, z];
     for i in 0..4 {
         let (a, b) = (floor[i], floor[(i + 1) % 4]);
@@ -128,6 +130,7 @@ fn block(room: &mut Builder, floor: [[f32; 2]; 4], height: f32) {
 mod tests {
     use super::*;
     use crate::geom::vector::wide;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn closed_rooms_are_watertight_and_face_inwards() {
@@ -135,9 +138,9 @@ mod tests {
             let six = |[a, b, c]: [[f32; 3]; 3]| wide(a).dot(wide(b).cross(wide(c)));
             scene.mesh().iter_corners().map(six).sum::<f64>() / 6.0
         };
-        assert!((volume(&furnace(0.5)) + 1.0).abs() < 1e-12);
+        assert_abs_diff_eq!(volume(&furnace(0.5)), -1.0, epsilon = 1e-12);
         let empty = volume(&cornell(CornellBox::default()));
-        assert!((empty + 5.5 * 5.5 * 5.5).abs() < 1e-4, "{empty}");
+        assert_abs_diff_eq!(empty, -(5.5 * 5.5 * 5.5), epsilon = 1e-4);
         // A block without a floor has the volume of a closed one, since its floor lies in the plane through the origin.
         let blocks = volume(&cornell(CornellBox { blocks: true, open: false })) - empty;
         assert!((9.0..14.0).contains(&blocks), "two blocks of 1.65 x 1.65, 1.65 and 3.3 high: {blocks}");

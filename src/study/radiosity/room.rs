@@ -6,8 +6,7 @@ use super::{Parameters, ProgressFn, RadiosityError};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{Hemicube, RowSums, VisibilityParameters};
 use crate::radiosity::{FormFactors, Patches};
-use crate::ray_engine::HostTracer;
-use crate::ray_engine::octree::OctreeParameters;
+use crate::tracer::HostTracer;
 
 /// Where form factors come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +52,7 @@ pub(super) fn find(
     let mut factors = match wishes.from {
         Factors::Unoccluded => FormFactors::unoccluded(patches)?,
         Factors::Rays(how) => {
-            let mut tracer = HostTracer::new(patches.mesh(), OctreeParameters::default(), Sides::Both);
+            let mut tracer = HostTracer::new(patches.mesh(), Sides::Both);
             FormFactors::with_visibility(patches, &mut tracer, how, &mut done)?
         }
         Factors::Hemicube { resolution } => {

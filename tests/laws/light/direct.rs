@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use approx::abs_diff_eq;
 use crossbar::geom::vector::wide;
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{Picture, Settings, distributed, path};
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
 use crossbar::scene::Scene;
 use glam::DVec3;
 
@@ -37,7 +38,7 @@ fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
     (builder.scene(), factor)
 }
 
-fn pictures(scene: &Scene, samples: u32) -> Vec<Picture> {
+fn pictures(scene: &Scene, samples: u32) -> Vec<RenderedPicture> {
     let camera = needle([-2.0, 0.1, 0.3], [0.0; 3]);
     let settings = Settings { samples, depth: 1, ..settings() };
     let path =
@@ -55,7 +56,10 @@ fn check(scene: &Scene, factor: f64) {
 #[test]
 fn a_square_straight_above() {
     let (scene, factor) = lit([-1.0, -1.0, 1.5], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0]);
-    assert!((factor - 4.0 * parallel_corner(1.0 / 1.5, 1.0 / 1.5)).abs() < 1e-12, "two closed forms agree: {factor}");
+    assert!(
+        abs_diff_eq!(factor, 4.0 * parallel_corner(1.0 / 1.5, 1.0 / 1.5), epsilon = 1e-12),
+        "two closed forms agree: {factor}"
+    );
     check(&scene, factor);
 }
 

@@ -15,13 +15,12 @@ mod solvers;
 mod textures;
 
 use crossbar::geom::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::scene::Scene;
+use crossbar::tracer::HostTracer;
 
 /// The Cornell box without blocks, its factors made to close.
 fn cornell(patches: usize) -> System {
@@ -32,12 +31,12 @@ fn cornell(patches: usize) -> System {
 }
 
 fn tracer(scene: &Scene) -> HostTracer {
-    HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both)
+    HostTracer::new(scene.mesh(), Sides::Both)
 }
 
 /// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal, and a right side.
 fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
-    let random = Keyed::new(seed);
+    let random = CounterRng::new(seed);
     let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);
     let mut matrix = Matrix::zeros([size; 2]).expect("small");
     for i in 0..size {

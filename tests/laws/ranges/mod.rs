@@ -11,12 +11,14 @@
 mod bounds;
 mod scene;
 
+use approx::abs_diff_eq;
 use bounds::{Bounds, First};
 use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{Crossbar, HostTracer, RayBatch, VertexCrossbar};
+use crossbar::ray_engine::{Crossbar, RayBatch, VertexCrossbar};
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::OctreeParameters;
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -146,8 +148,7 @@ fn the_unit_of_length_is_no_matter_on_the_host_in_the_engine_and_in_the_vertex_u
     (0..scenes() / 2).into_par_iter().for_each(|number| {
         let Scene { mesh, rays, sides } = Scene::of_size(number, 0);
         type Find<'a> = &'a dyn Fn(&Mesh, &[Ray]) -> Vec<Option<Hit>>;
-        let host =
-            |mesh: &Mesh, rays: &[Ray]| HostTracer::new(mesh, OctreeParameters::default(), sides).nearest_all(rays).0;
+        let host = |mesh: &Mesh, rays: &[Ray]| HostTracer::new(mesh, sides).nearest_all(rays).0;
         let engine = |device: &str, mesh: &Mesh, rays: &[Ray]| {
             let octree = OctreeParameters { most_triangles: 4, most_depth: 4 };
             let parameters =
@@ -210,7 +211,7 @@ fn a_triangle_before_the_eye_is_seen_on_a_radeon_8500() {
                 .expect("the card works")
                 .hits;
             let t = hits[0].map(|hit| hit.t / far).unwrap_or_default();
-            assert!((t - 1.0).abs() < 0.01, "{device}, {size} at {far}: {t}");
+            assert!(abs_diff_eq!(t, 1.0, epsilon = 0.01), "{device}, {size} at {far}: {t}");
         }
     }
 }
@@ -249,6 +250,6 @@ fn scenes_of_micrometres_are_seen_on_float_cards() {
             .hits;
         let hit = hits[0].expect("a hit");
         assert_eq!(hit.triangle, 1, "{device}");
-        assert!((hit.t / 1.5e-6 - 1.0).abs() < 0.01, "{device}: {}", hit.t);
+        assert!(abs_diff_eq!(hit.t / 1.5e-6, 1.0, epsilon = 0.01), "{device}: {}", hit.t);
     }
 }

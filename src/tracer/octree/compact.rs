@@ -1,14 +1,19 @@
-//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with less work.
+//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with
+//! less work.
 //!
-//! - A word a child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is touched.
-//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry, 0). A child's
-//!   half is the upper one if its middle plane lies before that, which is where stepping from the entry would arrive.
+//! - A word per child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is
+//!   touched.
+//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry,
+//!   0). A child's half is the upper one if its middle plane lies before that, which is where stepping from the entry
+//!   would arrive.
 //! - No recursion: a cell with children left to visit waits on a stack; one whose last child is entered does not.
 //!
 //! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
 
+use glam::DVec3;
+
 use super::traverse::{earliest, is_out_of_sight, latest, middle, root_planes};
-use super::{Flow, MOST_DEPTH, Node, Octree, TraversalCounts};
+use super::{Flow, MAX_DEPTH, Octree, OctreeNode, TraversalCounts};
 use crate::geom::Ray;
 
 /// A leaf without triangles.
@@ -19,7 +24,7 @@ const LEAF: u32 = 1 << 31;
 /// The words of an octree's cells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Compact {
-    corner: [f64; 3],
+    corner: DVec3,
     size: f64,
     margin: f64,
     root: u32,
@@ -28,7 +33,7 @@ pub(crate) struct Compact {
 
 /// A cut cell on the way.
 #[derive(Clone, Copy, Default)]
-struct Frame {
+struct WaitingCell {
     /// Where the ray meets the cell's upper planes.
     high: Keys,
     /// And its middle planes.
@@ -43,10 +48,10 @@ struct Frame {
 
 /// Room for cells that wait on the way of a ray. What is in it before does not matter: one serves many rays.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Waiting([Frame; MOST_DEPTH as usize + 1]);
+pub(crate) struct Waiting([WaitingCell; MAX_DEPTH as usize + 1]);
 
-/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them: comparing
-/// and choosing is then the business of the integer units, in which it takes a clock.
+/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them:
+/// comparing and choosing is then the business of the integer units, in which it takes a clock.
 type Keys = [i64; 3];
 
 impl Compact {
@@ -56,24 +61,26 @@ impl Compact {
         let mut cut = 0;
         for (place, node) in places.iter_mut().zip(&octree.nodes) {
             *place = match node {
-                Node::Inner(_) => {
+                OctreeNode::Inner(_) => {
                     cut += 1;
                     cut - 1
                 }
-                Node::Leaf(_, 0) => EMPTY,
-                Node::Leaf(first, count) => LEAF | leaf(&octree.triangles[*first as usize..(*first + *count) as usize]),
+                OctreeNode::Leaf(_, 0) => EMPTY,
+                OctreeNode::Leaf(first, count) => {
+                    LEAF | leaf(&octree.triangles[*first as usize..(*first + *count) as usize])
+                }
             };
         }
         let children = octree.nodes.iter().filter_map(|node| match node {
-            Node::Inner(first) => Some(std::array::from_fn(|i| places[*first as usize + i])),
-            Node::Leaf(..) => None,
+            OctreeNode::Inner(first) => Some(std::array::from_fn(|i| places[*first as usize + i])),
+            OctreeNode::Leaf(..) => None,
         });
         let Octree { corner, size, margin, .. } = *octree;
         Self { corner, size, margin, root: places[0], children: children.collect() }
     }
 
-    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the parameters of its
-    /// entry and exit, front to back, until it says stop.
+    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the
+    /// parameters of its entry and exit, front to back, until it says stop.
     #[inline(always)]
     pub(crate) fn walk(
         &self,
@@ -103,7 +110,7 @@ impl Compact {
         let mut depth = 0;
         // Where the ray is.
         let mut now = key(if enter > 0.0 { enter } else { 0.0 });
-        let (mut frame, mut far) = Frame::enter(self.root, high.map(key), span, 0, now);
+        let (mut frame, mut far) = WaitingCell::enter(self.root, high.map(key), span, 0, now);
         loop {
             let (exit, axis) = first(far);
             let word = self.children[frame.children as usize][((frame.child ^ mirror) & 7) as usize];
@@ -115,7 +122,7 @@ impl Compact {
                     waiting[depth] = frame;
                     depth += 1;
                 }
-                (frame, far) = Frame::enter(word, far, span, frame.level + 1, now);
+                (frame, far) = WaitingCell::enter(word, far, span, frame.level + 1, now);
                 continue;
             }
             counts.leaves += 1;
@@ -148,7 +155,7 @@ impl Compact {
     }
 }
 
-impl Frame {
+impl WaitingCell {
     /// A cell that the ray is in at `now`, and where it leaves the slabs of the child that it is in.
     #[inline(always)]
     fn enter(children: u32, high: Keys, span: [f64; 3], level: u32, now: i64) -> (Self, Keys) {
@@ -189,14 +196,14 @@ fn first(far: Keys) -> (i64, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::random::Keyed;
+    use crate::geom::random::CounterRng;
     use crate::geom::teapot::teapot;
-    use crate::ray_engine::octree::OctreeParameters;
+    use crate::tracer::octree::OctreeParameters;
 
     /// From anywhere within and around the teapot to anywhere; on a grid that holds the planes of cells and both zeros.
     fn rays(octree: &Octree, count: u64) -> Vec<Ray> {
-        let random = Keyed::new(17);
-        let middle = octree.corner.map(|x| x + octree.size / 2.0);
+        let random = CounterRng::new(17);
+        let middle = octree.corner + octree.size / 2.0;
         let ray = |i: u64| {
             let grid = |sample, k| (16.0 * random.unit(i, sample, k)).floor() - 8.0;
             let number = |sample, k| match i % 3 {

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::{Node, Octree};
+use super::{Octree, OctreeNode};
 
 /// A cell of an octree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -20,8 +20,8 @@ impl CellId {
     }
 }
 
-/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose number of
-/// different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
+/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose
+/// number of different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuCells {
     /// For each node, where its triangles stand; empty for a node that is no GPU cell.
@@ -75,7 +75,7 @@ impl GpuCells {
             self.count += 1;
             return;
         }
-        if let Node::Inner(first) = octree.nodes[node as usize] {
+        if let OctreeNode::Inner(first) = octree.nodes[node as usize] {
             for child in first..first + 8 {
                 self.visit(octree, child, range);
             }
@@ -86,7 +86,7 @@ impl GpuCells {
 /// The triangles of all leaves below a node, some of them more than once.
 fn gather(octree: &Octree, node: u32, into: &mut Vec<u32>) {
     match octree.nodes[node as usize] {
-        Node::Leaf(..) => into.extend_from_slice(octree.list(node)),
-        Node::Inner(first) => (first..first + 8).for_each(|child| gather(octree, child, into)),
+        OctreeNode::Leaf(..) => into.extend_from_slice(octree.list(node)),
+        OctreeNode::Inner(first) => (first..first + 8).for_each(|child| gather(octree, child, into)),
     }
 }
