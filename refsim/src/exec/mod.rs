@@ -3,7 +3,8 @@
 //! [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
 //! `batch` runs whole tiles in vector code of the host; `tests/agree` holds them together. They share what is not
 //! arithmetic: the jump structure ([`FlowMap`]), constants as registers hold them ([`ResolvedConstants`]), bindings,
-//! and what they are told of a draw ([`TileDraw`]) and leave of a fragment ([`FragmentResult`]). They share no operation body.
+//! and what they are told of a draw ([`TileDraw`]) and leave of a fragment ([`FragmentResult`]). They share no
+//! operation body.
 
 pub mod batch;
 mod bindings;

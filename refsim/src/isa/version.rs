@@ -119,7 +119,8 @@ pub struct UnknownVersion(pub String);
 impl FromStr for Version {
     type Err = UnknownVersion;
 
-    /// Accepts Direct3D's tokens in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8 spelling).
+    /// Accepts Direct3D's tokens in either case, with `_` or `.` between the parts (`ps.1.4` was the DirectX 8
+    /// spelling).
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         if let Some(version) = Self::FRAGMENT.into_iter().find(|v| v.token() == text) {
             return Ok(version);

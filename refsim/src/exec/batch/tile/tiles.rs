@@ -88,9 +88,9 @@ impl TileRound<'_> {
 }
 
 impl<'a> BatchTiles<'a> {
-    /// Prepares a draw: decodes the program and the textures, or finds them decoded. `None` if the program has more values
-    /// than there are slots, or if no fragment can end within the step budget: only the scalar executor counts the steps of
-    /// programs without flow control.
+    /// Prepares a draw: decodes the program and the textures, or finds them decoded. `None` if the program has more
+    /// values than there are slots, or if no fragment can end within the step budget: only the scalar executor counts
+    /// the steps of programs without flow control.
     pub(crate) fn new(
         draw: &TileDraw<'a>,
         (programs, tables): (&PixelPrograms, &TextureTables),
@@ -146,7 +146,7 @@ impl<'a> BatchTiles<'a> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, a triangle a lane.
+    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, one lane per triangle.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> TileRound<'s> {
         let constant = surfaces.all_constant() & self.inputs.0;
         let (code, given) = match &self.program.code {
@@ -207,7 +207,7 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
-    /// Up to `hands` workers shade at a time; that changes nothing but the time it takes.
+    /// Up to `workers` threads shade at a time; that changes nothing but the time it takes.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
     ///
@@ -218,7 +218,7 @@ impl<'a> BatchTiles<'a> {
         round: &TileRound<'_>,
         order: &[u32],
         tile: &mut TargetTile,
-        hands: usize,
+        workers: usize,
     ) -> Result<FragmentCounts, Overrun> {
         let region = tile.region;
         let depth = tile.depth.as_ref().map(|buffer| buffer.format);
@@ -226,8 +226,8 @@ impl<'a> BatchTiles<'a> {
         let mut counts;
         // What shading leaves is kept as fragments until it is their turn: worth it where most are killed.
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
-        if hands > 1 && few_left && order.len() >= FEWEST_SHARED * hands {
-            let share = order.len().div_ceil(hands).next_multiple_of(2);
+        if workers > 1 && few_left && order.len() >= FEWEST_SHARED * workers {
+            let share = order.len().div_ceil(workers).next_multiple_of(2);
             let (own, others) = order.split_at(share.min(order.len()));
             let mut rest: Vec<_> =
                 others.chunks(share).map(|part| (part, Vec::new(), Ok(FragmentCounts::default()))).collect();
