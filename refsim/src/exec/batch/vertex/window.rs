@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::program::VertexRows;
+use super::rows::VertexRows;
 use crate::exec::batch::lanes::SimdLevel;
 use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState};
 
