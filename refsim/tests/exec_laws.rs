@@ -75,7 +75,7 @@ fn run_pixel(
     let prepared = PixelProgram::new(program, &profile.rules, &bindings);
     let inputs = inputs(data);
     let mut fetches = [0; 16];
-    let all = prepared.run(&inputs, 0b1111, &mut fetches);
+    let all = prepared.run(&inputs, 0b1111, &mut fetches, &mut NoObserver).0;
     for result in &all {
         for color in result.colors {
             prop_assert!(well_formed(profile.rules.format, color), "{color:x?} in {}", profile.rules.format);
@@ -83,12 +83,12 @@ fn run_pixel(
     }
     // Which lanes are covered changes the counts alone.
     let mut fewer = [0; 16];
-    prop_assert_eq!(all, prepared.run_observed(&inputs, 0b0100, &mut fewer, &mut NoObserver));
+    prop_assert_eq!(all, prepared.run(&inputs, 0b0100, &mut fewer, &mut NoObserver).0);
     prop_assert!(fewer.iter().zip(fetches).all(|(&few, many)| few <= many));
     // Lanes go their own ways: each is what it would be among copies of itself, unless differences are asked for.
     if !program.instructions.iter().any(|i| matches!(i.opcode, Opcode::Dsx | Opcode::Dsy)) {
         for (lane, input) in inputs.iter().enumerate() {
-            let alone = prepared.run(&[*input; 4], 0b1111, &mut [0; 16]);
+            let alone = prepared.run(&[*input; 4], 0b1111, &mut [0; 16], &mut NoObserver).0;
             prop_assert_eq!(alone[0], all[lane], "lane {}", lane);
         }
     }
@@ -106,9 +106,9 @@ fn run_vertex(
     for (slot, v) in attributes.iter_mut().zip(data) {
         *slot = *v;
     }
-    let result = prepared.run(&attributes);
+    let (result, cut) = prepared.run(&attributes, &mut NoObserver);
     prop_assert!(well_formed(Format::FP32, result.vertex.position));
-    prop_assert_eq!(result, prepared.run(&attributes));
+    prop_assert_eq!((result, cut), prepared.run(&attributes, &mut NoObserver));
     Ok(())
 }
 

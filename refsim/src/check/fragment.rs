@@ -102,7 +102,7 @@ fn written_name(register: Register, number: u16) -> String {
 
 /// V42: operands of scalar instructions name one component.
 fn operands(context: &mut Context<'_>, instruction: &Instruction) {
-    let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.scalar) else { return };
+    let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.opcode.is_scalar()) else { return };
     // A number that stands in the text for all components is as good as one component.
     let plain = |register: &Register| {
         let defined = context.program.constants.iter().find(|d| d.register == *register);

@@ -29,7 +29,7 @@ mod slots;
 mod vertex;
 
 pub use facts::{Checked, Facts};
-pub use reads::{destination_reads, is_scalar, matrix_rows, source_lanes};
+pub use reads::{destination_reads, matrix_rows, source_lanes};
 pub use report::{CheckReport, Violation, Warning};
 pub use rule::{RuleId, WarningId};
 pub use slots::SlotCount;

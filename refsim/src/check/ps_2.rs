@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::allowed::Limit;
 use super::context::Context;
-use super::reads::{is_scalar, matrix_rows};
+use super::reads::matrix_rows;
 use super::{RuleId, Violation};
 use crate::isa::{DestinationRule, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Span, Swizzle};
 
@@ -55,7 +55,7 @@ fn scalars(context: &mut Context<'_>, instruction: &Instruction) {
     let opcode = instruction.opcode;
     let name = opcode.info().mnemonic;
     let scalar: &[Source] = match opcode {
-        op if is_scalar(op) => &instruction.sources,
+        op if op.is_scalar() => &instruction.sources,
         Opcode::Dp2Add => instruction.sources.get(2..).unwrap_or_default(),
         _ => &[],
     };

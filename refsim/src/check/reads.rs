@@ -1,4 +1,4 @@
-//! Which components an instruction reads. The checker and the executors read the same table.
+//! Which components the result of an instruction depends on: the opcode table's answer, and what texture reads add.
 
 use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
 
@@ -7,35 +7,18 @@ pub fn matrix_rows(opcode: Opcode) -> Option<u16> {
     opcode.matrix().map(|(rows, _)| rows)
 }
 
-/// Whether the operation reads one component and replicates its result.
-pub fn is_scalar(opcode: Opcode) -> bool {
-    matches!(opcode, Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Expp | Opcode::Logp | Opcode::Pow)
-}
-
 /// The lanes of source `index` that the instruction looks at, before the swizzle sends them to components.
 ///
 /// `sampler` is the declared type of the sampler of a ps_2_x texture read.
 pub fn source_lanes(version: Version, instruction: &Instruction, index: usize, sampler: Option<Usage>) -> Mask {
     let written = instruction.destination.map_or(Mask::ALL, |d| d.mask);
     let lanes = match (instruction.opcode, index) {
-        (Opcode::Dp3 | Opcode::Nrm, _) => 0b0111,
-        (Opcode::Dp4, _) => 0b1111,
-        (Opcode::Dp2Add, 0 | 1) => 0b0011,
-        (Opcode::Dp2Add, _) => 0b0001,
-        (Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4, _) => 0b0111,
-        (Opcode::M4x3 | Opcode::M4x4, _) => 0b1111,
+        (Opcode::Nrm, _) => 0b0111,
+        // Each component of the result depends on two others.
         (Opcode::Crs, _) => {
             let needs = [0b0110, 0b0101, 0b0011];
             (0..3).filter(|c| written.contains(*c)).fold(0, |lanes, c| lanes | needs[c])
         }
-        (Opcode::SinCos, 0) | (Opcode::IfC | Opcode::BreakC, _) => 0b0001,
-        (Opcode::SinCos, _) => 0b1111,
-        (Opcode::Sgn, 1 | 2) => 0,
-        (Opcode::Dst, 0) => written.0 & 0b0110,
-        (Opcode::Dst, _) => written.0 & 0b1010,
-        (Opcode::Lit, _) => 0b1011,
-        (Opcode::Bem, 1) => 0b0011,
-        (opcode, _) if is_scalar(opcode) => 0b0001,
         (Opcode::TexLd | Opcode::TexLdB | Opcode::TexLdP | Opcode::TexLdD, 1) => 0,
         (Opcode::TexLd, _) if version == Version::Ps1_4 => 0b0111,
         (Opcode::TexLd | Opcode::TexLdD, _) => coordinates(sampler),
@@ -57,7 +40,7 @@ pub fn source_lanes(version: Version, instruction: &Instruction, index: usize, s
             | Opcode::TexDp3Tex,
             _,
         ) => 0b0111,
-        _ => written.0,
+        (opcode, _) => opcode.lanes_read(index, written).0,
     };
     Mask(lanes & 0b1111)
 }

@@ -310,8 +310,14 @@ fn live_halves(program: &Program) -> u32 {
                 live[slot] &= !d.mask.0;
             }
         }
-        for (source, slot) in instruction.sources.iter().filter_map(|s| Some((s, temporary(s.register)?))) {
-            let lanes = lanes_read(instruction);
+        let written = instruction.destination.map_or(Mask::ALL, |d| d.mask);
+        let sources = instruction.sources.iter().enumerate();
+        for (index, source, slot) in sources.filter_map(|(i, s)| Some((i, s, temporary(s.register)?))) {
+            let lanes = match instruction.opcode.info().class {
+                // What a read looks at depends on the texture.
+                OpcodeClass::Texture => Mask::ALL,
+                _ => instruction.opcode.lanes_read(index, written),
+            };
             // 4 and 5 are constants of `SWZ`.
             let chosen = lanes.components().map(|lane| source.swizzle.0[lane]).filter(|&c| c < 4);
             live[slot] |= chosen.fold(0, |mask, c| mask | 1 << c);
@@ -319,19 +325,4 @@ fn live_halves(program: &Program) -> u32 {
         most = most.max(halves(&live));
     }
     most
-}
-
-/// The lanes of its sources that an instruction looks at.
-fn lanes_read(instruction: &Instruction) -> Mask {
-    use Opcode as Op;
-    let written = instruction.destination.map_or(Mask::ALL, |d| d.mask);
-    match instruction.opcode {
-        Op::Dp3 | Op::Crs | Op::Nrm | Op::Rfl | Op::M3x2 | Op::M3x3 | Op::M3x4 => Mask::RGB,
-        Op::Rcp | Op::Rsq | Op::Exp | Op::Log | Op::Pow | Op::SinCos | Op::Cos | Op::Sin | Op::Scs => Mask(0b0001),
-        Op::Up2h | Op::Up2us | Op::Up4b | Op::Up4ub => Mask(0b0001),
-        Op::Pk2h | Op::Pk2us => Mask(0b0011),
-        Op::Mov | Op::Add | Op::Sub | Op::Mul | Op::Mad | Op::Lrp | Op::Cnd | Op::Cmp | Op::Abs | Op::Min => written,
-        Op::Max | Op::Frc | Op::Flr | Op::Sge | Op::Slt | Op::Seq | Op::Sne | Op::Sgt | Op::Sle => written,
-        _ => Mask::ALL,
-    }
 }

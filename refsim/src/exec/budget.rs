@@ -1,18 +1,18 @@
 //! The step budget: how many instructions one pixel or vertex may execute.
 //!
-//! A step is one instruction that a lane executes, flow control included; the two of a co-issued pair are one step, `phase`
-//! is none. A lane that has used up its budget is cut off in front of its next instruction: it writes nothing more and runs
-//! nothing more. What it computed is no result, so a fragment or vertex that is cut off is an [`Overrun`]. A helper lane that
-//! is cut off is not: it is no fragment.
+//! A step is one instruction that a lane executes, flow control included; the two of a co-issued pair are one step,
+//! `phase` is none. A lane that has used up its budget is cut off in front of its next instruction: it writes nothing
+//! more and runs nothing more. What it computed is no result, so a fragment or vertex that is cut off is an
+//! [`Overrun`]. A helper lane that is cut off is not: it is no fragment.
 //!
-//! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which end a program after so many instructions "to prevent
-//! hangs"; docs/decisions/0011.
+//! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which end a program after so many instructions "to
+//! prevent hangs"; docs/decisions/0011.
 
 use super::{FlowMap, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program};
 
 /// Passes of a loop at most: the range of a card's loop counter. Larger counts are cut, negative ones are 0.
-pub(crate) const LOOP_LIMIT: i32 = 255;
+pub(crate) const MAX_LOOP_PASSES: i32 = 255;
 
 /// A fragment that did not end within its step budget.
 ///
@@ -29,7 +29,7 @@ pub struct Overrun {
     pub instruction: usize,
 }
 
-/// A step budget that a program may exceed, or nothing where no way through the program is longer: then nobody counts.
+/// The budget if the program may exceed it; `None` where every path is shorter and steps need not be counted.
 pub(crate) fn enforced(program: &Program, flow: &FlowMap, constants: &ResolvedConstants, budget: u32) -> Option<u32> {
     (most_steps(program, flow, constants) > u64::from(budget)).then_some(budget)
 }
@@ -50,8 +50,8 @@ fn is_partner(program: &Program, at: usize) -> bool {
     program.instructions[at].coissue && before.is_some_and(|i| i.opcode.info().class == OpcodeClass::Arithmetic)
 }
 
-/// The steps of the longest way through a program, or more: branches on booleans count as if they could go either way, and
-/// loops as if nobody broke off. Exact for programs without flow control. One pass over the text.
+/// The steps of the longest way through a program, or more: branches on booleans count as if they could go either way,
+/// and loops as if never left early. Exact for programs without flow control. One pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;
     // Calls lead forward, so subroutines are known before what calls them.
@@ -92,7 +92,8 @@ fn of_section(
         match instruction.opcode {
             Opcode::If | Opcode::IfC => open.push(Open { before: std::mem::take(&mut steps), passes: 1, taken: 0 }),
             Opcode::Rep | Opcode::Loop => {
-                let passes = u64::from(loop_counter(instruction, constants)[0].clamp(0, LOOP_LIMIT).unsigned_abs());
+                let passes =
+                    u64::from(loop_counter(instruction, constants)[0].clamp(0, MAX_LOOP_PASSES).unsigned_abs());
                 open.push(Open { before: std::mem::take(&mut steps), passes, taken: 0 });
             }
             Opcode::Else => {
@@ -116,7 +117,7 @@ fn of_section(
             _ => {}
         }
     }
-    // Blocks that nobody closes: a checked program has none.
+    // Unclosed blocks: a checked program has none.
     open.iter().rev().fold(steps, |steps, block| block.before.saturating_add(steps))
 }
 

@@ -25,8 +25,8 @@ pub struct Constants {
     pub int: Vec<[i32; 4]>,
     /// `b0` to `b15`.
     pub boolean: Vec<bool>,
-    /// The constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), single precision patterns. A name
-    /// that the program does not declare is passed over.
+    /// The constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), single precision patterns. A
+    /// name that the program does not declare is passed over.
     pub named: BTreeMap<String, [u32; 4]>,
 }
 

@@ -1,4 +1,4 @@
-//! Watching a program run.
+//! Observers of a running program: executed instructions and texture reads.
 
 use crate::isa::Mask;
 use crate::num::Flags;
@@ -30,7 +30,7 @@ pub struct TextureRead {
     pub lod: Lod,
 }
 
-/// Told of every instruction that an executor runs. The default does nothing and costs nothing.
+/// Called for every instruction that an executor runs. The default does nothing and costs nothing.
 pub trait Observer {
     /// Whether [`Self::executed`] is called at all.
     const ACTIVE: bool = true;
@@ -44,7 +44,7 @@ pub trait Observer {
     fn reads(&mut self, _: &TextureRead) {}
 }
 
-/// Watches nothing.
+/// Observes nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoObserver;
 
@@ -57,7 +57,7 @@ impl Observer for NoObserver {
 /// Keeps the steps of one lane, in the order they ran.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// The lane watched.
+    /// The observed lane.
     pub lane: usize,
     /// Its steps.
     pub steps: Vec<Step>,

@@ -1,8 +1,8 @@
 //! What the machine tells a pixel executor of a draw.
 //!
-//! The machine cuts the targets into tiles, hands each to the executor with the triangles that may touch it, and adds up
-//! what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any order with the
-//! same result.
+//! The machine cuts the targets into tiles, hands each to the executor with the triangles that may touch it, and adds
+//! up what comes back. An executor sees one tile at a time and nothing else, so tiles run side by side in any order
+//! with the same result.
 
 use super::{CheckedProgram, PixelBindings};
 use crate::device::Rules;

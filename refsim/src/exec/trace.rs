@@ -1,11 +1,10 @@
-//! Following one pixel through a draw, instruction by instruction: the seam between the machine and whoever can tell.
+//! Per-pixel execution traces: the [`PixelTracer`] interface between the machine and the executors.
 //!
 //! A trace is made beside a draw, never during one, so that drawing pays nothing for it: the machine finds the triangles
-//! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets. An executor joins by implementing
-//! the trait; `crate::machine` chooses.
+//! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets.
 
 use super::{FragmentResult, Overrun, Step};
-use crate::isa::{Program, Register, RegisterFile};
+use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::output::{FragmentFate, TargetTile};
 use crate::raster::{FragmentInput, TriangleSetup};
@@ -26,13 +25,27 @@ pub struct Shading {
     pub fate: FragmentFate,
 }
 
-/// Shades single fragments and tells everything about them.
+/// Shades single fragments and reports every step.
 pub trait PixelTracer: Send + Sync {
     /// Draws the fragment of a triangle into the one pixel of `tile`, which the triangle covers.
     ///
     /// # Errors
     /// If the fragment does not end within the step budget; it is of triangle 0 then.
     fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun>;
+}
+
+/// Whether an instruction is one of those that steps are made of.
+pub(crate) fn makes_step(instruction: &Instruction) -> bool {
+    let class = instruction.opcode.info().class;
+    instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
+}
+
+/// The mask of a step whose instruction wrote these components; of `oDepth`, the lowest of its destination's.
+pub(crate) fn written_mask(instruction: &Instruction, components: impl Iterator<Item = u8>) -> Mask {
+    match instruction.destination {
+        Some(d) if d.register.file == RegisterFile::DepthOut => Mask(d.mask.0 & d.mask.0.wrapping_neg()),
+        _ => Mask(components.fold(0, |mask, c| mask | 1 << c)),
+    }
 }
 
 /// A step as a [`Shading`] holds it.

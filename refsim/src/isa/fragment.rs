@@ -145,80 +145,76 @@ pub struct Spelling {
     pub fixed: bool,
     /// Whether it can have C, and `_SAT`.
     pub result: bool,
-    /// Whether its operands are single components.
-    pub scalar: bool,
 }
 
-/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`; then whether it is
-/// scalar.
+/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`.
 macro_rules! spellings {
-    ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal $scalar:literal)*) => {
+    ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal)*) => {
         &[$(Spelling {
             opcode: Opcode::$opcode,
             name: $name,
             floats: $floats,
             fixed: $fixed,
             result: $result,
-            scalar: $scalar,
         }),*]
     };
 }
 
 #[rustfmt::skip]
 const SPELLINGS: &[Spelling] = spellings! {
-//  opcode name    R, H  X     C, SAT scalar
-    Abs    "ABS"   true  true  true  false
-    Add    "ADD"   true  true  true  false
-    Cmp    "CMP"   true  true  true  false
-    Cos    "COS"   true  false true  true
-    Dsx    "DDX"   true  false true  false
-    Dsy    "DDY"   true  false true  false
-    Dp3    "DP3"   true  true  true  false
-    Dp4    "DP4"   true  true  true  false
-    Dph    "DPH"   true  true  true  false
-    Dst    "DST"   true  false true  false
-    Exp    "EX2"   true  false true  true
-    Flr    "FLR"   true  true  true  false
-    Frc    "FRC"   true  true  true  false
-    Kil    "KIL"   false false false false
-    Log    "LG2"   true  false true  true
-    Lit    "LIT"   true  false true  false
-    Lrp    "LRP"   true  true  true  false
-    Mad    "MAD"   true  true  true  false
-    Max    "MAX"   true  true  true  false
-    Min    "MIN"   true  true  true  false
-    Mov    "MOV"   true  true  true  false
-    Mul    "MUL"   true  true  true  false
-    Pk2h   "PK2H"  false false false false
-    Pk2us  "PK2US" false false false false
-    Pk4b   "PK4B"  false false false false
-    Pk4ub  "PK4UB" false false false false
-    Pow    "POW"   true  false true  true
-    Rcp    "RCP"   true  false true  true
-    Rfl    "RFL"   true  false true  false
-    Rsq    "RSQ"   true  false true  true
-    Scs    "SCS"   true  false true  true
-    Seq    "SEQ"   true  true  true  false
-    Sfl    "SFL"   true  true  true  false
-    Sge    "SGE"   true  true  true  false
-    Sgt    "SGT"   true  true  true  false
-    Sin    "SIN"   true  false true  true
-    Sle    "SLE"   true  true  true  false
-    Slt    "SLT"   true  true  true  false
-    Sne    "SNE"   true  true  true  false
-    Str    "STR"   true  true  true  false
-    Sub    "SUB"   true  true  true  false
-    Swz    "SWZ"   true  true  true  false
-    TexLd  "TEX"   false false true  false
-    TexLdB "TXB"   false false true  false
-    TexLdD "TXD"   false false true  false
-    TexLdP "TXP"   false false true  false
-    Up2h   "UP2H"  false false true  true
-    Up2us  "UP2US" false false true  true
-    Up4b   "UP4B"  false false true  true
-    Up4ub  "UP4UB" false false true  true
-    X2d    "X2D"   true  false true  false
-    Crs    "XPD"   true  true  true  false
+//  opcode name    R, H  X     C, SAT
+    Abs    "ABS"   true  true  true
+    Add    "ADD"   true  true  true
+    Cmp    "CMP"   true  true  true
+    Cos    "COS"   true  false true
+    Dsx    "DDX"   true  false true
+    Dsy    "DDY"   true  false true
+    Dp3    "DP3"   true  true  true
+    Dp4    "DP4"   true  true  true
+    Dph    "DPH"   true  true  true
+    Dst    "DST"   true  false true
+    Exp    "EX2"   true  false true
+    Flr    "FLR"   true  true  true
+    Frc    "FRC"   true  true  true
+    Kil    "KIL"   false false false
+    Log    "LG2"   true  false true
+    Lit    "LIT"   true  false true
+    Lrp    "LRP"   true  true  true
+    Mad    "MAD"   true  true  true
+    Max    "MAX"   true  true  true
+    Min    "MIN"   true  true  true
+    Mov    "MOV"   true  true  true
+    Mul    "MUL"   true  true  true
+    Pk2h   "PK2H"  false false false
+    Pk2us  "PK2US" false false false
+    Pk4b   "PK4B"  false false false
+    Pk4ub  "PK4UB" false false false
+    Pow    "POW"   true  false true
+    Rcp    "RCP"   true  false true
+    Rfl    "RFL"   true  false true
+    Rsq    "RSQ"   true  false true
+    Scs    "SCS"   true  false true
+    Seq    "SEQ"   true  true  true
+    Sfl    "SFL"   true  true  true
+    Sge    "SGE"   true  true  true
+    Sgt    "SGT"   true  true  true
+    Sin    "SIN"   true  false true
+    Sle    "SLE"   true  true  true
+    Slt    "SLT"   true  true  true
+    Sne    "SNE"   true  true  true
+    Str    "STR"   true  true  true
+    Sub    "SUB"   true  true  true
+    Swz    "SWZ"   true  true  true
+    TexLd  "TEX"   false false true
+    TexLdB "TXB"   false false true
+    TexLdD "TXD"   false false true
+    TexLdP "TXP"   false false true
+    Up2h   "UP2H"  false false true
+    Up2us  "UP2US" false false true
+    Up4b   "UP4B"  false false true
+    Up4ub  "UP4UB" false false true
+    X2d    "X2D"   true  false true
+    Crs    "XPD"   true  true  true
 };
 
 impl Spelling {

@@ -8,6 +8,7 @@ mod fragment;
 mod opcode;
 mod operand;
 mod program;
+mod reads;
 mod register;
 mod span;
 mod version;

@@ -40,6 +40,13 @@ pub struct SlotCost {
     pub arithmetic: u16,
 }
 
+impl SlotCost {
+    /// Slots of both kinds.
+    pub const fn total(self) -> u16 {
+        self.texture + self.arithmetic
+    }
+}
+
 /// One row of the opcode table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpInfo {
@@ -142,7 +149,8 @@ macro_rules! opcodes {
 
 #[rustfmt::skip]
 opcodes! {
-//  variant      mnemonic       class      dest  cmp    ps_1_1   ps_1_2   ps_1_3   ps_1_4   ps_2_0   ps_2_a   ps_2_b   vs_1_1   vs_2_0   FP1.0    ARBfp1.0
+// variant      mnemonic       class      dest  cmp    ps_1_1   ps_1_2   ps_1_3   ps_1_4   ps_2_0   ps_2_a   ps_2_b
+// vs_1_1   vs_2_0   FP1.0    ARBfp1.0
     Nop          "nop"          Marker     None  false [c(0,0),  c(0,0),  c(0,0),  c(0,0),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  c(0,1),  NA,      NA]
     Phase        "phase"        Marker     None  false [NA,      NA,      NA,      c(0,0),  NA,      NA,      NA,      NA,      NA,      NA,      NA]
     Mov          "mov"          Arithmetic Write false [c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1),  c(1,1)]

@@ -81,7 +81,7 @@ impl<'a> VertexStage<'a> {
                     .into_par_iter()
                     .map(|i| {
                         let (instance, vertex) = place(i);
-                        program.run_counted(&attributes(shader.streams, instance, vertex), &mut NoObserver)
+                        program.run(&attributes(shader.streams, instance, vertex), &mut NoObserver)
                     })
                     .collect();
                 let cut = results.iter().enumerate().filter_map(|(i, (_, cut))| Some((i, (*cut)?)));

@@ -84,8 +84,8 @@ pub(super) fn draw(
                 events.primitives += primitives;
                 let round = tiles.round(&surfaces);
                 // Where there are fewer tiles than workers, some share one.
-                let hands = rayon::current_num_threads().div_ceil(work.len().max(1));
-                let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile, hands);
+                let workers = rayon::current_num_threads().div_ceil(work.len().max(1));
+                let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile, workers);
                 shade((memory, profile), call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
             }
         }

@@ -20,6 +20,8 @@
 //! [`from_parts`], the one place that rounds, makes bits of it. Where a card rounds in between, the operation says so
 //! by its name: [`ops::mad`] has two roundings, [`ops::fused_mad`] has one, [`ops::dot`] takes the order.
 //!
+//! [`NumberOperation`] is the table of operations for code that names them.
+//!
 //! Conventions that hold for all operations:
 //! - No host float decides a bit. `fp32` goes the same way as every other format.
 //! - A NaN result is the canonical one: positive, quiet, the rest of its payload zero. A signalling NaN operand

@@ -1,7 +1,7 @@
 //! THE table of arithmetic operations: which there are, how many operands they take, and what defines them.
 //!
-//! The batch executor and the shaders name operations by it, `crossbar alu` and the GPU probe compute by it; none keeps a
-//! list of its own.
+//! The batch executor and the shaders name operations by it, `crossbar alu` and the GPU probe compute by it; none keeps
+//! a list of its own.
 
 use super::env::Env;
 use super::flags::Outcome;
@@ -103,7 +103,8 @@ operations! {
     Sqrt(a) = ops::sqrt;
     /// `a` of another format into this one; `b` says which.
     Convert(a, b);
-    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the format.
+    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the
+    /// format.
     Steps(a, b);
     /// The number behind a bit pattern.
     Decode(a);

@@ -40,7 +40,7 @@ pub enum FormatError {
         /// The allowed range, in words.
         expected: &'static str,
     },
-    /// A suffix that nobody knows.
+    /// An unknown suffix.
     #[error(
         "number format `{text}`: expected a suffix :rne :rna :rtz :rdn, :sat :wrap :inf :nvovf, :keep :ftz or :ieee :nv, found `:{found}` at character {at}"
     )]

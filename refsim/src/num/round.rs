@@ -29,7 +29,7 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
     }
 }
 
-/// [`from_parts`] for magnitudes of one word: the fast path, which nearly all results take.
+/// [`from_parts`] for magnitudes of one word: the common case.
 #[inline]
 pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let exp = exp.clamp(-FAR, FAR);

@@ -3,9 +3,8 @@
 
 use refsim::asm::assemble;
 use refsim::device::{Profile, Rules};
-use refsim::exec::FragmentResult;
 use refsim::exec::scalar::{PixelProgram, VertexProgram, VertexResult};
-use refsim::exec::{CheckedProgram, Constants, PixelBindings, Step, Trace};
+use refsim::exec::{CheckedProgram, Constants, FragmentResult, NoObserver, PixelBindings, Step, Trace};
 use refsim::isa::Program;
 use refsim::num::{Format, ops};
 use refsim::raster::FragmentInput;
@@ -76,7 +75,7 @@ pub(crate) fn run_program(
     let mut trace = Trace::of_lane(0);
     let mut fetches = [0; 16];
     let prepared = PixelProgram::new(program, rules, bindings);
-    let results = prepared.run_observed(inputs, 0b1111, &mut fetches, &mut trace);
+    let results = prepared.run(inputs, 0b1111, &mut fetches, &mut trace).0;
     Ran { results, steps: trace.steps, fetches }
 }
 
@@ -108,5 +107,5 @@ pub(crate) fn run_vertex(text: &str, profile: &Profile, constants: &Constants, v
     for (slot, &v) in attributes.iter_mut().zip(values) {
         *slot = bits(v);
     }
-    VertexProgram::new(&program, &profile.rules, constants).run(&attributes)
+    VertexProgram::new(&program, &profile.rules, constants).run(&attributes, &mut NoObserver).0
 }

@@ -80,7 +80,7 @@ pub(crate) fn statement(c: &mut Choices<'_>, version: Version) -> String {
         return format!("{line}, R{}, -x, 0, -1, {};", c.below(8), c.pick(&["w", "1", "-y"]));
     }
     for _ in 0..count {
-        line += &format!(", {}", source(c, nv, s.scalar));
+        line += &format!(", {}", source(c, nv, s.opcode.is_scalar()));
     }
     if texture {
         let unit = c.below(16);

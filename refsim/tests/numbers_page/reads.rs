@@ -3,7 +3,7 @@
 use super::running::{checked, ideal};
 use super::{Random, probes};
 use refsim::exec::scalar::PixelProgram;
-use refsim::exec::{Constants, PixelBindings, SamplerBinding};
+use refsim::exec::{Constants, NoObserver, PixelBindings, SamplerBinding};
 use refsim::num::Format;
 use refsim::raster::FragmentInput;
 use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
@@ -98,7 +98,7 @@ fn levels_come_from_the_lanes_and_biases_of_the_page() {
         let biased = r.below(2);
         let inputs = t.map(|set| FragmentInput { t: [set.map(f32::to_bits); 8], ..FragmentInput::default() });
         let program = PixelProgram::new(&programs[biased], &profile.rules, &bindings);
-        let found = program.run(&inputs, 0b1111, &mut [0; 16]);
+        let found = program.run(&inputs, 0b1111, &mut [0; 16], &mut NoObserver).0;
         for (lane, result) in found.iter().enumerate() {
             let own = level(&t, lane, bits);
             let own = if biased == 1 { own + t[lane][3] } else { own };

@@ -10,7 +10,7 @@ use refsim::exec::wgsl::NumberMode;
 use refsim::exec::wgsl::number::{NativeOperations, format_words};
 use refsim::exec::wgsl::program::{self, ATTRIBUTE_WORDS, PixelShader, VERTEX_WORDS, VertexShader};
 use refsim::exec::wgsl::texture::{image_words, sampler_words};
-use refsim::exec::{CheckedProgram, Constants, PixelBindings, SamplerBinding, Step, Trace, sample_rules};
+use refsim::exec::{CheckedProgram, Constants, NoObserver, PixelBindings, SamplerBinding, Step, Trace, sample_rules};
 use refsim::isa::{RegisterFile, Version};
 use refsim::num::{Flags, Format, Overflow, ops};
 use refsim::raster::FragmentInput;
@@ -110,7 +110,7 @@ fn expected(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_
     let mut out = Vec::new();
     for (inputs, &covered) in quads.inputs.iter().zip(&quads.covered) {
         let mut fetches = [0; 16];
-        let results = scalar.run(inputs, covered, &mut fetches);
+        let results = scalar.run(inputs, covered, &mut fetches, &mut NoObserver).0;
         for target in 0..4 {
             for c in 0..4 {
                 out.extend(results.iter().map(|result| raw(rules.format, result.colors[target][c])));
@@ -276,7 +276,7 @@ fn the_machine_runs_vertex_programs() {
         let scalar = VertexProgram::new(&checked, &profile.rules, &constants);
         let mut slots = [0u64; 2];
         for (i, (given, found)) in attributes.iter().zip(found.chunks(VERTEX_WORDS)).enumerate() {
-            let result = scalar.run(given);
+            let result = scalar.run(given, &mut NoObserver).0;
             let vertex = result.vertex;
             let flat = vertex.position.into_iter().chain(vertex.colors.into_iter().flatten());
             let flat = flat.chain(vertex.texcoords.into_iter().flatten()).chain([vertex.fog, vertex.point_size]);
@@ -350,7 +350,7 @@ fn the_machine_tells_what_instructions_write() {
         let found = program::trace_steps(&words[1..=count], &checked, &profile.rules, lane);
         let mut trace = Trace::of_lane(lane);
         let scalar = PixelProgram::new(&checked, &profile.rules, &bindings);
-        scalar.run_observed(&quads.inputs[0], quads.covered[0], &mut [0; 16], &mut trace);
+        scalar.run(&quads.inputs[0], quads.covered[0], &mut [0; 16], &mut trace);
         let wanted: Vec<_> = trace.steps.into_iter().map(|step| written(step, &checked, &profile.rules)).collect();
         for (found, wanted) in found.iter().zip(&wanted) {
             assert_eq!(found, wanted, "seed {seed}, {}:\n{text}", profile.name);

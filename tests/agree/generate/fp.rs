@@ -193,7 +193,7 @@ impl Writer<'_> {
         for _ in 0..count {
             let source = match s.name.starts_with("UP") {
                 true => format!("R{}.{}", self.r.below(self.temps), component(self.r)),
-                false => self.source(s.scalar),
+                false => self.source(s.opcode.is_scalar()),
             };
             line += &format!(", {source}");
         }

@@ -1,11 +1,11 @@
-//! What was decoded stays decoded: programs as plans, textures as tables, kept over draws, and over the machines that share
-//! an executor, for as long as they are among the last few in use. A key is compared in full, so a hit is what decoding would give again. Rows that a worker has done with are
-//! kept for the next.
+//! What was decoded stays decoded: programs as plans, textures as tables, kept over draws, and over the machines that
+//! share an executor, for as long as they are among the last few in use. A key is compared in full, so a hit is what
+//! decoding would give again. Rows that a worker has done with are kept for the next.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Entries kept.
-const KEPT: usize = 16;
+const MAX_KEPT: usize = 16;
 
 /// The last few values, by key.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl<K, V> Cache<K, V> {
         let (key, value) = make();
         let value = Arc::new(value);
         let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-        if entries.len() >= KEPT {
+        if entries.len() >= MAX_KEPT {
             entries.remove(0);
         }
         entries.push((key, Arc::clone(&value)));
@@ -71,7 +71,7 @@ impl<T> Pool<T> {
     /// Keeps one, unless there are enough.
     pub(crate) fn keep(&self, item: T) {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        if idle.len() < KEPT {
+        if idle.len() < MAX_KEPT {
             idle.push(item);
         }
     }

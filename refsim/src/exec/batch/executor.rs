@@ -26,8 +26,8 @@ struct DecodedCaches {
 }
 
 impl BatchExecutor {
-    /// Chooses vector instructions: `None`, as in a new executor, for the widest that the processor has; a level that it
-    /// lacks stands for what it has of it. The level changes nothing but the time that work takes.
+    /// Chooses vector instructions: `None`, as in a new executor, for the widest that the processor has; a level that
+    /// it lacks stands for what it has of it. The level changes nothing but the time that work takes.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.simd = level;
     }
@@ -37,8 +37,8 @@ impl BatchExecutor {
         self.simd.unwrap_or(SimdLevel::widest())
     }
 
-    /// Prepares a draw. `None` where the scalar executor has to do it: if the program has more values than there are slots,
-    /// or if no fragment can end within the step budget.
+    /// Prepares a draw. `None` where the scalar executor has to do it: if the program has more values than there are
+    /// slots, or if no fragment can end within the step budget.
     pub fn tiles<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTiles<'a>> {
         BatchTiles::new(draw, (&self.decoded.pixel, &self.decoded.textures), self.simd())
     }
@@ -48,8 +48,8 @@ impl BatchExecutor {
         Some(BatchTracer::new(draw, self.tiles(draw)?, &self.decoded.textures))
     }
 
-    /// Prepares a vertex program, which makes the position and the components that are `needed`. `None` where the scalar
-    /// executor has to run it: if no vertex can end within the step budget.
+    /// Prepares a vertex program, which makes the position and the components that are `needed`. `None` where the
+    /// scalar executor has to run it: if no vertex can end within the step budget.
     pub fn vertices(
         &self,
         (program, constants): (&Program, &Constants),

@@ -1,7 +1,8 @@
 //! The batch executor: programs on whole tiles of fragments, in vector code of the host. Equal to
 //! [`super::scalar`] bit for bit; `tests/agree` and `refsim/tests/agree_lanes.rs` prove it. They share no arithmetic.
 //!
-//! - `lanes`: the arithmetic of number formats. `schedule`: the graph of `super::lower` as steps. `run`: the steps on rows.
+//! - `lanes`: the arithmetic of number formats. `schedule`: the graph of `super::lower` as steps. `run`: the steps on
+//!   rows.
 //! - `vertex`: from attributes to triangles. `tile`: from triangles to targets.
 //! - `cache`: what was decoded; [`BatchExecutor`]: who owns it.
 //!

@@ -98,8 +98,8 @@ impl<'a> Maker<'a> {
         if self.formats.format(from) == self.formats.format(to) {
             return a;
         }
-        // Single precision holds every number of a format of up to 24 significant bits: there and back is the same number,
-        // which also fits the format's wrapping twin.
+        // Single precision holds every number of a format of up to 24 significant bits: there and back is the same
+        // number, which also fits the format's wrapping twin.
         if let NodeKind::Convert(origin, Arith::Single, number) = self.graph.kind(a)
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))

@@ -4,19 +4,11 @@
 use super::arith::NodeVector;
 use super::graph::TRUE;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
-use super::translate::{Effect, Translator};
+use super::translate::{CodeNodes, Effect, Translator};
 use crate::isa::{
     Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
 };
 use crate::num::NumberOperation;
-
-/// A condition code as masks: less than, equal to, greater than zero.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CodeNodes {
-    less: NodeId,
-    equal: NodeId,
-    greater: NodeId,
-}
 
 /// The arithmetic of a precision.
 fn arith(precision: Precision) -> Arith {

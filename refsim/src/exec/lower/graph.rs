@@ -1,5 +1,4 @@
-//! A program as a graph of values: what instructions compute, a component at a time, before anybody decides in which
-//! order and where.
+//! A program as a graph of component values, before execution order and storage are decided.
 //!
 //! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
 //! results and moves cost nothing at run time.
@@ -177,8 +176,8 @@ impl Graph {
             let same = match *kind {
                 NodeKind::Constant(_) => true,
                 NodeKind::Input(component) => input(component),
-                // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a zero,
-                // whose sign depends on the format.)
+                // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a
+                // zero, whose sign depends on the format.)
                 NodeKind::Difference(..) => false,
                 NodeKind::Held(_) | NodeKind::Fetch(..) | NodeKind::Relative(..) => false,
                 _ => {

@@ -1,5 +1,6 @@
-//! The executors' shared middle: a program as a graph of component values under a device's rules, before anybody decides
-//! in which order, where and by what arithmetic they are computed. `batch` and `wgsl` start from it; `scalar` does not use it.
+//! The executors' shared middle: a program as a graph of component values under a device's rules, before anybody
+//! decides in which order, where and by what arithmetic they are computed. `batch` and `wgsl` start from it; `scalar`
+//! does not use it.
 //!
 //! - [`Graph`]: values, computed by [`crate::num::NumberOperation`]s; [`Formats`]: in which number formats.
 //! - `arith`, `macros`, `translate`, `translate_texture`, `fragment`: instructions as nodes.
@@ -21,6 +22,6 @@ pub(super) use flow::{ACTIVE, COUNTER, DECIDED, KILLED, MaskedInstruction, Maske
 pub(super) use formats::Formats;
 pub(super) use fragment::of_file;
 pub(super) use graph::{Arith, Detail, Graph, NodeId, NodeKind, Slot, TRUE};
-pub(super) use program::{Ends, has_flow, translate_instruction, translate_straight};
+pub(super) use program::{Ends, has_flow, translate_straight, translate_straight_vertex};
 pub(super) use raw::{FloatLayout, pow2};
 pub(super) use translate::{CONSTANT_INPUTS, Effect, RegisterComponent, Translator};

@@ -28,6 +28,19 @@ impl Ends {
     }
 }
 
+/// Translates a straight vertex program: its registers hold the results.
+pub(crate) fn translate_straight_vertex(t: &mut Translator<'_>, program: &Program) {
+    for instruction in &program.instructions {
+        let mut effects = Vec::new();
+        translate_instruction(t, instruction, &mut effects);
+        for effect in effects {
+            if let Effect::Write(place, value, _) = effect {
+                t.registers.insert(place, value);
+            }
+        }
+    }
+}
+
 /// Translates a straight pixel program; `visit` sees what each instruction does.
 pub(crate) fn translate_straight(
     t: &mut Translator<'_>,

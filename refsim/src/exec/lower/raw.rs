@@ -1,7 +1,7 @@
 //! Raw values: numbers of any format as `batch` and `wgsl` hold them in 32 bits.
 //!
-//! A fixed-point number is its two's complement integer, sign-extended. A float is the binary32 pattern of the same number,
-//! which exists for every format; NaN is always `0x7fc0_0000`.
+//! A fixed-point number is its two's complement integer, sign-extended. A float is the binary32 pattern of the same
+//! number, which exists for every format; NaN is always `0x7fc0_0000`.
 
 use crate::num::{Denormals, Format, FormatKind};
 

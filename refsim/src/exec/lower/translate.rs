@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::arith::{Maker, NodeVector};
 use super::formats::Formats;
-use super::fragment::CodeNodes;
 use super::graph::{Arith, NodeId, NodeKind};
 use super::graph::{Slot, TRUE};
 use crate::device::{ColorIterator, ResultRange, Rules};
@@ -17,6 +16,14 @@ use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD
 
 /// A component of a register: file, number, component.
 pub(crate) type RegisterComponent = (RegisterFile, u16, u8);
+
+/// A condition code as masks: less than, equal to, greater than zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CodeNodes {
+    pub(super) less: NodeId,
+    pub(super) equal: NodeId,
+    pub(super) greater: NodeId,
+}
 
 /// What an instruction does besides computing.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +42,8 @@ pub(crate) struct Translator<'a> {
     pub(crate) program: &'a Program,
     pub(crate) constants: &'a ResolvedConstants,
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
-    /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds is
-    /// not known here.
+    /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds
+    /// is not known here.
     pub(crate) registers: BTreeMap<RegisterComponent, NodeId>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
@@ -49,8 +56,8 @@ pub(crate) struct Translator<'a> {
     pub(crate) words: BTreeSet<NodeId>,
     /// Texture reads by sampler, one an instruction.
     pub(crate) fetches: Vec<usize>,
-    /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program; else they are part of
-    /// what is made.
+    /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program;
+    /// else they are part of what is made.
     pub(crate) open_constants: bool,
 }
 

@@ -1,41 +1,9 @@
 //! Flow control by lane masks over the resolved jump structure.
 
-use super::interpreter::Interpreter;
+use super::interpreter::{Interpreter, OpenBlock};
 use crate::exec::Observer;
-use crate::exec::budget::{LOOP_LIMIT, loop_counter};
+use crate::exec::budget::{MAX_LOOP_PASSES, loop_counter};
 use crate::isa::{Instruction, Modifier, Opcode, RegisterFile, Source};
-
-/// What an open block remembers.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Frame {
-    /// `if`
-    If {
-        /// Lanes that run again after `endif`.
-        restore: u8,
-        /// Lanes that take `else`.
-        otherwise: u8,
-    },
-    /// `rep`, `loop`
-    Loop {
-        /// Lanes that have not left by `break`.
-        live: u8,
-        /// Lanes that run again after the loop.
-        restore: u8,
-        /// Passes still to do, this one included.
-        left: i32,
-        /// What `aL` grows by.
-        step: i32,
-        /// `aL` outside.
-        outer_counter: i32,
-    },
-    /// `call`
-    Call {
-        /// Lanes that run again after the call.
-        restore: u8,
-        /// The instruction after the call.
-        back: usize,
-    },
-}
 
 impl<O: Observer> Interpreter<'_, '_, O> {
     /// Executes the flow instruction `at`; returns where the program goes on, or `None` if it ends.
@@ -45,20 +13,20 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             Opcode::If | Opcode::IfC => {
                 let taken = self.condition(instruction);
                 let otherwise = self.active & !taken;
-                self.frames.push(Frame::If { restore: self.active, otherwise });
+                self.open.push(OpenBlock::If { restore: self.active, otherwise });
                 self.active = taken;
                 Some(if taken == 0 { target } else { at + 1 })
             }
             Opcode::Else => {
-                if let Some(Frame::If { otherwise, .. }) = self.frames.last() {
+                if let Some(OpenBlock::If { otherwise, .. }) = self.open.last() {
                     self.active = *otherwise;
                 }
                 Some(if self.active == 0 { target } else { at + 1 })
             }
             Opcode::EndIf => {
-                if let Some(&Frame::If { restore, .. }) = self.frames.last() {
+                if let Some(&OpenBlock::If { restore, .. }) = self.open.last() {
                     self.active = restore;
-                    self.frames.pop();
+                    self.open.pop();
                 }
                 Some(at + 1)
             }
@@ -110,12 +78,12 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     fn enter_loop(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
         let [count, start, step, _] = loop_counter(instruction, &self.prepared.constants);
-        let left = count.clamp(0, LOOP_LIMIT);
+        let left = count.clamp(0, MAX_LOOP_PASSES);
         if left == 0 || self.active == 0 {
             return target + 1;
         }
         let with_counter = instruction.opcode == Opcode::Loop;
-        self.frames.push(Frame::Loop {
+        self.open.push(OpenBlock::Loop {
             live: self.active,
             restore: self.active,
             left,
@@ -130,7 +98,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// `endrep`, `endloop` at `at`, whose loop starts at `start`.
     fn end_pass(&mut self, at: usize, start: usize) -> usize {
-        let Some(Frame::Loop { live, restore, left, step, outer_counter }) = self.frames.last_mut() else {
+        let Some(OpenBlock::Loop { live, restore, left, step, outer_counter }) = self.open.last_mut() else {
             return at + 1;
         };
         *left -= 1;
@@ -141,33 +109,33 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
         self.active = *restore;
         self.loop_counter = *outer_counter;
-        self.frames.pop();
+        self.open.pop();
         at + 1
     }
 
     /// Takes `lanes` out of everything up to and including the innermost loop's passes.
     fn leave_loop(&mut self, lanes: u8) {
         let in_loop = self
-            .frames
+            .open
             .iter()
             .rev()
-            .take_while(|f| !matches!(f, Frame::Call { .. }))
-            .any(|f| matches!(f, Frame::Loop { .. }));
+            .take_while(|f| !matches!(f, OpenBlock::Call { .. }))
+            .any(|f| matches!(f, OpenBlock::Loop { .. }));
         if !in_loop {
             return;
         }
         self.active &= !lanes;
-        for frame in self.frames.iter_mut().rev() {
-            match frame {
-                Frame::If { restore, otherwise } => {
+        for block in self.open.iter_mut().rev() {
+            match block {
+                OpenBlock::If { restore, otherwise } => {
                     *restore &= !lanes;
                     *otherwise &= !lanes;
                 }
-                Frame::Loop { live, .. } => {
+                OpenBlock::Loop { live, .. } => {
                     *live &= !lanes;
                     return;
                 }
-                Frame::Call { .. } => return,
+                OpenBlock::Call { .. } => return,
             }
         }
     }
@@ -182,12 +150,13 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         if entering == 0 || target <= at || target >= self.prepared.program.instructions.len() {
             return at + 1;
         }
-        self.frames.push(Frame::Call { restore: self.active, back: at + 1 });
+        self.open.push(OpenBlock::Call { restore: self.active, back: at + 1 });
         self.active = entering;
         target + 1
     }
 
-    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step left.
+    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step
+    /// left.
     pub(super) fn charge(&mut self, at: usize, budget: u32) {
         let mut cut = 0;
         for lane in self.active_lanes() {
@@ -202,41 +171,41 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             return;
         }
         self.active &= !cut;
-        for frame in &mut self.frames {
-            match frame {
-                Frame::If { restore, otherwise } => {
+        for block in &mut self.open {
+            match block {
+                OpenBlock::If { restore, otherwise } => {
                     *restore &= !cut;
                     *otherwise &= !cut;
                 }
-                Frame::Loop { live, restore, .. } => {
+                OpenBlock::Loop { live, restore, .. } => {
                     *live &= !cut;
                     *restore &= !cut;
                 }
-                Frame::Call { restore, .. } => *restore &= !cut,
+                OpenBlock::Call { restore, .. } => *restore &= !cut,
             }
         }
     }
 
     /// `ret`: the active lanes are done with the subroutine, or with the program.
     fn ret(&mut self, at: usize) -> Option<usize> {
-        match self.frames.last() {
+        match self.open.last() {
             None => return None,
-            Some(Frame::Call { .. }) => return self.return_from_call(),
+            Some(OpenBlock::Call { .. }) => return self.return_from_call(),
             Some(_) => {}
         }
         let done = self.active;
         self.active = 0;
-        for frame in self.frames.iter_mut().rev() {
-            match frame {
-                Frame::If { restore, otherwise } => {
+        for block in self.open.iter_mut().rev() {
+            match block {
+                OpenBlock::If { restore, otherwise } => {
                     *restore &= !done;
                     *otherwise &= !done;
                 }
-                Frame::Loop { live, restore, .. } => {
+                OpenBlock::Loop { live, restore, .. } => {
                     *live &= !done;
                     *restore &= !done;
                 }
-                Frame::Call { .. } => break,
+                OpenBlock::Call { .. } => break,
             }
         }
         Some(at + 1)
@@ -244,8 +213,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// Ends the innermost subroutine and returns where its caller goes on; `None` in the main program.
     pub(super) fn return_from_call(&mut self) -> Option<usize> {
-        while let Some(frame) = self.frames.pop() {
-            if let Frame::Call { restore, back } = frame {
+        while let Some(block) = self.open.pop() {
+            if let OpenBlock::Call { restore, back } = block {
                 self.active = restore;
                 return Some(back);
             }

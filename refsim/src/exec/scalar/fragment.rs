@@ -1,113 +1,22 @@
 //! OpenGL's fragment programs: three precisions, condition codes, packing. Read beside GL_NV_fragment_program and
 //! GL_ARB_fragment_program, whose instructions carry the same names.
 //!
-//! The order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted into the format
-//! of the operation; the result is saturated, converted into the format of its destination, and written where the mask and
-//! the condition say; there the condition codes take it too, if the instruction asks.
+//! The order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted into the
+//! format of the operation; the result is saturated, converted into the format of its destination, and written where
+//! the mask and the condition say; there the condition codes take it too, if the instruction asks.
 //!
 //! A packed word lies in `R#` as bits. `MOV` in full precision without modifiers carries bits; everything else, and the
 //! end of the program, takes them for the number that they are a pattern of.
 
 use super::alu::Alu;
-use super::interpreter::{Interpreter, LANES};
-use super::operation::{self, Context, Vector};
+use super::fragment_state::{ConditionCode, FragmentState};
+use super::interpreter::Interpreter;
+use super::operation::{self, Context};
 use super::pack;
-use crate::device::Rules;
+use super::registers::{Components, LANES};
 use crate::exec::{FragmentFormats, Observer};
-use crate::isa::{
-    Condition, ConditionTest, Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, Program, RegisterFile,
-    Source, Version,
-};
-use crate::num::{Flags, Format, ops};
-
-/// Half precision temporaries.
-const HALVES: usize = 64;
-
-/// What a component of the last result was beside zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Code {
-    Less,
-    Equal,
-    Greater,
-    Unordered,
-}
-
-impl Code {
-    fn of(format: &Format, bits: u32) -> Self {
-        if format.is_nan(bits) {
-            Self::Unordered
-        } else if format.is_zero(bits) {
-            Self::Equal
-        } else if format.is_negative(bits) {
-            Self::Less
-        } else {
-            Self::Greater
-        }
-    }
-
-    fn passes(self, test: ConditionTest) -> bool {
-        match test {
-            ConditionTest::Eq => self == Self::Equal,
-            ConditionTest::Ne => self != Self::Equal,
-            ConditionTest::Lt => self == Self::Less,
-            ConditionTest::Le => matches!(self, Self::Less | Self::Equal),
-            ConditionTest::Gt => self == Self::Greater,
-            ConditionTest::Ge => matches!(self, Self::Greater | Self::Equal),
-            ConditionTest::Tr => true,
-            ConditionTest::Fl => false,
-        }
-    }
-}
-
-/// What a fragment program has besides the registers of Direct3D, for four lanes. All starts at zero, the codes at equal.
-pub(super) struct FragmentState<'a> {
-    formats: FragmentFormats,
-    half: Alu<'a>,
-    fixed: Alu<'a>,
-    /// `H#`
-    halves: [[Vector; HALVES]; LANES],
-    /// `f[FOGC]`, in full precision.
-    pub(super) fog: [Vector; LANES],
-    /// `f[WPOS]`, in full precision.
-    pub(super) position: [Vector; LANES],
-    /// `o[COLH]`
-    half_color: [Vector; LANES],
-    codes: [[Code; 4]; LANES],
-}
-
-impl<'a> FragmentState<'a> {
-    pub(super) fn new(rules: &'a Rules) -> Self {
-        let formats = FragmentFormats::new(rules);
-        Self {
-            formats,
-            half: Alu::new(rules, formats.half),
-            fixed: Alu::new(rules, formats.fixed),
-            halves: [[[0; 4]; HALVES]; LANES],
-            fog: [[0; 4]; LANES],
-            position: [[0; 4]; LANES],
-            half_color: [[0; 4]; LANES],
-            codes: [[Code::Equal; 4]; LANES],
-        }
-    }
-
-    pub(super) fn take_flags(&mut self) -> Flags {
-        self.half.take_flags() | self.fixed.take_flags()
-    }
-
-    /// The colour that the program leaves in a lane, in the register format: `o[COLR]`, which is given, or `o[COLH]`.
-    pub(super) fn color(&self, program: &Program, lane: usize, full: Vector) -> Vector {
-        let is_half = |i: &Instruction| i.destination.is_some_and(|d| d.register.file == RegisterFile::HalfColorOut);
-        let (from, value) = match program.instructions.iter().any(is_half) {
-            true => (self.formats.half, self.half_color[lane]),
-            false => (self.formats.full, full),
-        };
-        value.map(|x| ops::convert(&from, self.formats.full, x).bits)
-    }
-
-    fn passes(&self, lane: usize, condition: &Condition, component: usize) -> bool {
-        self.codes[lane][usize::from(condition.swizzle.0[component] & 3)].passes(condition.test)
-    }
-}
+use crate::isa::{Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version};
+use crate::num::ops;
 
 impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     /// One instruction in all lanes.
@@ -142,7 +51,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// What a register holds, in the format of its file.
-    fn fragment_value(&self, lane: usize, source: &Source) -> Vector {
+    fn fragment_value(&self, lane: usize, source: &Source) -> Components {
         let register = &source.register;
         let number = usize::from(register.index);
         match (&self.fragment, register.file) {
@@ -159,7 +68,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// An operand in the format of its file: swizzled, absolute, negated. Components outside `wanted` are zero.
-    pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Vector {
+    pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Components {
         let value = self.fragment_value(lane, source);
         let half = source.register.file.is_half();
         let unit = self.unit(if half { Precision::Half } else { Precision::Full });
@@ -178,7 +87,14 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// An operand in the format of the operation.
-    fn fragment_operand(&mut self, lane: usize, source: &Source, to: Precision, wanted: Mask, negate: u8) -> Vector {
+    fn fragment_operand(
+        &mut self,
+        lane: usize,
+        source: &Source,
+        to: Precision,
+        wanted: Mask,
+        negate: u8,
+    ) -> Components {
         let mut out = self.loaded(lane, source, wanted, negate);
         let from = self.fragment_formats().of_file(source.register.file);
         let unit = self.unit(to);
@@ -189,7 +105,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// The result in the format of the destination.
-    fn fragment_result(&mut self, lane: usize, instruction: &Instruction) -> Vector {
+    fn fragment_result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else { return [0; 4] };
         let to = self.fragment_formats().of_file(destination.register.file);
         if let Some(word) = self.moved_bits(lane, instruction) {
@@ -208,7 +124,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// What is carried as bits: packed words, and what a plain `MOV` finds in `R#`. `None` for everything else.
-    fn moved_bits(&mut self, lane: usize, instruction: &Instruction) -> Option<Vector> {
+    fn moved_bits(&mut self, lane: usize, instruction: &Instruction) -> Option<Components> {
         let destination = instruction.destination.as_ref()?;
         let source = instruction.sources.first()?;
         if destination.register.file.is_half() || destination.saturate {
@@ -234,7 +150,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// The result in the format of the operation, before saturation.
-    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Vector {
+    fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
         let opcode = instruction.opcode;
         match opcode {
             Opcode::Dsx | Opcode::Dsy => return self.fragment_difference(lane, instruction, k, mask),
@@ -253,9 +169,9 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             }
             _ => {}
         }
-        let wanted = operation::read_mask(opcode, mask);
         let mut s = [[0; 4]; 3];
-        for (slot, source) in s.iter_mut().zip(&instruction.sources) {
+        for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
+            let wanted = opcode.lanes_read(index, mask);
             *slot = self.fragment_operand(lane, source, k, wanted, instruction.fragment.negate);
         }
         let arb = self.prepared.program.version == Version::ArbFp1_0;
@@ -271,7 +187,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         operation::compute(unit, opcode, &s, &Context { bump: [0; 4], mask })
     }
 
-    fn unpacked(&mut self, lane: usize, instruction: &Instruction) -> Vector {
+    fn unpacked(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(source) = instruction.sources.first() else { return [0; 4] };
         let plain = source.modifier == Modifier::None && source.register.file == RegisterFile::Temp;
         let word = match plain {
@@ -282,7 +198,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// `DDX`, `DDY`: the difference across the quad's row or column, the same for both lanes of it.
-    fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Vector {
+    fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
         let Some(source) = instruction.sources.first() else { return [0; 4] };
         let (low, high) = match instruction.opcode {
             Opcode::Dsx => (lane & 2, lane | 1),
@@ -295,8 +211,8 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
     }
 
     /// Writes a result, in the format of its destination, where the mask and the condition say, and lets the condition
-    /// codes take it there. The observer is told what the masked components hold then.
-    pub(super) fn fragment_store(&mut self, at: usize, lane: usize, instruction: &Instruction, value: Vector) {
+    /// codes take it there. The observer gets what the masked components hold then.
+    pub(super) fn fragment_store(&mut self, at: usize, lane: usize, instruction: &Instruction, value: Components) {
         let Some(destination) = &instruction.destination else { return };
         let file = destination.register.file;
         let format = self.fragment_formats().of_file(file);
@@ -307,7 +223,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let mask = Mask(mask);
         if instruction.fragment.updates {
             for i in mask.components() {
-                fragment.codes[lane][i] = Code::of(&format, value[i]);
+                fragment.codes[lane][i] = ConditionCode::of(&format, value[i]);
             }
         }
         let number = usize::from(destination.register.index);

@@ -1,9 +1,8 @@
 //! Texture reads of OpenGL's fragment programs. Addresses are single precision whatever the registers are, as in
 //! Direct3D's programs; the texel is taken into full precision and from there into the destination's.
 
-use super::interpreter::{Interpreter, LANES};
-use super::operation::Vector;
-use super::registers::modified;
+use super::interpreter::Interpreter;
+use super::registers::{Components, LANES, modified};
 use super::texture::{Detail, Quad};
 use crate::exec::Observer;
 use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source};
@@ -46,7 +45,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// An operand in single precision: `f[TEX#]` as interpolated, a register converted.
-    fn address(&mut self, lane: usize, source: &Source) -> Vector {
+    fn address(&mut self, lane: usize, source: &Source) -> Components {
         if source.register.file == RegisterFile::Texture {
             let set = self.coordinate_set(lane, source.register.index);
             return source.swizzle.0.map(|c| modified(&mut self.address, source.modifier, set[usize::from(c & 3)]));

@@ -1,29 +1,57 @@
-//! The machine that runs a program on four lanes in lockstep: arithmetic, stores, and who is told.
+//! The interpreter: runs a program on four lanes in lockstep; arithmetic, stores, calls of the observer.
 //!
 //! A vertex runs as a quad of which one lane is active. Lanes masked off by flow control keep their registers; helper
 //! lanes (outside the primitive) run like the others, so that differences between lanes exist, and are dropped at
 //! the end.
 
 use super::alu::Alu;
-use super::flow::Frame;
-use super::fragment::FragmentState;
-use super::operation::{self, Context, Vector};
+use super::fragment_state::FragmentState;
+use super::operation::{self, Context};
 use super::prepared::Prepared;
-use super::registers::{Registers, finished, operand};
+use super::registers::{Components, LANES, Registers, finished, operand};
 use crate::event::SAMPLERS;
 use crate::exec::{Observer, Step};
 use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
 
-/// Lanes of a quad: (0, 0), (1, 0), (0, 1), (1, 1).
-pub(super) const LANES: usize = 4;
+/// What an open block remembers.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum OpenBlock {
+    /// `if`
+    If {
+        /// Lanes that run again after `endif`.
+        restore: u8,
+        /// Lanes that take `else`.
+        otherwise: u8,
+    },
+    /// `rep`, `loop`
+    Loop {
+        /// Lanes that have not left by `break`.
+        live: u8,
+        /// Lanes that run again after the loop.
+        restore: u8,
+        /// Passes still to do, this one included.
+        left: i32,
+        /// What `aL` grows by.
+        step: i32,
+        /// `aL` outside.
+        outer_counter: i32,
+    },
+    /// `call`
+    Call {
+        /// Lanes that run again after the call.
+        restore: u8,
+        /// The instruction after the call.
+        back: usize,
+    },
+}
 
 /// Four lanes on their way through a program.
 pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) prepared: &'p Prepared<'a>,
     pub(super) lanes: [Registers; LANES],
     /// Interpolated coordinates `t#`, single precision patterns, before any conversion.
-    pub(super) coordinates: [[Vector; 8]; LANES],
+    pub(super) coordinates: [[Components; 8]; LANES],
     /// Dot products left by `texm3x2pad` and `texm3x3pad`, single precision.
     pub(super) padded: [[u32; 2]; LANES],
     /// How many of them are waiting.
@@ -43,7 +71,7 @@ pub(super) struct Interpreter<'p, 'a, O> {
     /// Depth that the program decided, by lane.
     pub(super) depth: [Option<(Format, u32)>; LANES],
     pub(super) loop_counter: i32,
-    pub(super) frames: Vec<Frame>,
+    pub(super) open: Vec<OpenBlock>,
     /// Instruction slots executed while at least one lane was active.
     pub(super) slots: u64,
     pub(super) fetches: [u64; SAMPLERS],
@@ -75,7 +103,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             killed: 0,
             depth: [None; LANES],
             loop_counter: 0,
-            frames: Vec::new(),
+            open: Vec::new(),
             slots: 0,
             fetches: [0; SAMPLERS],
             flags: [Flags::empty(); LANES],
@@ -179,12 +207,11 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// The result of an arithmetic instruction in one lane, ready to be stored.
-    fn result(&mut self, lane: usize, instruction: &Instruction) -> Vector {
+    fn result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else {
             return [0; 4];
         };
         let opcode = instruction.opcode;
-        let wanted = operation::read_mask(opcode, destination.mask);
         if matches!(opcode, Opcode::Dsx | Opcode::Dsy) {
             return self.difference(lane, instruction, destination);
         }
@@ -194,7 +221,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         };
         let registers = self.prepared.format;
         let mut s = [[0; 4]; 3];
-        for (slot, source) in s.iter_mut().zip(&instruction.sources) {
+        for (index, (slot, source)) in s.iter_mut().zip(&instruction.sources).enumerate() {
+            let wanted = opcode.lanes_read(index, destination.mask);
             *slot = self.source(lane, source, wanted, destination.partial_precision);
         }
         let rows = opcode.matrix();
@@ -203,7 +231,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             for (row, slot) in (0..count).zip(&mut matrix) {
                 let mut source = *source;
                 source.register.index = source.register.index.saturating_add(row);
-                *slot = self.source(lane, &source, wanted, destination.partial_precision);
+                *slot =
+                    self.source(lane, &source, opcode.lanes_read(1, destination.mask), destination.partial_precision);
             }
         }
         let alu = match &mut self.partial {
@@ -242,7 +271,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// An operand of one lane in the format of the operation.
-    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, partial: bool) -> Vector {
+    pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, partial: bool) -> Components {
         let prepared = self.prepared;
         let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
         let alu = match &mut self.partial {
@@ -254,7 +283,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
 
     /// `dsx`, `dsy`: the difference across the quad's row or column, the same for both lanes of it. Lanes masked off
     /// take part with what their registers hold.
-    fn difference(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Vector {
+    fn difference(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Components {
         let Some(source) = instruction.sources.first() else {
             return [0; 4];
         };
@@ -280,7 +309,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
 
     /// Writes a finished result where the instruction says, as far as its mask and predicate allow and clamped to the
     /// range of results, and tells the observer.
-    pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Vector) {
+    pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Components) {
         let Some(destination) = &instruction.destination else {
             return;
         };
@@ -316,7 +345,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// Tells the observer that a lane has executed an instruction.
-    pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Vector)>) {
+    pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Components)>) {
         self.settle(lane);
         let flags = std::mem::take(&mut self.flags[lane]);
         if O::ACTIVE {

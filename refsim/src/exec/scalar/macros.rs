@@ -2,13 +2,13 @@
 //! is a definition, because no source tells what the cards did.
 
 use super::alu::Alu;
-use super::operation::Vector;
+use super::registers::Components;
 use crate::num;
 
 /// `bem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, each `+ M*x` a `mad` under the rules; z and w give 0.
 ///
 /// `bump` is `[M00, M01, M10, M11]` of the destination's stage. Source: Direct3D, "bem - ps".
-pub(super) fn bem(alu: &mut Alu<'_>, base: &Vector, offset: &Vector, bump: &[u32; 4]) -> Vector {
+pub(super) fn bem(alu: &mut Alu<'_>, base: &Components, offset: &Components, bump: &[u32; 4]) -> Components {
     let mut row = |base: u32, m_r: u32, m_g: u32| {
         let first = alu.mad(m_r, offset[0], base);
         alu.mad(m_g, offset[1], first)
@@ -27,14 +27,14 @@ pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
 
 /// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. The card's third component has ten
 /// good bits; here it has all. Source: Direct3D, "expp - vs".
-pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Vector {
+pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
     let floor = alu.floor(w);
     [alu.exp2(floor), alu.frc(w), alu.exp2(w), alu.one()]
 }
 
 /// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once. For w = 0
 /// the first and third component are `log2(0)` and the second is 1. Source: Direct3D, "logp - vs".
-pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Vector {
+pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Components {
     let magnitude = alu.abs(w);
     let log = alu.log2(magnitude);
     if alu.format.is_zero(magnitude) {
@@ -49,7 +49,7 @@ pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Vector {
 /// `crs`: a product and a `mad` a component, `a.y*b.z + -(a.z*b.y)` and so on cyclically; w gives 0.
 ///
 /// Source: Direct3D, "crs - ps" (two slots: `mul`, then `mad` with the negated product).
-pub(super) fn crs(alu: &mut Alu<'_>, a: &Vector, b: &Vector) -> Vector {
+pub(super) fn crs(alu: &mut Alu<'_>, a: &Components, b: &Components) -> Components {
     let mut component = |i: usize, j: usize| {
         let product = alu.mul(a[j], b[i]);
         let negated = alu.neg(product);
@@ -61,7 +61,7 @@ pub(super) fn crs(alu: &mut Alu<'_>, a: &Vector, b: &Vector) -> Vector {
 /// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number where d is zero; all four components times f.
 ///
 /// Source: Direct3D, "nrm - ps" (the factor is `FLT_MAX` for a zero vector).
-pub(super) fn nrm(alu: &mut Alu<'_>, a: &Vector) -> Vector {
+pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
     let d = alu.dot(&a[..3], &a[..3]);
     let factor = if alu.format.is_zero(d) { alu.format.max_finite() } else { alu.rsq(d) };
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
@@ -84,7 +84,7 @@ pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
 /// With `q = x*x`, every `+` below a `mad` under the rules, every `*` outside a `mad` a `mul`:
 /// `s = (((q*p.x + p.w)*q + r.x)*q + r.w) * x` (sin x/2), `c = ((q*p.y + p.z)*q + r.y)*q + r.z` (cos x/2),
 /// `sin = t + t` with `t = s*c`, `cos = r.z - (u + u)` with `u = s*s`. Source: Direct3D, "sincos - ps".
-pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Vector, r: &Vector) -> Vector {
+pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) -> Components {
     let q = alu.mul(x, x);
     let mut s = alu.mad(q, p[0], p[3]);
     s = alu.mad(s, q, r[0]);
@@ -102,7 +102,7 @@ pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Vector, r: &Vector) -> Vecto
 
 /// `lit`: `(1, max(x, 0), x > 0 and y > 0 ? y^w : 0, 1)`, w clamped to +-127.9961 (32767/256) and the power as in
 /// [`pow`]. Source: Direct3D, "lit - vs".
-pub(super) fn lit(alu: &mut Alu<'_>, a: &Vector) -> Vector {
+pub(super) fn lit(alu: &mut Alu<'_>, a: &Components) -> Components {
     let limit = num::from_ratio(alu.format, false, 32767, 256).bits;
     let lowest = alu.neg(limit);
     let clamped = alu.max(a[3], lowest);
@@ -114,7 +114,7 @@ pub(super) fn lit(alu: &mut Alu<'_>, a: &Vector) -> Vector {
 
 /// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d`, a product and a
 /// difference a component; w gives 0. Source: GL_NV_fragment_program.
-pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Vector, direction: &Vector) -> Vector {
+pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) -> Components {
     let along = alu.dot(&axis[..3], &direction[..3]);
     let twice = alu.add(along, along);
     let square = alu.dot(&axis[..3], &axis[..3]);
@@ -126,9 +126,9 @@ pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Vector, direction: &Vector) -> Vecto
     [component(0), component(1), component(2), 0]
 }
 
-/// `X2D`: a point moved by a matrix: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and `a.y` in y and w, each
-/// step a `mad` under the rules. Source: GL_NV_fragment_program.
-pub(super) fn x2d(alu: &mut Alu<'_>, a: &Vector, b: &Vector, c: &Vector) -> Vector {
+/// `X2D`: a point moved by a matrix: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and `a.y` in y and w,
+/// each step a `mad` under the rules. Source: GL_NV_fragment_program.
+pub(super) fn x2d(alu: &mut Alu<'_>, a: &Components, b: &Components, c: &Components) -> Components {
     let mut row = |base: u32, i: usize| {
         let first = alu.mad(b[0], c[i], base);
         alu.mad(b[1], c[i + 1], first)

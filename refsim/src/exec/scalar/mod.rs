@@ -3,7 +3,8 @@
 //! - `interpreter`: four lanes in lockstep through the program; `flow`: which of them run.
 //! - `operation`, `macros`: what each arithmetic operation computes; `texture`: what each texture instruction does.
 //! - `registers`: how operands are read and results written; `alu`: arithmetic under the device's rules.
-//! - `fragment`, `fragment_texture`: the instructions of OpenGL's fragment programs, in three precisions.
+//! - `fragment`, `fragment_state`, `fragment_texture`: the instructions of OpenGL's fragment programs, in three
+//!   precisions.
 //! - `prepared`: what is worked out once a draw. `pixel`, `vertex`, `tile`: the ways in.
 //!
 //! The order within an instruction is Direct3D's: swizzle, source modifier, operation, shift, saturation, write mask.
@@ -14,6 +15,7 @@
 mod alu;
 mod flow;
 mod fragment;
+mod fragment_state;
 mod fragment_texture;
 mod interpreter;
 mod macros;

@@ -4,10 +4,8 @@
 
 use super::alu::Alu;
 use super::macros;
+use super::registers::Components;
 use crate::isa::{Mask, Opcode};
-
-/// Four components of one register.
-pub(crate) type Vector = [u32; 4];
 
 /// What an operation may need besides its operands.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +20,7 @@ pub(crate) struct Context {
 ///
 /// Operations that need more than their operands' values (`dsx`, `dsy`, `setp`, `mova`, the matrix products and all
 /// texture and flow operations) are computed elsewhere; here they give zero.
-pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Vector; 3], context: &Context) -> Vector {
+pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], context: &Context) -> Components {
     let [a, b, c] = *s;
     let mask = context.mask;
     match opcode {
@@ -82,27 +80,10 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Vector; 3], contex
 }
 
 /// The components of `mask`, each from its number; zero elsewhere.
-pub(crate) fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Vector {
+pub(crate) fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Components {
     let mut vector = [0; 4];
     for i in mask.components() {
         vector[i] = component(i);
     }
     vector
-}
-
-/// Which components of its operands an operation looks at when it writes `mask`.
-pub(crate) fn read_mask(opcode: Opcode, mask: Mask) -> Mask {
-    match opcode {
-        Opcode::Mov | Opcode::Add | Opcode::Sub | Opcode::Mul | Opcode::Mad | Opcode::Lrp => mask,
-        Opcode::Cnd | Opcode::Cmp | Opcode::Abs | Opcode::Min | Opcode::Max => mask,
-        Opcode::Sge | Opcode::Slt | Opcode::Frc | Opcode::Sgn | Opcode::Mova | Opcode::Setp => mask,
-        Opcode::Dsx | Opcode::Dsy => mask,
-        Opcode::Flr | Opcode::Swz | Opcode::Seq | Opcode::Sne | Opcode::Sgt | Opcode::Sle => mask,
-        Opcode::Cos | Opcode::Sin | Opcode::Scs => Mask(0b0001),
-        Opcode::Rfl => Mask::RGB,
-        Opcode::Dp3 | Opcode::Crs | Opcode::M3x2 | Opcode::M3x3 | Opcode::M3x4 => Mask::RGB,
-        Opcode::Rcp | Opcode::Rsq | Opcode::Exp | Opcode::Log | Opcode::Pow => Mask(0b0001),
-        Opcode::Expp | Opcode::Logp => Mask::ALPHA,
-        _ => Mask::ALL,
-    }
 }

@@ -1,13 +1,13 @@
 //! Numbers in parts of a 32-bit word: `PK2H`, `PK2US`, `PK4B`, `PK4UB` and back. Source: GL_NV_fragment_program.
 
-use super::operation::Vector;
+use super::registers::Components;
 use crate::exec::{FragmentFormats, unorm_steps};
 use crate::isa::Opcode;
 use crate::num::{self, Format, ops};
 
-/// The word that a packing instruction makes of a vector of full precision. Integers are rounded to the nearest, halves up;
-/// NaN is 0 (the extension leaves both open).
-pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Vector) -> u32 {
+/// The word that a packing instruction makes of a vector of full precision. Integers are rounded to the nearest, halves
+/// up; NaN is 0 (the extension leaves both open).
+pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Components) -> u32 {
     let single = |i: usize| ops::convert(&formats.full, Format::FP32, value[i]).bits;
     match opcode {
         Opcode::Pk2h => {
@@ -20,8 +20,8 @@ pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Vector) ->
     }
 }
 
-/// A word as a register of the format keeps it: its bits where the register has as many, or else the number that the lower
-/// bits are a pattern of.
+/// A word as a register of the format keeps it: its bits where the register has as many, or else the number that the
+/// lower bits are a pattern of.
 pub(super) fn kept(format: Format, word: u32) -> u32 {
     if format.width() == 32 && !format.is_fixed() {
         word
@@ -57,7 +57,7 @@ fn signed_byte(bits: u32) -> u32 {
 }
 
 /// The vector of full precision that an unpacking instruction makes of a register's bits.
-pub(super) fn unpack(formats: &FragmentFormats, opcode: Opcode, word: u32) -> Vector {
+pub(super) fn unpack(formats: &FragmentFormats, opcode: Opcode, word: u32) -> Components {
     let full = formats.full;
     let ratio = |k: u32, steps: u128| num::from_ratio(full, false, k.into(), steps).bits;
     match opcode {

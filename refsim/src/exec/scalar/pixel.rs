@@ -1,11 +1,12 @@
 //! Pixel programs, a quad at a time.
 
-use super::interpreter::{Interpreter, LANES};
+use super::interpreter::Interpreter;
 use super::prepared::Prepared;
+use super::registers::LANES;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::usage::registers_delivered;
-use crate::exec::{CheckedProgram, DepthValue, FragmentResult, NoObserver, Observer, PixelBindings, delivered_color};
+use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Observer, PixelBindings, delivered_color};
 use crate::isa::{Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMPONENT, TEXCOORD_COMPONENT};
@@ -16,7 +17,8 @@ pub struct PixelProgram<'a> {
 }
 
 impl<'a> PixelProgram<'a> {
-    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`, however long that takes.
+    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`, however long that
+    /// takes.
     pub fn new(program: &'a CheckedProgram, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
     }
@@ -63,29 +65,10 @@ impl<'a> PixelProgram<'a> {
     }
 
     /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
-    /// others run as helpers. The results of helpers mean nothing. Texture reads of covered lanes are added to `fetches`.
-    pub fn run(
-        &self,
-        inputs: &[FragmentInput; LANES],
-        covered: u8,
-        fetches: &mut [u64; SAMPLERS],
-    ) -> [FragmentResult; LANES] {
-        self.run_observed(inputs, covered, fetches, &mut NoObserver)
-    }
-
-    /// [`Self::run`] with an observer, who is told of helper lanes too.
-    pub fn run_observed<O: Observer>(
-        &self,
-        inputs: &[FragmentInput; LANES],
-        covered: u8,
-        fetches: &mut [u64; SAMPLERS],
-        observer: &mut O,
-    ) -> [FragmentResult; LANES] {
-        self.run_counted(inputs, covered, fetches, observer).0
-    }
-
-    /// [`Self::run_observed`], and the instruction in front of which each lane was cut off, if it was.
-    pub(super) fn run_counted<O: Observer>(
+    /// others run as helpers, of which the observer is told too, but whose results mean nothing. Texture reads of
+    /// covered lanes are added to `fetches`. Gives also the instruction in front of which each lane was cut off, if it
+    /// was.
+    pub fn run<O: Observer>(
         &self,
         inputs: &[FragmentInput; LANES],
         covered: u8,

@@ -1,7 +1,6 @@
 //! The registers of one lane, and how instructions read and write them.
 
 use super::alu::Alu;
-use super::operation::Vector;
 use crate::exec::ResolvedConstants;
 use crate::isa::{Destination, Mask, Modifier, Register, RegisterFile, Relative, Source};
 use crate::num::Format;
@@ -9,23 +8,29 @@ use crate::num::Format;
 /// Temporaries that a program can name, the largest file of any version.
 const TEMPORARIES: usize = 32;
 
+/// Lanes of a quad: (0, 0), (1, 0), (0, 1), (1, 1).
+pub(super) const LANES: usize = 4;
+
+/// Four components of one register.
+pub(super) type Components = [u32; 4];
+
 /// Everything that one fragment or vertex can name, as patterns of the register format. All starts at zero, which is
 /// therefore what reading an unwritten register gives.
 #[derive(Clone)]
 pub(super) struct Registers {
-    pub(super) temp: [Vector; TEMPORARIES],
+    pub(super) temp: [Components; TEMPORARIES],
     /// `v#`
-    pub(super) input: [Vector; 16],
+    pub(super) input: [Components; 16],
     /// `t#` as arithmetic sees them: texture results in ps_1_1 to 1_3, coordinates in ps_2_x.
-    pub(super) texture: [Vector; 8],
-    pub(super) color_out: [Vector; 4],
+    pub(super) texture: [Components; 8],
+    pub(super) color_out: [Components; 4],
     /// What was written to `oDepth`, if anything was.
     pub(super) depth_out: Option<u32>,
-    pub(super) position: Vector,
-    pub(super) fog: Vector,
-    pub(super) point_size: Vector,
-    pub(super) diffuse: [Vector; 2],
-    pub(super) texcoord: [Vector; 8],
+    pub(super) position: Components,
+    pub(super) fog: Components,
+    pub(super) point_size: Components,
+    pub(super) diffuse: [Components; 2],
+    pub(super) texcoord: [Components; 8],
     pub(super) predicate: [bool; 4],
     pub(super) address: [i32; 4],
 }
@@ -60,11 +65,11 @@ impl Registers {
 
     /// The value of a register before swizzle and modifiers. A register outside its file, constants with a relative
     /// address above all, reads as zero, and so does a file that holds no numbers.
-    pub(super) fn value(&self, register: &Register, constants: &ResolvedConstants, loop_counter: i32) -> Vector {
+    pub(super) fn value(&self, register: &Register, constants: &ResolvedConstants, loop_counter: i32) -> Components {
         let Some(number) = self.number(register, loop_counter) else {
             return [0; 4];
         };
-        let file: &[Vector] = match register.file {
+        let file: &[Components] = match register.file {
             RegisterFile::Temp => &self.temp,
             RegisterFile::Input => &self.input,
             RegisterFile::Texture => &self.texture,
@@ -75,7 +80,7 @@ impl Registers {
     }
 
     /// Writes the components of `mask`; a register outside its file is not written.
-    pub(super) fn write(&mut self, register: &Register, mask: Mask, value: Vector) {
+    pub(super) fn write(&mut self, register: &Register, mask: Mask, value: Components) {
         let number = usize::from(register.index);
         let slot = match register.file {
             RegisterFile::Temp => self.temp.get_mut(number),
@@ -105,7 +110,13 @@ impl Registers {
 
 /// An operand as an operation sees it: converted into the operation's format where that differs from the registers'
 /// (`_pp`), swizzled, modified. Components outside `wanted` are zero.
-pub(super) fn operand(alu: &mut Alu<'_>, registers: Format, source: &Source, value: Vector, wanted: Mask) -> Vector {
+pub(super) fn operand(
+    alu: &mut Alu<'_>,
+    registers: Format,
+    source: &Source,
+    value: Components,
+    wanted: Mask,
+) -> Components {
     let mut out = [0; 4];
     for i in wanted.components() {
         let raw = value[usize::from(source.swizzle.0[i] & 3)];
@@ -153,7 +164,12 @@ pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
 
 /// A result on its way into a register: shift, then saturation, then conversion into the registers' format where
 /// the operation had another (`_pp`).
-pub(super) fn finished(alu: &mut Alu<'_>, registers: Format, destination: &Destination, result: Vector) -> Vector {
+pub(super) fn finished(
+    alu: &mut Alu<'_>,
+    registers: Format,
+    destination: &Destination,
+    result: Components,
+) -> Components {
     let mut out = [0; 4];
     for i in destination.mask.components() {
         let mut x = alu.scale(result[i], destination.shift);

@@ -2,8 +2,8 @@
 //! sampler unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is
 //! single precision with one rounding a step and dot products in the device's order.
 
-use super::interpreter::{Interpreter, LANES};
-use super::operation::Vector;
+use super::interpreter::Interpreter;
+use super::registers::{Components, LANES};
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::exec::{Observer, Projection, TextureRead};
 use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Version};
@@ -14,7 +14,7 @@ use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
 const ONE: u32 = 0x3f80_0000;
 
 /// One vector for each lane.
-pub(super) type Quad = [Vector; LANES];
+pub(super) type Quad = [Components; LANES];
 
 /// How a read finds its level of detail.
 pub(super) enum Detail {
@@ -76,7 +76,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Where a lane reads, single precision.
-    fn coordinates_of(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Vector {
+    fn coordinates_of(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Components {
         let own = self.coordinate_set(lane, destination.register.index);
         let Some(source) = instruction.sources.first() else {
             return self.projected(own, destination.register.index); // tex
@@ -130,12 +130,12 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Interpolated coordinate set `number`; zeros where there is none.
-    pub(super) fn coordinate_set(&self, lane: usize, number: u16) -> Vector {
+    pub(super) fn coordinate_set(&self, lane: usize, number: u16) -> Components {
         self.coordinates[lane].get(usize::from(number)).copied().unwrap_or_default()
     }
 
     /// Coordinates divided as the projection of a stage says; by zero as single precision divides.
-    fn projected(&mut self, [x, y, z, w]: Vector, stage: u16) -> Vector {
+    fn projected(&mut self, [x, y, z, w]: Components, stage: u16) -> Components {
         let unit = &mut self.address;
         match self.prepared.projection(stage) {
             Projection::None => [x, y, z, w],
@@ -145,13 +145,13 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// A register after its source modifier, converted to single precision.
-    fn in_single(&mut self, lane: usize, source: &Source) -> Vector {
+    fn in_single(&mut self, lane: usize, source: &Source) -> Components {
         let format = self.prepared.format;
         self.source(lane, source, Mask::ALL, false).map(|x| ops::convert(&format, Format::FP32, x).bits)
     }
 
     /// A coordinate operand: `t#` as interpolated, anything else converted to single precision.
-    fn address_of(&mut self, lane: usize, source: &Source) -> Vector {
+    fn address_of(&mut self, lane: usize, source: &Source) -> Components {
         if source.register.file == RegisterFile::Texture {
             let set = self.coordinate_set(lane, source.register.index);
             source.swizzle.0.map(|c| set[usize::from(c & 3)])
@@ -162,7 +162,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// The operand of `texld` and `texcrd` in ps_1_4, where `_dz` and `_dw` divide: x and y by z (w), each 1.0 where
     /// the divisor is zero; the third and fourth component, undefined on the cards, are 0 then.
-    fn selected(&mut self, lane: usize, source: &Source) -> Vector {
+    fn selected(&mut self, lane: usize, source: &Source) -> Components {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(lane, &plain);
         let divisor = match source.modifier {
@@ -177,7 +177,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// `texbem`: `u' = (u + M00*r) + M10*g`, `v' = (v + M01*r) + M11*g`, with the matrix of the destination's stage.
-    fn bumped(&mut self, lane: usize, own: Vector, source: &Source, stage: u16) -> Vector {
+    fn bumped(&mut self, lane: usize, own: Components, source: &Source, stage: u16) -> Components {
         let offset = self.in_single(lane, source);
         let m = self.prepared.bump(stage).matrix;
         let unit = &mut self.address;
@@ -192,7 +192,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// `texbeml`: all four channels times `b * scale + offset`, the factor computed in single precision with two
     /// roundings and then converted into the register format.
-    fn brightened(&mut self, lane: usize, instruction: &Instruction, stage: usize, texel: Vector) -> Vector {
+    fn brightened(&mut self, lane: usize, instruction: &Instruction, stage: usize, texel: Components) -> Components {
         let Some(source) = instruction.sources.first() else {
             return texel;
         };
@@ -205,20 +205,20 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// One row of a texture matrix: the coordinate set dotted with the source register.
-    fn row(&mut self, lane: usize, own: Vector, source: &Source) -> u32 {
+    fn row(&mut self, lane: usize, own: Components, source: &Source) -> u32 {
         let vector = self.in_single(lane, source);
         self.address.dot(&own[..3], &vector[..3])
     }
 
     /// The three rows: two padded, one new.
-    fn normal(&mut self, lane: usize, own: Vector, source: &Source) -> [u32; 3] {
+    fn normal(&mut self, lane: usize, own: Components, source: &Source) -> [u32; 3] {
         let [x, y] = self.padded[lane];
         [x, y, self.row(lane, own, source)]
     }
 
     /// The eye ray reflected at the normal: `(2 (n.e) / (n.n)) n - e`; in steps `q = dp3(n, e) / dp3(n, n)`, `q + q`,
     /// times n, minus e.
-    fn reflected(&mut self, n: [u32; 3], e: [u32; 3]) -> Vector {
+    fn reflected(&mut self, n: [u32; 3], e: [u32; 3]) -> Components {
         let unit = &mut self.address;
         let (ne, nn) = (unit.dot(&n, &e), unit.dot(&n, &n));
         let q = unit.div(ne, nn);
@@ -243,7 +243,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// Reads a texel for one lane and counts it. An unbound sampler gives (0, 0, 0, 1).
-    pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Vector {
+    pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
         let prepared = self.prepared;
         if self.covered >> lane & 1 == 1
             && let Some(count) = self.fetches.get_mut(stage)
@@ -273,13 +273,13 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         sample(Some(binding.image), &binding.state, &prepared.sample_rules, coordinates[lane], lod)
     }
 
-    fn across(&mut self, coordinates: &Quad, from: usize, to: usize) -> Vector {
+    fn across(&mut self, coordinates: &Quad, from: usize, to: usize) -> Components {
         let (a, b) = (coordinates[from], coordinates[to]);
         [0, 1, 2, 3].map(|i: usize| self.address.sub(b[i], a[i]))
     }
 
     /// `_pp` on a texture read: the texel is rounded through the partial format.
-    fn through_partial(&mut self, destination: &Destination, texel: Vector) -> Vector {
+    fn through_partial(&mut self, destination: &Destination, texel: Components) -> Components {
         let format = self.prepared.format;
         match self.prepared.rules.partial {
             Some(partial) if destination.partial_precision => texel.map(|x| {

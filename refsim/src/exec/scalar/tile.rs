@@ -73,7 +73,7 @@ impl<'a> ScalarTiles<'a> {
         observer: &mut O,
     ) -> Option<Overrun> {
         let inputs = self.inputs(triangle, quad);
-        let (results, cut_at) = self.program.run_counted(&inputs, quad.mask, &mut counts.fetches, observer);
+        let (results, cut_at) = self.program.run(&inputs, quad.mask, &mut counts.fetches, observer);
         for (lane, (result, input)) in results.iter().zip(&inputs).enumerate() {
             if quad.mask >> lane & 1 == 1 {
                 counts.generated += 1;
@@ -105,8 +105,8 @@ impl<'a> ScalarTiles<'a> {
 }
 
 impl ScalarTiles<'_> {
-    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle that does
-    /// not touch the tile may be among them. Per pixel the order of the triangles is kept.
+    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle that
+    /// does not touch the tile may be among them. Per pixel the order of the triangles is kept.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
     ///
@@ -145,7 +145,7 @@ impl PixelTracer for ScalarTiles<'_> {
         let quad = PixelQuad { x: x & !1, y: y & !1, mask: 1 << lane };
         let inputs = self.inputs(triangle, &quad);
         let mut trace = Trace::of_lane(lane);
-        let (results, cut_at) = self.program.run_counted(&inputs, quad.mask, &mut [0; SAMPLERS], &mut trace);
+        let (results, cut_at) = self.program.run(&inputs, quad.mask, &mut [0; SAMPLERS], &mut trace);
         if let Some(overrun) = overrun(&quad, &cut_at) {
             return Err(overrun);
         }

@@ -3,7 +3,7 @@
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
 use crate::device::Rules;
-use crate::exec::{CheckedProgram, Constants, NoObserver, Observer};
+use crate::exec::{CheckedProgram, Constants, Observer};
 use crate::num::{Format, ops};
 use crate::raster::Vertex;
 
@@ -34,22 +34,9 @@ impl<'a> VertexProgram<'a> {
         self
     }
 
-    /// Runs the program on the attributes `v0` to `v15`, single precision patterns.
-    pub fn run(&self, attributes: &[[u32; 4]; 16]) -> VertexResult {
-        self.run_observed(attributes, &mut NoObserver)
-    }
-
-    /// [`Self::run`] with an observer; the vertex is lane 0.
-    pub fn run_observed<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> VertexResult {
-        self.run_counted(attributes, observer).0
-    }
-
-    /// [`Self::run`], and the instruction in front of which the vertex was cut off, if it was.
-    pub(crate) fn run_counted<O: Observer>(
-        &self,
-        attributes: &[[u32; 4]; 16],
-        observer: &mut O,
-    ) -> (VertexResult, Option<usize>) {
+    /// Runs the program on the attributes `v0` to `v15`, single precision patterns; for the observer the vertex is lane
+    /// 0. Gives also the instruction in front of which the vertex was cut off, if it was.
+    pub fn run<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> (VertexResult, Option<usize>) {
         let format = self.prepared.format;
         let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
         run.lanes[0].input = attributes.map(|v| v.map(|x| ops::convert(&Format::FP32, format, x).bits));

@@ -131,8 +131,9 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
 
     /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and saturated; anything if `d` is zero.
     ///
-    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and the
-    /// double errs by one in `2^22` at most: it rounds as the quotient does. Clamping first keeps the integer small.
+    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
+    /// the double errs by one in `2^22` at most: it rounds as the quotient does. Clamping first keeps the integer
+    /// small.
     #[inline(always)]
     fn quotient(&self, n: i32, d: i32) -> i32 {
         /// Adding it leaves the nearest integer, ties to even, in the low bits of a double.

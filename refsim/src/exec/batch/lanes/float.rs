@@ -10,11 +10,11 @@ use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 pub(crate) const HOST: u8 = 0;
 /// Through one `f32` operation and a second rounding, nearest even only.
 ///
-/// Rounding twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits (Figueroa 1995, "When is
-/// double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is subnormal, because the argument is
-/// about the distance between a result and a midpoint of at most `p + 1` bits, and subnormal midpoints have
-/// fewer. The wide result must not be subnormal itself: with six exponent bits and ten mantissa bits the
-/// smallest product is 2^-80.
+/// Rounding twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits (Figueroa 1995, "When
+/// is double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is subnormal, because the
+/// argument is about the distance between a result and a midpoint of at most `p + 1` bits, and subnormal midpoints have
+/// fewer. The wide result must not be subnormal itself: with six exponent bits and ten mantissa bits the smallest
+/// product is 2^-80.
 pub(crate) const SINGLE: u8 = 1;
 /// Through a double, rounded to odd: every format, every rounding.
 pub(crate) const DOUBLE: u8 = 2;
@@ -25,8 +25,8 @@ pub(crate) const HOST_NV: u8 = 3;
 /// Rounding decided at run time.
 pub(crate) const ANY: u8 = 4;
 
-/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`HOST_NV`]; `R` is a [`Rounding`] as a
-/// number, or [`ANY`].
+/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`HOST_NV`]; `R` is a
+/// [`Rounding`] as a number, or [`ANY`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     rounding: u8,
@@ -35,7 +35,8 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     flush: f64,
     /// `2^(52 - m)`: a binade times this is the number to round against.
     magic: f64,
-    /// Largest finite number, and what larger ones become, by sign; the same for exact magnitudes of `2^(emax+1)` and more.
+    /// Largest finite number, and what larger ones become, by sign; the same for exact magnitudes of `2^(emax+1)` and
+    /// more.
     max: f64,
     over: [f32; 2],
     huge_from: f64,
@@ -175,8 +176,9 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if mag < f32::INFINITY { fits } else { x }
     }
 
-    /// A host result under NV30's overflow: infinite only if the exact one is `2^128` or more. As a double the exact one is no smaller than
-    /// that unless it really is: products have 48 bits, and what a sum of two singles lacks to `2^128` is a multiple of `2^80`.
+    /// A host result under NV30's overflow: infinite only if the exact one is `2^128` or more. As a double the exact
+    /// one is no smaller than that unless it really is: products have 48 bits, and what a sum of two singles lacks to
+    /// `2^128` is a multiple of `2^80`.
     #[inline(always)]
     fn below_huge(&self, x: f32, exact: f64) -> f32 {
         let over = if exact < 0.0 { self.over[1] } else { self.over[0] };

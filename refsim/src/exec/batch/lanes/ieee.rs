@@ -16,10 +16,11 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 /// - [`DOUBLE`]: in `f64`, for all the others.
 ///
 /// Rounding twice is innocuous in all of them. Let `p` be the significant bits of the format and `q` those of the host.
-/// Products have `2p <= q` bits: exact. Sums: `q >= 2p + 2` (Figueroa 1995). Quotients: what decides a rounding is a number
-/// `k u`, `k < 2^(p+1)`, between neighbours, subnormal ones included, or one of them; a quotient `A/B` of integers below `2^p`
-/// that differs from it does so by at least one part in `k B < 2^(2p+1) < 2^q`, so the host's quotient stays on its side.
-/// A host never overflows or underflows where the format doesn't: it has the exponents to spare.
+/// Products have `2p <= q` bits: exact. Sums: `q >= 2p + 2` (Figueroa 1995). Quotients: what decides a rounding is a
+/// number `k u`, `k < 2^(p+1)`, between neighbours, subnormal ones included, or one of them; a quotient `A/B` of
+/// integers below `2^p` that differs from it does so by at least one part in `k B < 2^(2p+1) < 2^q`, so the host's
+/// quotient stays on its side. A host never overflows or underflows where the format doesn't: it has the exponents to
+/// spare.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
     /// The same arithmetic the long way: conversions, and whatever is rare.
@@ -66,9 +67,9 @@ impl<const PATH: u8> IeeeLane<PATH> {
 
     /// Rounds a single precision number into the format.
     ///
-    /// Half again of a power of two `2^(23-m)` times the binade is added and taken away: the sum stays in one binade whatever
-    /// the sign, and has the format's unit in its last place. A zero takes the sign of what became zero. Infinities
-    /// and NaN come through: their pivot is some finite number.
+    /// Half again of a power of two `2^(23-m)` times the binade is added and taken away: the sum stays in one binade
+    /// whatever the sign, and has the format's unit in its last place. A zero takes the sign of what became zero.
+    /// Infinities and NaN come through: their pivot is some finite number.
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {
         let bits = x.to_bits();

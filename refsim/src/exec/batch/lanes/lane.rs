@@ -5,11 +5,11 @@ use std::fmt::Debug;
 /// Lanes of a batch: the fragments of one 16x16 tile, lane `16 y + x`.
 pub(crate) const LANES: usize = 256;
 
-/// All lanes of one value. What the 32 bits mean is the business of whoever reads them: host bits of a lane
-/// arithmetic's numbers, a mask (0 or all ones), an integer.
+/// All lanes of one value: raw numbers of a format, masks (0 or all ones) or integers, as the operation that reads them
+/// takes them.
 pub(crate) type LaneRow = [u32; LANES];
 
-/// The arithmetic of one number format, written a lane at a time.
+/// The arithmetic of one number format on single lanes.
 ///
 /// Every method is the exact real result rounded once into the format, as `refsim::num` defines it; none of the
 /// code is shared with `num`, so that agreement of the two proves something. The methods that matter for speed

@@ -1,11 +1,11 @@
 //! Exact real results squeezed into a double without losing what a later rounding needs: rounding to odd.
 //!
 //! A real number is rounded to odd by truncating it and setting the last bit if anything was cut off. Rounding that
-//! once more into a format of `p` bits, in any direction, gives what rounding the real number itself gives, as
-//! long as the intermediate has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums:
-//! proved algorithms using rounding to odd", theorem 2). A double has 53 bits and no format here more than 24; and no result of
-//! two such operands leaves the exponent range of a double. So every arithmetic operation below is done in doubles and
-//! its error, known exactly, moves the last bit.
+//! once more into a format of `p` bits, in any direction, gives what rounding the real number itself gives, as long as
+//! the intermediate has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved
+//! algorithms using rounding to odd", theorem 2). A double has 53 bits and no format here more than 24; and no result
+//! of two such operands leaves the exponent range of a double. So every arithmetic operation below is done in doubles
+//! and its error, known exactly, moves the last bit.
 
 /// The sign bit of a double.
 pub(crate) const SIGN: u64 = 1 << 63;
@@ -50,8 +50,8 @@ pub(crate) fn head(x: f64) -> f64 {
 
 /// `a / b` rounded to odd, for `a`, `b` of at most 24 significant bits.
 ///
-/// The quotient is cut to 26 bits, so that `q b` has at most 50 and is exact, and so is `a - q b` (it is a multiple of a unit
-/// that it exceeds by less than 2^27). The sign of that remainder says on which side of `q` the truth lies.
+/// The quotient is cut to 26 bits, so that `q b` has at most 50 and is exact, and so is `a - q b` (it is a multiple of
+/// a unit that it exceeds by less than 2^27). The sign of that remainder says on which side of `q` the truth lies.
 #[inline(always)]
 pub(crate) fn div_odd(a: f64, b: f64) -> f64 {
     let quotient = a / b;
@@ -63,11 +63,11 @@ pub(crate) fn div_odd(a: f64, b: f64) -> f64 {
     if finite { odd(q, e) } else { quotient }
 }
 
-/// `a / b` rounded to odd to all 53 bits, for finite `a`, `b` of at most 24 significant bits, `b` not 0: what fixed-point
-/// formats of more than 24 bits need.
+/// `a / b` rounded to odd to all 53 bits, for finite `a`, `b` of at most 24 significant bits, `b` not 0: what
+/// fixed-point formats of more than 24 bits need.
 ///
-/// The quotient is split into 26 and 27 bits, whose products with `b` are exact. What is left of `a` is a multiple of the
-/// unit of the smaller product and less than `b` of them, so both differences are exact too.
+/// The quotient is split into 26 and 27 bits, whose products with `b` are exact. What is left of `a` is a multiple of
+/// the unit of the smaller product and less than `b` of them, so both differences are exact too.
 #[inline(always)]
 pub(crate) fn div_odd_long(a: f64, b: f64) -> f64 {
     let q = a / b;

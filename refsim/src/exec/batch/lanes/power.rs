@@ -1,9 +1,11 @@
 //! `2^x` and `log2 x`, rounded to odd into a double: the batch executor's own way, in 128-bit fixed point.
 //!
-//! Both are irrational wherever they aren't obviously exact (an integer exponent, a power of two), so the true value is never
-//! on a boundary between two roundings; the evaluations below are good to 2^-95 or better, and operands have at
+//! Both are irrational wherever they aren't obviously exact (an integer exponent, a power of two), so the true value is
+//! never on a boundary between two roundings; the evaluations below are good to 2^-95 or better, and operands have at
 //! most 32 bits, of which no result comes nearer than about 2^-75 to a boundary unless chance has been unkind by a
 //! factor of a million. The full proof run compares every operand of every format of 16 bits.
+
+use crate::exec::lower::pow2;
 
 /// ln 2 in units of 2^-128.
 const LN2: u128 = 0xb172_17f7_d1cf_79ab_c9e3_b398_03f2_f6af;
@@ -36,7 +38,7 @@ pub(crate) fn exp2(x: f64) -> f64 {
         return f64::from_bits((1023 - 900) << 52 | 1);
     }
     if x == x.floor() {
-        return f64::from_bits(((x as i64 + 1023) as u64) << 52);
+        return pow2(x as i32);
     }
     if x.abs() < TINY {
         // 1 + x ln 2 + ...: no format has a boundary so near to 1.

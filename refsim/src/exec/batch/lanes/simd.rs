@@ -1,5 +1,5 @@
-//! Which vector instructions of the host the batch executor uses. No level changes a bit; the narrower ones exist so that
-//! this can be tested on one machine.
+//! Which vector instructions of the host the batch executor uses. No level changes a bit; the narrower ones exist so
+//! that this can be tested on one machine.
 
 use multiversion::multiversion;
 
@@ -57,8 +57,8 @@ impl SimdLevel {
         self == Self::Baseline
     }
 
-    /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must be
-    /// `#[inline(always)]` to be compiled for the level at all.
+    /// Runs `work` compiled for this level, or for what the processor has of it. The closure, and what it calls, must
+    /// be `#[inline(always)]` to be compiled for the level at all.
     #[inline(always)]
     pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
         match self {

@@ -1,5 +1,5 @@
 //! Texture reads of a batch: whole rows of nearest texels out of a table where that is all there is to do, the texture
-//! room's own functions a lane at a time otherwise.
+//! room's own functions per lane otherwise.
 
 use std::sync::Arc;
 
@@ -19,8 +19,9 @@ use crate::texture::{
 };
 
 /// Texels of the largest image that gets a table: 4 MiB of it. Those of larger ones are decoded as they are read.
-const LARGEST_TABLE: usize = 1 << 18;
-/// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded once.
+const MAX_TABLE_TEXELS: usize = 1 << 18;
+/// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded
+/// once.
 const FEW_TEXELS: usize = 1024;
 /// Coordinates from here on are even integers and address alike: stands for the larger ones.
 const FAR: f64 = 16_777_216.0;
@@ -30,19 +31,20 @@ const FAR: f64 = 16_777_216.0;
 pub(crate) struct BatchTexture<'a> {
     binding: SamplerBinding<'a>,
     rules: SampleRules,
-    table: Option<Arc<Table>>,
+    table: Option<Arc<TexelTable>>,
 }
 
 /// What a table is made from: the name of the texture's contents, the sampler's state, the device's rules.
 pub(crate) type TableKey = (u64, SamplerState, SampleRules);
 
 /// The tables last used, of textures whose contents have a name, which changes with them.
-pub(crate) type TextureTables = Cache<TableKey, Table>;
+pub(crate) type TextureTables = Cache<TableKey, TexelTable>;
 
 /// A plane that is read in rows.
 #[derive(Debug)]
-pub(crate) struct Table {
-    /// All texels in the register format, as slots hold them, the border texel last; of a large image the border texel alone.
+pub(crate) struct TexelTable {
+    /// All texels in the register format, as slots hold them, the border texel last; of a large image the border texel
+    /// alone.
     texels: Vec<[u32; 4]>,
     large: bool,
     width: u32,
@@ -55,8 +57,8 @@ pub(crate) struct Table {
 impl<'a> BatchTexture<'a> {
     /// Prepares the texture of a sampler.
     pub(crate) fn new(binding: SamplerBinding<'a>, rules: SampleRules, lane: &AnyLane, tables: &TextureTables) -> Self {
-        let fit = Table::fits(&binding);
-        let make = || Table::new(&binding, &rules, lane);
+        let fit = TexelTable::fits(&binding);
+        let make = || TexelTable::new(&binding, &rules, lane);
         let table = fit.then(|| match binding.image.contents_name() {
             Some(name) if !is_large(binding.image) => {
                 let key = (name, binding.state, rules);
@@ -137,7 +139,7 @@ impl<'a> BatchTexture<'a> {
     }
 }
 
-impl Table {
+impl TexelTable {
     /// Whether a binding can be read out of a table.
     fn fits(binding: &SamplerBinding<'_>) -> bool {
         let image = binding.image;
@@ -191,8 +193,8 @@ impl Table {
 
 /// Texel numbers along one axis; -1 for the border.
 ///
-/// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of less
-/// than 2^15 can't be rounded up to an integer that it doesn't reach.
+/// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of
+/// less than 2^15 can't be rounded up to an integer that it doesn't reach.
 #[inline(always)]
 fn axis(coordinate: &LaneRow, scale: f64, size: u32, mode: AddressMode, out: &mut [i32; LANES]) {
     let n = f64::from(size);
@@ -211,7 +213,8 @@ fn axis(coordinate: &LaneRow, scale: f64, size: u32, mode: AddressMode, out: &mu
     }
 }
 
-/// Texel numbers of a rectangle's axis, clamped: coordinates are positions, and singles hold what becomes of them exactly.
+/// Texel numbers of a rectangle's axis, clamped: coordinates are positions, and singles hold what becomes of them
+/// exactly.
 #[inline(always)]
 fn clamped(coordinate: &LaneRow, size: u32, out: &mut [i32; LANES]) {
     // Less than 2^24, so exact.
@@ -239,7 +242,7 @@ fn each(coordinate: &LaneRow, scale: f64, out: &mut [i32; LANES], number: impl F
 
 /// Whether a table of an image's texels would be too large.
 fn is_large(image: &Image) -> bool {
-    image.width() as usize * image.height() as usize > LARGEST_TABLE
+    image.width() as usize * image.height() as usize > MAX_TABLE_TEXELS
 }
 
 /// All texels of level 0 in the register format, as slots hold them, row by row.

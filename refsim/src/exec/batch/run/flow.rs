@@ -5,7 +5,7 @@ use super::steps::{Surroundings, run_steps};
 use crate::event::SAMPLERS;
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::exec::batch::schedule::{FlowPlan, PlannedInstruction};
-use crate::exec::budget::LOOP_LIMIT;
+use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
 use crate::isa::{Opcode, OpcodeClass};
 
@@ -16,7 +16,7 @@ enum OpenBlock {
     Call { restore: Box<LaneRow>, back: usize },
 }
 
-/// Looks on while a program runs: called around every instruction but flow control. The default does nothing.
+/// Called around every executed instruction but flow control. The default does nothing.
 pub(crate) trait FlowObserver {
     /// An instruction is about to run.
     fn before(&mut self, _at: usize, _slots: &Slots) {}
@@ -24,7 +24,7 @@ pub(crate) trait FlowObserver {
     fn after(&mut self, _at: usize, _slots: &Slots) {}
 }
 
-/// Nobody looks on.
+/// Observes nothing.
 struct NoFlowObserver;
 
 impl FlowObserver for NoFlowObserver {}
@@ -41,7 +41,7 @@ pub(crate) struct FlowRun<'p> {
     pub(crate) executed: u64,
     /// Steps of each lane, where a budget is enforced.
     steps: Option<Box<LaneRow>>,
-    /// Lanes that were cut off for want of steps, and the instruction in front of which.
+    /// Lanes that were cut off by the step budget, and the instruction in front of which.
     pub(crate) cut: Vec<(usize, usize)>,
 }
 
@@ -72,7 +72,7 @@ impl<'p> FlowRun<'p> {
         self.run_watched(slots, fetches, &mut NoFlowObserver);
     }
 
-    /// [`Self::run`] with somebody looking on.
+    /// [`Self::run`] with an observer.
     pub(crate) fn run_watched(
         &mut self,
         slots: &mut Slots,
@@ -120,7 +120,8 @@ impl<'p> FlowRun<'p> {
         }
     }
 
-    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step left.
+    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step
+    /// left.
     fn charge(&mut self, at: usize, slots: &mut Slots) {
         let (Some(steps), Some(budget)) = (&mut self.steps, self.plan.budget) else { return };
         let mut cut = [0; LANES];
@@ -214,7 +215,7 @@ impl<'p> FlowRun<'p> {
 
     fn enter_loop(&mut self, at: usize, target: usize, instruction: &PlannedInstruction, slots: &mut Slots) -> usize {
         let [count, start, step, _] = instruction.counter;
-        let left = count.clamp(0, LOOP_LIMIT);
+        let left = count.clamp(0, MAX_LOOP_PASSES);
         if left == 0 || !any(slots.row(ACTIVE)) {
             return target + 1;
         }

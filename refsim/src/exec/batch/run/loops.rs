@@ -1,7 +1,7 @@
 //! Loops over rows: a function of lanes carried out in all of them.
 //!
-//! Every row comes in as an argument of its own, so that the compiler knows the result to be apart from the operands: behind
-//! a box or in a slice of rows it doesn't, and makes no vector code.
+//! Every row comes in as an argument of its own, so that the compiler knows the result to be apart from the operands:
+//! behind a box or in a slice of rows it doesn't, and makes no vector code.
 
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, Lane, LaneRow};

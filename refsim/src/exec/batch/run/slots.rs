@@ -1,5 +1,5 @@
-//! Where a batch keeps its values: one array of 256 lanes for each component that is live, and plain numbers for what is
-//! the same in all lanes.
+//! Where a batch keeps its values: one array of 256 lanes for each component that is live, and plain numbers for what
+//! is the same in all lanes.
 
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::exec::lower::Slot;
@@ -55,7 +55,7 @@ impl Slots {
         }
     }
 
-    /// Says that nobody reads a slot as a row.
+    /// Marks a slot that is read only as a number, never as a row.
     pub(crate) fn without_row(&mut self, slot: Slot) {
         self.as_rows[usize::from(slot)] = false;
     }
@@ -79,8 +79,8 @@ impl Slots {
         self.row_mut(slot).fill(raw);
     }
 
-    /// As [`Slots::fill`], for a slot of a given value, which nothing else writes: cheap where it holds the value already, and
-    /// where nobody reads the row.
+    /// As [`Slots::fill`], for a slot of a given value, which nothing else writes: cheap where it holds the value
+    /// already, and where the row is not read.
     pub(crate) fn give(&mut self, slot: Slot, raw: u32) {
         let i = usize::from(slot);
         if self.values[i] != raw {

@@ -49,7 +49,8 @@ impl<'a> Stored<'a> {
         Self { bytes, texels, size: image.format().bytes(), components, rules }
     }
 
-    /// Reads the texels of these numbers; beyond the last lies the border, if there is one. Lanes that do not run are 0.
+    /// Reads the texels of these numbers; beyond the last lies the border, if there is one. Lanes that do not run are
+    /// 0.
     pub(crate) fn read(
         &self,
         index: &LaneRow,

@@ -82,8 +82,8 @@ pub(crate) struct StepBlock {
 
 /// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
 ///
-/// Slots below `first_slot` belong to the caller, who has put the nodes of `placed` there. Temporary slots are used again as soon as their value is read for
-/// the last time; constants, inputs, given values and roots keep theirs.
+/// Slots below `first_slot` belong to the caller, who has put the nodes of `placed` there. Temporary slots are used
+/// again as soon as their value is read for the last time; constants, inputs, given values and roots keep theirs.
 pub(crate) fn schedule(
     graph: &Graph,
     roots: &[NodeId],
@@ -343,7 +343,7 @@ pub(crate) struct ResultSlots {
 }
 
 impl ResultSlots {
-    /// Whether the interpolated depth is of no interest.
+    /// Whether the program decides the depth of every fragment.
     pub(crate) fn decide_depth(&self) -> bool {
         matches!(self.depth, Some((_, _, None)))
     }

@@ -90,13 +90,12 @@ impl FlowPlan {
         let code = program.instructions.iter().zip(parts).map(|(instruction, part)| {
             let block = schedule(&t.make.graph, &part.roots, |_| false, &placed, next.into());
             slots = slots.max(block.slots);
-            let cost = instruction.opcode.info().slot_cost(program.version);
             PlannedInstruction {
                 opcode: instruction.opcode,
                 block,
                 to: part.to,
                 sampler: part.sampler,
-                cost: u64::from(cost.arithmetic) + u64::from(cost.texture),
+                cost: instruction.opcode.info().slot_cost(program.version).total().into(),
                 counter: loop_counter(instruction, constants),
             }
         });

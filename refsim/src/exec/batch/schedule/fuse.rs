@@ -1,5 +1,5 @@
-//! Which nodes are computed as part of another: sums of products, and operands that are the same in all lanes. A row that
-//! is not made is neither stored nor loaded, nor is a number copied into 256 lanes to be multiplied with.
+//! Which nodes are computed as part of another: sums of products, and operands that are the same in all lanes. A row
+//! that is not made is neither stored nor loaded, nor is a number copied into 256 lanes to be multiplied with.
 
 use std::collections::BTreeMap;
 
@@ -50,8 +50,8 @@ pub(crate) struct Fusion<'g> {
 }
 
 impl<'g> Fusion<'g> {
-    /// Decides for the nodes that `roots` need. Those that are `given` are not computed here; those that are `shared`, and
-    /// constants, are the same in all lanes.
+    /// Decides for the nodes that `roots` need. Those that are `given` are not computed here; those that are `shared`,
+    /// and constants, are the same in all lanes.
     pub(crate) fn new(
         graph: &'g Graph,
         roots: &[NodeId],

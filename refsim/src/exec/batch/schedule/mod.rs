@@ -1,6 +1,7 @@
 //! From a graph of values to steps on slots.
 //!
-//! - `fuse`, `block`: a graph as steps, without what nothing reads, and with what only one operation reads as part of that.
+//! - `fuse`, `block`: a graph as steps, without what nothing reads, and with what only one operation reads as part of
+//!   that.
 //! - `straight`, `flow`: whole programs without and with flow control; `code`: what steps consist of.
 
 mod block;

@@ -1,10 +1,10 @@
 //! Pixel programs without flow control: one graph, scheduled as three blocks.
 //!
-//! What is the same all over a triangle (attributes that are, and whatever is computed from them and constants) is
-//! computed for 256 triangles at a time, a triangle a lane. What depends on nothing of that kind, only on the place in the
-//! tile (coordinates that vary, texels read at them), is computed for 256 fragments, and kept for as long as triangles
-//! have the same planes there: the crossbar reads its rays once a tile, not once a quad. The rest is computed for 256
-//! fragments of each triangle.
+//! - What is constant over a triangle (attributes that are, and what follows from them and constants) is computed for 256
+//!   triangles at a time, one lane per triangle.
+//! - What depends only on the place in the tile (coordinates that vary, texels read at them) is computed for 256 fragments
+//!   and kept as long as triangles have the same planes there: the crossbar reads its rays once per tile, not per quad.
+//! - The rest is computed for 256 fragments of each triangle.
 
 use std::collections::BTreeMap;
 
@@ -31,10 +31,11 @@ pub(crate) struct StraightProgram {
 pub(crate) struct StraightPlan {
     /// For 256 triangles: inputs are constant components, roots the values that the other block is given.
     pub(crate) uniform: StepBlock,
-    /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they are
-    /// while `varying` runs.
+    /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they
+    /// are while `varying` runs.
     pub(crate) invariant: StepBlock,
-    /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of `uniform.roots`.
+    /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of
+    /// `uniform.roots`.
     pub(crate) varying: StepBlock,
     pub(crate) results: ResultSlots,
 }

@@ -1,5 +1,5 @@
-//! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets of
-//! signed or small float channels) goes through the output room, fragment by fragment.
+//! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets
+//! of signed or small float channels) goes through the output room, fragment by fragment.
 
 use super::store::{Survivors, quantise, write_lane, write_rows};
 use super::targets::Targets;

@@ -1,5 +1,5 @@
-//! Rasterisation of a triangle within a tile: coverage by the exact edge functions, interpolation in host single precision,
-//! step by step as the raster room defines it.
+//! Rasterisation of a triangle within a tile: coverage by the exact edge functions, interpolation in host single
+//! precision, step by step as the raster room defines it.
 
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel};
 use crate::exec::lower::TRUE;
@@ -7,8 +7,8 @@ use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;
 
-/// The shape of a tile of 256 pixels. In the first two the lanes of a quad differ in bits 0 (across) and 4 (down); in the last quads have
-/// no second row, so only programs that do not look at neighbours can be run in it.
+/// The shape of a tile of 256 pixels. In the first two the lanes of a quad differ in bits 0 (across) and 4 (down); in
+/// the last quads have no second row, so only programs that do not look at neighbours can be run in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum TileShape {
     /// 16 x 16.
@@ -35,8 +35,8 @@ pub(crate) struct TileFrame {
 }
 
 impl TileFrame {
-    /// The tile around a region that fits one: a flat one if it does not fit a square one, a line if it does not fit a flat one. Where it
-    /// fits square and flat ones, the lanes are the same.
+    /// The tile around a region that fits one: a flat one if it does not fit a square one, a line if it does not fit a
+    /// flat one. Where it fits square and flat ones, the lanes are the same.
     pub(crate) fn around(region: Region) -> Self {
         let (shape, height) = match () {
             () if (region.x & 15) + region.width <= 16 => (TileShape::Square, 16),

@@ -2,8 +2,8 @@
 //! before left in rows used again where it still holds.
 //!
 //! A *part* is a run of triangles that share their constant components and cover no pixel of the tile twice: the two
-//! halves of a quad, or neighbours of a mesh. Lanes are independent, so one pass of the program serves all of them, each
-//! lane with the components of the triangle that covers it. Bits and counts are those of the triangles one by one.
+//! halves of a quad, or neighbours of a mesh. Lanes are independent, so one pass of the program serves all of them,
+//! each lane with the components of the triangle that covers it. Bits and counts are those of the triangles one by one.
 
 use super::raster::{TileFrame, TileShape, TileWeights, cover, lay_over, quads};
 use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, SimdLevel};
@@ -14,7 +14,7 @@ use crate::raster::Plane;
 use crate::texture::Region;
 
 /// Triangles in a part at most.
-const MOST_MEMBERS: usize = 16;
+const MAX_MEMBERS: usize = 16;
 
 /// A triangle of a part, within the tile.
 #[derive(Debug)]
@@ -56,12 +56,12 @@ pub(crate) struct InputSlots {
     pub(crate) position: Vec<(usize, Slot)>,
 }
 
-/// How triangles are to be taken.
+/// How triangles are grouped into parts, and what is computed for them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartMode {
     /// Whether triangles may share a pass.
     pub(crate) together: bool,
-    /// Whether anybody reads the interpolated depth.
+    /// Whether the interpolated depth is read.
     pub(crate) depth: bool,
     /// The components that are constant over every triangle, which the program is given by triangle.
     pub(crate) given: u64,
@@ -224,7 +224,7 @@ impl TileShader {
 /// How many of the first triangles are one after the other in the draw and share their constant components.
 fn joined(surfaces: &Surfaces, order: &[u32]) -> usize {
     let joins = |pair: &[u32]| pair[1] == pair[0] + 1 && surfaces.joins.get(pair[1] as usize) == Some(&true);
-    let more = order.windows(2).take(MOST_MEMBERS - 1).take_while(|pair| joins(pair)).count();
+    let more = order.windows(2).take(MAX_MEMBERS - 1).take_while(|pair| joins(pair)).count();
     (1 + more).min(order.len())
 }
 
@@ -235,8 +235,8 @@ fn plane(surfaces: &Surfaces, row: usize, planes: u32) -> (Plane, bool) {
     (row.plane(planes), constant)
 }
 
-/// Whether two triangles of one shape have the same components, but for those that are `given`. What is constant over both
-/// but not over all triangles lies in rows like what varies, and must be equal like it.
+/// Whether two triangles of one shape have the same components, but for those that are `given`. What is constant over
+/// both but not over all triangles lies in rows like what varies, and must be equal like it.
 fn same_inputs(surfaces: &Surfaces, (a, b): (u32, u32), given: u64) -> bool {
     let constant = |planes: u32| surfaces.constant.get(planes as usize).copied().unwrap_or_default();
     constant(a) == constant(b)

@@ -166,8 +166,8 @@ pub(crate) fn quantise(
     }
 }
 
-/// A fixed-point value `k / 2^F` of [0, 1] is `k 2^(n-F)` steps of `1 / (2^n - 1)`, less the fraction `k / 2^F`: one less
-/// where that is more than what rounding makes up for.
+/// A fixed-point value `k / 2^F` of [0, 1] is `k 2^(n-F)` steps of `1 / (2^n - 1)`, less the fraction `k / 2^F`: one
+/// less where that is more than what rounding makes up for.
 #[inline(always)]
 fn fixed_to_steps(row: &LaneRow, frac: u32, bits: u32, nearest: bool, out: &mut LaneRow) {
     let one = 1i32 << frac;

@@ -1,5 +1,5 @@
-//! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words. They
-//! stay in the first-level cache while all triangles of the tile go by, and are copied back once.
+//! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words.
+//! They stay in the first-level cache while all triangles of the tile go by, and are copied back once.
 
 use super::raster::TileFrame;
 use crate::exec::batch::lanes::{LANES, LaneRow};

@@ -1,18 +1,16 @@
 //! The batch executor on a tile: part after part, all 256 fragments at once.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::decoded::{DecodedPixel, PixelCode, PixelPrograms, decoded, plan};
 use super::output::{OutputStage, Shaded};
 use super::raster::TileFrame;
 use super::shader::{InputSlots, PartMode, TileShader};
 use super::store::Survivors;
 use super::targets::Targets;
-use crate::device::Rules;
-use crate::event::{FragmentCounts, SAMPLERS};
-use crate::exec::batch::cache::{Cache, Pool};
+use crate::event::FragmentCounts;
 use crate::exec::batch::lanes::{LANES, LaneFormats, SimdLevel};
 use crate::exec::batch::run::{
     BatchTexture, FlowRun, Slots, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants, run_steps,
@@ -21,13 +19,10 @@ use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPla
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
-use crate::exec::{
-    BUMP_STAGES, BumpStage, Overrun, Projection, ResolvedConstants, TileDraw, colors_written, inputs_read, sample_rules,
-};
-use crate::isa::Program;
+use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, sample_rules};
 use crate::output::{DepthFormat, TargetTile};
 use crate::raster::{ComponentMask, POSITION_COMPONENT, TriangleSetup};
-use crate::texture::{Region, TextureKind};
+use crate::texture::Region;
 
 /// Triangles whose constants are computed sooner than a worker is woken up.
 const FEW: usize = 4 * LANES;
@@ -43,21 +38,6 @@ pub struct BatchTiles<'a> {
     output: OutputStage,
     inputs: ComponentMask,
     program: Arc<DecodedPixel>,
-}
-
-/// A decoded program, and workers' rows that are not in use, by the constant components of their plan.
-#[derive(Debug)]
-pub(crate) struct DecodedPixel {
-    code: PixelCode,
-    shaders: Pool<(u64, TileShader)>,
-    uniforms: Pool<(u64, Slots)>,
-}
-
-#[derive(Debug)]
-enum PixelCode {
-    /// Scheduled once for each set of constant components that turns up.
-    Straight(StraightProgram, Mutex<BTreeMap<u64, Arc<StraightPlan>>>),
-    Flow(FlowPlan),
 }
 
 /// Some triangles of a draw, with what is computed for them before tiles are walked.
@@ -88,9 +68,9 @@ impl TileRound<'_> {
 }
 
 impl<'a> BatchTiles<'a> {
-    /// Prepares a draw: decodes the program and the textures, or finds them decoded. `None` if the program has more values
-    /// than there are slots, or if no fragment can end within the step budget: only the scalar executor counts the steps of
-    /// programs without flow control.
+    /// Prepares a draw: decodes the program and the textures, or finds them decoded. `None` if the program has more
+    /// values than there are slots, or if no fragment can end within the step budget: only the scalar executor counts
+    /// the steps of programs without flow control.
     pub(crate) fn new(
         draw: &TileDraw<'a>,
         (programs, tables): (&PixelPrograms, &TextureTables),
@@ -146,7 +126,7 @@ impl<'a> BatchTiles<'a> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, a triangle a lane.
+    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, one lane per triangle.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> TileRound<'s> {
         let constant = surfaces.all_constant() & self.inputs.0;
         let (code, given) = match &self.program.code {
@@ -207,7 +187,7 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
-    /// Up to `hands` workers shade at a time; that changes nothing but the time it takes.
+    /// Up to `workers` threads shade at a time; that changes nothing but the time it takes.
     ///
     /// Returns what became of the fragments; helper lanes are not counted.
     ///
@@ -218,7 +198,7 @@ impl<'a> BatchTiles<'a> {
         round: &TileRound<'_>,
         order: &[u32],
         tile: &mut TargetTile,
-        hands: usize,
+        workers: usize,
     ) -> Result<FragmentCounts, Overrun> {
         let region = tile.region;
         let depth = tile.depth.as_ref().map(|buffer| buffer.format);
@@ -226,8 +206,8 @@ impl<'a> BatchTiles<'a> {
         let mut counts;
         // What shading leaves is kept as fragments until it is their turn: worth it where most are killed.
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
-        if hands > 1 && few_left && order.len() >= FEWEST_SHARED * hands {
-            let share = order.len().div_ceil(hands).next_multiple_of(2);
+        if workers > 1 && few_left && order.len() >= FEWEST_SHARED * workers {
+            let share = order.len().div_ceil(workers).next_multiple_of(2);
             let (own, others) = order.split_at(share.min(order.len()));
             let mut rest: Vec<_> =
                 others.chunks(share).map(|part| (part, Vec::new(), Ok(FragmentCounts::default()))).collect();
@@ -381,61 +361,4 @@ pub(crate) fn overrun(cut: &[(usize, usize)], frame: TileFrame, triangle: u32) -
         Overrun { triangle, y, x, instruction }
     };
     cut.iter().map(of).min()
-}
-
-/// What decoding depends on.
-#[derive(Debug)]
-pub(crate) struct PixelKey {
-    program: Program,
-    rules: Rules,
-    constants: ResolvedConstants,
-    budget: u32,
-    /// Of bound textures: whether reads need a level of detail, and the kind.
-    samplers: [Option<(bool, TextureKind)>; SAMPLERS],
-    bump: [BumpStage; BUMP_STAGES],
-    projections: [Projection; BUMP_STAGES],
-}
-
-/// The pixel programs last used.
-pub(crate) type PixelPrograms = Cache<PixelKey, DecodedPixel>;
-
-/// A pixel program, decoded now or before.
-fn decoded(
-    programs: &PixelPrograms,
-    program: &Program,
-    draw: &TileDraw<'_>,
-    constants: &ResolvedConstants,
-) -> Arc<DecodedPixel> {
-    let (rules, bindings) = (draw.rules, &draw.bindings);
-    let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
-    let matches = |key: &PixelKey| {
-        key.samplers == samplers
-            && key.bump == bindings.bump
-            && key.projections == bindings.projections
-            && key.budget == draw.step_budget
-            && key.program == *program
-            && key.constants == *constants
-            && key.rules == *rules
-    };
-    programs.get(matches, || {
-        let (program, constants, formats) = (program.clone(), constants.clone(), Formats::pixel(rules));
-        let code = if has_flow(&program) {
-            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings, draw.step_budget))
-        } else {
-            PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
-        };
-        let (bump, projections, budget) = (bindings.bump, bindings.projections, draw.step_budget);
-        let key = PixelKey { program, rules: rules.clone(), constants, budget, samplers, bump, projections };
-        (key, DecodedPixel { code, shaders: Pool::default(), uniforms: Pool::default() })
-    })
-}
-
-/// The plan for triangles with these constant components, made once.
-fn plan(
-    program: &StraightProgram,
-    plans: &Mutex<BTreeMap<u64, Arc<StraightPlan>>>,
-    constant: u64,
-) -> Arc<StraightPlan> {
-    let mut plans = plans.lock().unwrap_or_else(PoisonError::into_inner);
-    Arc::clone(plans.entry(constant).or_insert_with(|| Arc::new(program.plan(ComponentMask(constant)))))
 }

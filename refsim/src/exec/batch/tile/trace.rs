@@ -18,13 +18,13 @@ use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, schedule};
 use crate::exec::lower::{
     ACTIVE, Arith, Effect, Ends, Formats, NodeId, Slot, Translator, has_flow, of_file, translate_straight,
 };
-use crate::exec::trace::{as_written, canonical};
+use crate::exec::trace::{as_written, canonical, makes_step, written_mask};
 use crate::exec::usage::registers_delivered;
 use crate::exec::{
     DepthValue, FragmentResult, Overrun, PixelTracer, ResolvedConstants, Shading, Step, TileDraw, inputs_read,
     sample_rules,
 };
-use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, Register, RegisterFile};
+use crate::isa::{Mask, Opcode, Program, Register, RegisterFile};
 use crate::num::{Flags, ops};
 use crate::output::{FragmentFate, TargetTile};
 use crate::raster::{
@@ -32,7 +32,7 @@ use crate::raster::{
 };
 
 /// Instructions whose results are kept in one run; a longer program is run again for the next ones.
-const KEPT: usize = 4096;
+const MAX_KEPT: usize = 4096;
 
 /// The batch executor of one draw, for one pixel at a time.
 #[derive(Debug)]
@@ -123,12 +123,6 @@ fn delivered(t: &mut Translator<'_>, program: &Program) -> (Vec<Register>, StepB
     (registers, block)
 }
 
-/// Whether an instruction is one of those that steps are made of.
-fn makes_step(instruction: &Instruction) -> bool {
-    let class = instruction.opcode.info().class;
-    instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
-}
-
 /// The format of what an instruction writes.
 fn format_of(program: &Program, at: usize) -> Arith {
     let destination = program.instructions.get(at).and_then(|i| i.destination);
@@ -146,15 +140,9 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> TracedProgram {
             _ => None,
         });
         let (components, nodes): (Vec<u8>, Vec<NodeId>) = values.unzip();
-        let mut mask = components.iter().fold(0, |mask, c| mask | 1 << c);
-        if let Some(destination) = program.instructions[at].destination
-            && destination.register.file == RegisterFile::DepthOut
-        {
-            mask = destination.mask.0 & destination.mask.0.wrapping_neg();
-        }
-        written.push((at, Mask(mask), nodes));
+        written.push((at, written_mask(&program.instructions[at], components.into_iter()), nodes));
     });
-    let mut chunks: Vec<&[_]> = written.chunks(KEPT).collect();
+    let mut chunks: Vec<&[_]> = written.chunks(MAX_KEPT).collect();
     if chunks.is_empty() {
         chunks.push(&[]);
     }

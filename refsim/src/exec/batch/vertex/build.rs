@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::program::VertexRows;
+use super::rows::VertexRows;
 use super::surfaces::{PlaneRows, Surfaces, Triangle};
 use super::window::{ClipResult, Window};
 use crate::event::PrimitiveCounts;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::rows::VertexRows;
 use crate::device::Rules;
 use crate::event::SAMPLERS;
 use crate::exec::batch::cache::{Cache, Pool};
@@ -15,63 +16,19 @@ use crate::exec::batch::run::{
 use crate::exec::batch::schedule::{FlowPlan, StepBlock, schedule};
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{
-    Arith, CONSTANT_INPUTS, Effect, Formats, NodeId, RegisterComponent, Slot, Translator, has_flow,
-    translate_instruction,
+    Arith, CONSTANT_INPUTS, Formats, NodeId, RegisterComponent, Slot, Translator, has_flow, translate_straight_vertex,
 };
 use crate::exec::{Constants, ResolvedConstants};
-use crate::isa::{Program, RegisterFile};
+use crate::isa::{Instruction, Program, RegisterFile};
 use crate::num::{Format, NumberOperation};
-use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
+use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT};
 
-/// Vertices that one worker takes at a time; no more than that, and nobody is woken up for them.
+/// Vertices per task; up to that many run on the calling thread.
 const SPAN: usize = 16 * LANES;
 
-/// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of `v#register`
-/// of the vertices from `first` on.
+/// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of
+/// `v#register` of the vertices from `first` on.
 pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f;
-
-/// Vertices as rows, single precision patterns: the position, and the components that were asked for.
-#[derive(Clone, Debug, Default)]
-pub struct VertexRows {
-    pub(crate) position: [Vec<u32>; 4],
-    /// By component, as in [`ComponentMask`]; empty where nobody asked.
-    pub(crate) components: Vec<Vec<u32>>,
-    /// Instruction slots executed, summed over the vertices.
-    pub executed: u64,
-    /// Vertices that did not end within the step budget, and the instruction that was one too many.
-    pub(crate) cut: Vec<(usize, usize)>,
-}
-
-impl VertexRows {
-    fn new() -> Self {
-        Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0, cut: Vec::new() }
-    }
-
-    /// Vertices given one by one.
-    pub fn from_vertices(vertices: &[Vertex], needed: ComponentMask) -> Self {
-        let mut rows = Self::new();
-        for (c, row) in rows.position.iter_mut().enumerate() {
-            *row = vertices.iter().map(|v| v.position[c]).collect();
-        }
-        for (component, row) in rows.components.iter_mut().enumerate().filter(|(c, _)| needed.has(*c)) {
-            *row = vertices.iter().map(|v| v.component(component)).collect();
-        }
-        rows
-    }
-
-    /// A vertex with what the rows have of it, and zeros.
-    pub(crate) fn vertex(&self, index: usize) -> Vertex {
-        let at = |row: &Vec<u32>| row.get(index).copied().unwrap_or_default();
-        let component = |i: usize| self.components.get(i).map_or(0, at);
-        Vertex {
-            position: [0, 1, 2, 3].map(|c: usize| at(&self.position[c])),
-            texcoords: std::array::from_fn(|set| std::array::from_fn(|c| component(4 * set + c))),
-            colors: std::array::from_fn(|i| std::array::from_fn(|c| component(COLOR_COMPONENT + 4 * i + c))),
-            fog: component(FOG_COMPONENT),
-            point_size: 0,
-        }
-    }
-}
 
 /// A vertex program ready to run on batches; equal to [`crate::exec::scalar::VertexProgram`].
 #[derive(Debug)]
@@ -112,8 +69,8 @@ pub(crate) struct VertexKey {
 /// The vertex programs last used.
 pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
 
-/// A program decoded, or as it was decoded before. The first constants that it comes with become part of it; when others follow, it is decoded
-/// once more with constants as inputs, which serves all that come after.
+/// A program decoded, or as it was decoded before. The first constants that it comes with become part of it; when
+/// others follow, it is decoded once more with constants as inputs, which serves all that come after.
 fn decoded(
     programs: &VertexPrograms,
     program: &Program,
@@ -150,8 +107,9 @@ fn decoded(
 }
 
 impl BatchVertices {
-    /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`. `None` if no
-    /// vertex can end within the step budget: only the scalar executor counts the steps of programs without flow control.
+    /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`.
+    /// `None` if no vertex can end within the step budget: only the scalar executor counts the steps of programs
+    /// without flow control.
     pub(crate) fn new(
         (program, constants): (&Program, &Constants),
         rules: &Rules,
@@ -327,18 +285,9 @@ fn straight(
 ) -> VertexCode {
     let mut t = Translator::new(program, rules, Formats::vertex(rules.vertex_format), constants, None);
     t.open_constants = open;
-    let mut cost = 0;
-    for instruction in &program.instructions {
-        let slots = instruction.opcode.info().slot_cost(program.version);
-        cost += u64::from(slots.arithmetic) + u64::from(slots.texture);
-        let mut effects = Vec::new();
-        translate_instruction(&mut t, instruction, &mut effects);
-        for effect in effects {
-            if let Effect::Write(place, value, _) = effect {
-                t.registers.insert(place, value);
-            }
-        }
-    }
+    translate_straight_vertex(&mut t, program);
+    let slots = |i: &Instruction| u64::from(i.opcode.info().slot_cost(program.version).total());
+    let cost = program.instructions.iter().map(slots).sum();
     let zero = t.make.zero();
     let roots: Vec<NodeId> = outputs(components)
         .map(|place| {

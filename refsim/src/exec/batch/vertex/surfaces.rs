@@ -1,8 +1,7 @@
-//! Triangles as the batch executor wants them: shapes kept once however many triangles share them, and only the components
-//! that the pixel program reads, a row a component.
+//! Triangles in structure of arrays: each distinct shape once, and one row per component that the pixel program reads.
 //!
-//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and tell each other apart by
-//! components that are constant.
+//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and differ in components that
+//! are constant over each triangle.
 
 use crate::num::Format;
 use crate::raster::{ComponentMask, Plane, TriangleSetup};
@@ -52,8 +51,8 @@ pub struct Surfaces {
     pub(crate) rows: Vec<PlaneRows>,
     /// By planes: the components of `rows` that are constant over the triangle.
     pub(crate) constant: Vec<u64>,
-    /// By triangle: whether the components that are constant over it are the same, with the same values, as those of the
-    /// triangle before.
+    /// By triangle: whether the components that are constant over it are the same, with the same values, as those of
+    /// the triangle before.
     pub(crate) joins: Vec<bool>,
     pub(crate) iterator_format: Format,
 }

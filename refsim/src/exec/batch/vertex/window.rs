@@ -1,16 +1,16 @@
-//! The way of vertices to the window in rows: which clip planes they keep to, and where they come to lie, in host single
-//! precision, step by step as the raster room defines it.
+//! Viewport transform and clip tests of vertices in rows, in host single precision, step by step as the raster room
+//! defines them.
 
 use rayon::prelude::*;
 
-use super::program::VertexRows;
+use super::rows::VertexRows;
 use crate::exec::batch::lanes::SimdLevel;
 use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState};
 
 /// Vertices that one worker takes at a time.
 const SPAN: usize = 4096;
 
-/// What the planes say of a vertex.
+/// Where a vertex lies by the clip planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ClipResult {
     /// Within all planes.
@@ -94,7 +94,7 @@ impl Window {
         Self { spans }
     }
 
-    /// What the planes say of a vertex.
+    /// Where a vertex lies by the clip planes.
     pub(crate) fn clipped(&self, vertex: usize) -> ClipResult {
         ClipResult::ALL[self.spans[vertex / SPAN].flags[vertex % SPAN] as usize & 3]
     }

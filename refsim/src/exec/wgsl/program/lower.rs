@@ -4,8 +4,9 @@ use crate::device::Rules;
 use crate::exec::budget::loop_counter;
 use crate::exec::lower::{
     ACTIVE, Arith, DECIDED, Effect, Ends, Formats, Graph, KILLED, MaskedInstruction, MaskedProgram, NodeId, NodeKind,
-    RegisterComponent, Slot, TRUE, Translator, has_flow, translate_instruction, translate_straight,
+    RegisterComponent, Slot, TRUE, Translator, has_flow, translate_straight, translate_straight_vertex,
 };
+use crate::exec::trace::{makes_step, written_mask};
 use crate::exec::usage::registers_delivered;
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants, colors_written};
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
@@ -81,22 +82,7 @@ pub(super) struct Lowered {
 }
 
 fn cost(instruction: &Instruction, program: &Program) -> u32 {
-    let cost = instruction.opcode.info().slot_cost(program.version);
-    u32::from(cost.arithmetic) + u32::from(cost.texture)
-}
-
-/// Whether an instruction is one of those that a trace tells about.
-fn makes_step(instruction: &Instruction) -> bool {
-    let class = instruction.opcode.info().class;
-    instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
-}
-
-/// The components of a destination that an effect's places stand for.
-fn written_mask(instruction: &Instruction, components: impl Iterator<Item = u8>) -> Mask {
-    match instruction.destination {
-        Some(d) if d.register.file == RegisterFile::DepthOut => Mask(d.mask.0 & d.mask.0.wrapping_neg()),
-        _ => Mask(components.fold(0, |mask, c| mask | 1 << c)),
-    }
+    instruction.opcode.info().slot_cost(program.version).total().into()
 }
 
 impl Lowered {
@@ -126,15 +112,7 @@ impl Lowered {
         let mut t = Translator::new(program, rules, formats, constants, None);
         let body = match has_flow(program) {
             false => {
-                for instruction in &program.instructions {
-                    let mut effects = Vec::new();
-                    translate_instruction(&mut t, instruction, &mut effects);
-                    for effect in effects {
-                        if let Effect::Write(place, value, _) = effect {
-                            t.registers.insert(place, value);
-                        }
-                    }
-                }
+                translate_straight_vertex(&mut t, program);
                 let known = t.registers.clone();
                 let sinks = output_sinks(&mut t, |_, place| known.get(&place).copied());
                 let cost = program.instructions.iter().map(|i| cost(i, program)).sum();

@@ -3,7 +3,7 @@
 use super::lower::{ACTIVE_SLOT, Sink, Step, Use};
 use super::microcode::{Assembler, NONE};
 use super::operations as op;
-use crate::exec::budget::LOOP_LIMIT;
+use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::isa::{Opcode, OpcodeClass};
 
 impl Assembler<'_> {
@@ -51,7 +51,7 @@ impl Assembler<'_> {
                 let counted = step.opcode == Opcode::Loop;
                 let [passes, start, grows, _] = step.counter;
                 let grows = if counted { grows } else { 0 };
-                let passes = passes.clamp(0, LOOP_LIMIT).cast_unsigned();
+                let passes = passes.clamp(0, MAX_LOOP_PASSES).cast_unsigned();
                 let words = [op::LOOP, 0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()];
                 self.words.extend(words);
                 return Some((target_word, step.target + 1));

@@ -1,0 +1,88 @@
+//! Pixel programs as decoded for a kind of draw, kept while among the last used.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::shader::TileShader;
+use crate::device::Rules;
+use crate::event::SAMPLERS;
+use crate::exec::batch::cache::{Cache, Pool};
+use crate::exec::batch::run::Slots;
+use crate::exec::batch::schedule::{FlowPlan, StraightPlan, StraightProgram};
+use crate::exec::lower::{Formats, has_flow};
+use crate::exec::{BUMP_STAGES, BumpStage, Projection, ResolvedConstants, TileDraw};
+use crate::isa::Program;
+use crate::raster::ComponentMask;
+use crate::texture::TextureKind;
+
+/// A decoded program, and workers' rows that are not in use, by the constant components of their plan.
+#[derive(Debug)]
+pub(crate) struct DecodedPixel {
+    pub(crate) code: PixelCode,
+    pub(crate) shaders: Pool<(u64, TileShader)>,
+    pub(crate) uniforms: Pool<(u64, Slots)>,
+}
+
+#[derive(Debug)]
+pub(crate) enum PixelCode {
+    /// Scheduled once for each set of constant components that turns up.
+    Straight(StraightProgram, Mutex<BTreeMap<u64, Arc<StraightPlan>>>),
+    Flow(FlowPlan),
+}
+
+/// What decoding depends on.
+#[derive(Debug)]
+pub(crate) struct PixelKey {
+    program: Program,
+    rules: Rules,
+    constants: ResolvedConstants,
+    budget: u32,
+    /// Of bound textures: whether reads need a level of detail, and the kind.
+    samplers: [Option<(bool, TextureKind)>; SAMPLERS],
+    bump: [BumpStage; BUMP_STAGES],
+    projections: [Projection; BUMP_STAGES],
+}
+
+/// The pixel programs last used.
+pub(crate) type PixelPrograms = Cache<PixelKey, DecodedPixel>;
+
+/// A pixel program, decoded now or before.
+pub(crate) fn decoded(
+    programs: &PixelPrograms,
+    program: &Program,
+    draw: &TileDraw<'_>,
+    constants: &ResolvedConstants,
+) -> Arc<DecodedPixel> {
+    let (rules, bindings) = (draw.rules, &draw.bindings);
+    let samplers = bindings.samplers.map(|s| s.map(|binding| (binding.needs_detail(), binding.image.kind())));
+    let matches = |key: &PixelKey| {
+        key.samplers == samplers
+            && key.bump == bindings.bump
+            && key.projections == bindings.projections
+            && key.budget == draw.step_budget
+            && key.program == *program
+            && key.constants == *constants
+            && key.rules == *rules
+    };
+    programs.get(matches, || {
+        let (program, constants, formats) = (program.clone(), constants.clone(), Formats::pixel(rules));
+        let code = if has_flow(&program) {
+            PixelCode::Flow(FlowPlan::pixel(&program, rules, formats, &constants, bindings, draw.step_budget))
+        } else {
+            PixelCode::Straight(StraightProgram::new(&program, rules, formats, &constants, bindings), Mutex::default())
+        };
+        let (bump, projections, budget) = (bindings.bump, bindings.projections, draw.step_budget);
+        let key = PixelKey { program, rules: rules.clone(), constants, budget, samplers, bump, projections };
+        (key, DecodedPixel { code, shaders: Pool::default(), uniforms: Pool::default() })
+    })
+}
+
+/// The plan for triangles with these constant components, made once.
+pub(crate) fn plan(
+    program: &StraightProgram,
+    plans: &Mutex<BTreeMap<u64, Arc<StraightPlan>>>,
+    constant: u64,
+) -> Arc<StraightPlan> {
+    let mut plans = plans.lock().unwrap_or_else(PoisonError::into_inner);
+    Arc::clone(plans.entry(constant).or_insert_with(|| Arc::new(program.plan(ComponentMask(constant)))))
+}
