@@ -3,7 +3,8 @@
 use super::value;
 
 /// What happens outside 0 to 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum AddressMode {
     /// The image repeats.
     #[default]
