@@ -1,4 +1,5 @@
-//! From coordinates to texel indices, exactly: what a host's `floor(u * n)` in floats would get wrong near texel edges.
+//! Exact texture addressing, from coordinates to texel indices: what a host's `floor(u * n)` in floats would get wrong
+//! near texel edges.
 
 use super::value;
 
