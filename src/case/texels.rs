@@ -231,17 +231,13 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
 /// One mode for all axes, or one per axis; clamp where nothing is said.
 fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMode; 3], CaseError> {
     let Some(address) = &written.address else { return Ok([AddressMode::Clamp; 3]) };
-    let mode = |name: &String| match name.as_str() {
-        "wrap" => Ok(AddressMode::Wrap),
-        "mirror" => Ok(AddressMode::Mirror),
-        "clamp" => Ok(AddressMode::Clamp),
-        "border" => Ok(AddressMode::Border),
-        _ => {
+    let mode = |name: &String| {
+        name.parse().map_err(|_| {
             let message = format!("expected wrap, mirror, clamp or border, found `{name}`");
-            Err(binder.place.wrong(address.span(), message, "one for all axes, or a list with one an axis"))
-        }
+            binder.place.wrong(address.span(), message, "one for all axes, or a list with one an axis")
+        })
     };
-    let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<_>, _>>()?;
+    let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<AddressMode>, _>>()?;
     let axes = match written.kind {
         TextureKind::D1 => 1,
         TextureKind::D2 | TextureKind::Rectangle | TextureKind::Cube => 2,

@@ -68,7 +68,7 @@ fn circles(source: &Crate) -> Vec<String> {
 
 #[test]
 fn files_of_a_room_need_each_other_in_one_direction() {
-    let found: Vec<String> = ["refsim/src", "src"].iter().flat_map(|folder| circles(&Crate::read(folder))).collect();
+    let found: Vec<String> = ["refsim/src", "src"].iter().flat_map(|folder| circles(Crate::read(folder))).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
@@ -64,8 +65,14 @@ pub(crate) fn read(file: &Path) -> String {
 }
 
 impl Crate {
-    /// The crate whose source is in a folder of the workspace.
-    pub(crate) fn read(folder: &str) -> Self {
+    /// The crate whose source is in `refsim/src` or `src`, read once.
+    pub(crate) fn read(folder: &str) -> &'static Self {
+        static EMULATOR: LazyLock<Crate> = LazyLock::new(|| Crate::of_folder("refsim/src"));
+        static SYSTEMS: LazyLock<Crate> = LazyLock::new(|| Crate::of_folder("src"));
+        if folder == "src" { &SYSTEMS } else { &EMULATOR }
+    }
+
+    fn of_folder(folder: &str) -> Self {
         let folder = root().join(folder);
         let texts = rust_files(&folder).into_iter().map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder").to_owned();

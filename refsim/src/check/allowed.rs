@@ -46,52 +46,33 @@ impl Allowed {
 }
 
 impl Limit {
-    /// The key in a profile.
-    pub(super) fn key(self, stage: Stage) -> &'static str {
-        match (self, stage) {
-            (Self::TextureInstructions, _) => "limits.texture_instructions_per_phase",
-            (Self::ArithmeticInstructions, _) => "limits.arithmetic_instructions_per_phase",
-            (Self::Instructions, Stage::Pixel) => "limits.instructions",
-            (Self::Instructions, Stage::Vertex) => "limits.vertex_instructions",
-            (Self::Temporaries, Stage::Pixel) => "limits.temporaries",
-            (Self::Temporaries, Stage::Vertex) => "limits.vertex_temporaries",
-            (Self::Constants, Stage::Pixel) => "limits.constants",
-            (Self::Constants, Stage::Vertex) => "limits.vertex_constants",
-            (Self::TextureCoordinates, _) => "limits.texture_coordinates",
-            (Self::Samplers, _) => "limits.samplers",
-            (Self::ColorInputs, _) => "limits.color_inputs",
-            (Self::DependentReads, _) => "limits.dependent_reads",
-            (Self::StaticFlowDepth, _) => "limits.static_flow_depth",
-            (Self::DynamicFlowDepth, _) => "limits.dynamic_flow_depth",
-            (Self::LoopDepth, _) => "limits.loop_depth",
-            (Self::CallDepth, _) => "limits.call_depth",
-            (Self::StaticFlowCount, _) => "limits.static_flow_count",
+    /// The key in a profile, and the device's figure. Figures of the pixel pipeline say nothing about vertex programs.
+    fn of_device(self, profile: &Profile, stage: Stage) -> (&'static str, Option<u32>) {
+        macro_rules! figure {
+            ($name:ident) => {
+                (concat!("limits.", stringify!($name)), profile.limits.$name)
+            };
         }
-    }
-
-    /// The device's figure. Figures of the pixel pipeline say nothing about vertex programs.
-    fn of_device(self, profile: &Profile, stage: Stage) -> Option<u32> {
-        let l = &profile.limits;
-        match (self, stage) {
-            (Self::TextureInstructions, Stage::Pixel) => l.texture_instructions_per_phase,
-            (Self::ArithmeticInstructions, Stage::Pixel) => l.arithmetic_instructions_per_phase,
-            (Self::Instructions, Stage::Pixel) => l.instructions,
-            (Self::Instructions, Stage::Vertex) => l.vertex_instructions,
-            (Self::Temporaries, Stage::Pixel) => l.temporaries,
-            (Self::Temporaries, Stage::Vertex) => l.vertex_temporaries,
-            (Self::Constants, Stage::Pixel) => l.constants,
-            (Self::Constants, Stage::Vertex) => l.vertex_constants,
-            (Self::TextureCoordinates, Stage::Pixel) => l.texture_coordinates,
-            (Self::Samplers, Stage::Pixel) => l.samplers,
-            (Self::ColorInputs, Stage::Pixel) => l.color_inputs,
-            (Self::DependentReads, Stage::Pixel) => l.dependent_reads,
-            (Self::StaticFlowDepth, Stage::Pixel) => l.static_flow_depth,
-            (Self::DynamicFlowDepth, Stage::Pixel) => l.dynamic_flow_depth,
-            (Self::LoopDepth, Stage::Pixel) => l.loop_depth,
-            (Self::CallDepth, Stage::Pixel) => l.call_depth,
-            (Self::StaticFlowCount, Stage::Vertex) => l.static_flow_count,
-            _ => None,
-        }
+        let (stages, (key, figure)) = match (self, stage) {
+            (Self::Instructions, Stage::Vertex) => (stage, figure!(vertex_instructions)),
+            (Self::Temporaries, Stage::Vertex) => (stage, figure!(vertex_temporaries)),
+            (Self::Constants, Stage::Vertex) => (stage, figure!(vertex_constants)),
+            (Self::StaticFlowCount, _) => (Stage::Vertex, figure!(static_flow_count)),
+            (Self::TextureInstructions, _) => (Stage::Pixel, figure!(texture_instructions_per_phase)),
+            (Self::ArithmeticInstructions, _) => (Stage::Pixel, figure!(arithmetic_instructions_per_phase)),
+            (Self::Instructions, _) => (Stage::Pixel, figure!(instructions)),
+            (Self::Temporaries, _) => (Stage::Pixel, figure!(temporaries)),
+            (Self::Constants, _) => (Stage::Pixel, figure!(constants)),
+            (Self::TextureCoordinates, _) => (Stage::Pixel, figure!(texture_coordinates)),
+            (Self::Samplers, _) => (Stage::Pixel, figure!(samplers)),
+            (Self::ColorInputs, _) => (Stage::Pixel, figure!(color_inputs)),
+            (Self::DependentReads, _) => (Stage::Pixel, figure!(dependent_reads)),
+            (Self::StaticFlowDepth, _) => (Stage::Pixel, figure!(static_flow_depth)),
+            (Self::DynamicFlowDepth, _) => (Stage::Pixel, figure!(dynamic_flow_depth)),
+            (Self::LoopDepth, _) => (Stage::Pixel, figure!(loop_depth)),
+            (Self::CallDepth, _) => (Stage::Pixel, figure!(call_depth)),
+        };
+        (key, figure.filter(|_| stages == stage))
     }
 
     /// The version's figure: Direct3D 9, "Registers" and "Instructions" pages of each version, and its page on flow
@@ -153,11 +134,11 @@ impl Limit {
     fn of_fragment(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let l = &profile.limits;
         let arb = version == Version::ArbFp1_0;
-        let (device, key) = match self {
-            Self::Instructions => (l.fragment_instructions, "limits.fragment_instructions"),
-            Self::Constants => (l.fragment_parameters, "limits.fragment_parameters"),
+        let (key, device) = match self {
+            Self::Instructions => ("limits.fragment_instructions", l.fragment_instructions),
+            Self::Constants => ("limits.fragment_parameters", l.fragment_parameters),
             Self::TextureInstructions | Self::ArithmeticInstructions | Self::DependentReads if !arb => return None,
-            _ => (self.of_device(profile, Stage::Pixel), self.key(Stage::Pixel)),
+            _ => self.of_device(profile, Stage::Pixel),
         };
         if let Some(value) = device {
             return Some(Allowed { value, owner: format!("`{}`", profile.name), key, by_device: true });
@@ -176,8 +157,7 @@ impl Limit {
         if version.is_fragment_program() {
             return self.of_fragment(profile, version);
         }
-        let key = self.key(stage);
-        let device = self.of_device(profile, stage);
+        let (key, device) = self.of_device(profile, stage);
         let by = |value, owner: &str, by_device| Allowed { value, owner: format!("`{owner}`"), key, by_device };
         if !profile.limits.version_limits {
             let value = device.or_else(|| self.of_emulator(stage))?;

@@ -1,4 +1,4 @@
-//! What a draw call did, as counts.
+//! Counters of a draw call.
 
 use std::ops::AddAssign;
 

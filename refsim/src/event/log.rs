@@ -1,4 +1,4 @@
-//! The log of a machine: what the host asked of the card, in order.
+//! The log of a machine: the host's calls in order.
 
 use super::{DrawEvents, ProgramWork, SAMPLERS, SamplerTraffic};
 use std::borrow::Cow;

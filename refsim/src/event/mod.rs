@@ -1,4 +1,4 @@
-//! What happened, as counts and as a log: the only door from values to time.
+//! Counters and logs of draws: the only input of the timing model.
 //!
 //! Counts are sums of whole numbers, so they are the same for every thread count and every executor. They say how
 //! much work a card would have had, never how long it took: that is the timing model's question.

@@ -1,4 +1,4 @@
-//! What a program is made of, as the issue units of a card see it.
+//! The instruction mix of a program, as the issue units of a card see it.
 
 use std::collections::BTreeMap;
 

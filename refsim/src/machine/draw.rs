@@ -10,7 +10,7 @@ use crate::texture::{Region, SamplerState};
 /// Attributes that a stream does not feed: (0, 0, 0, 1) in single precision.
 pub const DEFAULT_ATTRIBUTE: [u32; 4] = [0, 0, 0, 0x3f80_0000];
 
-/// How often a stream moves on.
+/// The step rate of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StepRate {
     /// From one vertex to the next; it starts over with each instance.
@@ -24,7 +24,7 @@ pub enum StepRate {
 pub struct AttributeStream<'a> {
     /// The register: n for `v#n`, 0 to 15.
     pub register: usize,
-    /// How often it moves on.
+    /// Its step rate.
     pub step: StepRate,
     /// The values, single precision patterns: one per vertex or one per instance.
     pub data: &'a [[u32; 4]],
@@ -44,7 +44,7 @@ pub struct VertexStreams<'a> {
     pub streams: Vec<AttributeStream<'a>>,
 }
 
-/// Where the vertices come from.
+/// The vertices of a draw.
 #[derive(Clone, Debug)]
 pub enum VertexSource<'a> {
     /// Given as the vertex stage would give them.

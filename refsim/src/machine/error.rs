@@ -1,4 +1,4 @@
-//! What can be wrong with a request to the machine.
+//! Errors of the machine.
 
 use crate::exec::Overrun;
 use crate::isa::{Opcode, Program, Span, Stage, Version};

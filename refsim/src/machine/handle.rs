@@ -1,4 +1,4 @@
-//! Handles of what is in memory.
+//! Handles of textures and depth buffers.
 
 use crate::event::ResourceId;
 

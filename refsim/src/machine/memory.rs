@@ -5,7 +5,7 @@ use crate::device::Profile;
 use crate::output::{DepthSurface, TargetTile};
 use crate::texture::{Image, TexelFormat};
 
-/// What lives in the card's memory.
+/// The card's memory.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     pub(super) textures: Vec<Option<Image>>,
@@ -16,7 +16,7 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// What a texture is. If its contents matter: [`Self::current`].
+    /// A texture, whose contents may be outdated: [`Self::current`] has them.
     pub(super) fn texture(&self, id: TextureId) -> Result<&Image, MachineError> {
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
@@ -51,7 +51,7 @@ impl Memory {
         self.textures.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// What a depth buffer is. If its contents matter: [`Self::current_depth`].
+    /// A depth buffer, whose contents may be outdated: [`Self::current_depth`] has them.
     pub(super) fn depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)

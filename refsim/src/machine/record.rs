@@ -1,4 +1,4 @@
-//! The machine's log: what was asked of it, in order, for the timing model to read.
+//! The machine's log: its calls in order, for the timing model.
 //!
 //! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits
 //! of one that does not, and the log is the same whichever executor draws, on any number of threads.

@@ -1,4 +1,4 @@
-//! Resources of a machine: made, filled, read back, released.
+//! Resources of a machine: creating, filling, reading back, releasing.
 
 use super::memory::{check_target_format, check_texture_format};
 use super::{DepthId, Machine, MachineError, TextureId};

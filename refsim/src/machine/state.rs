@@ -1,10 +1,10 @@
-//! The state that a draw runs under, as marks to compare: how much of it differs from the last draw's.
+//! State changes between draws, counted by hashes of the pieces of state.
 
 use super::{DrawCall, VertexSource};
 use crate::event::SAMPLERS;
 use std::fmt::{self, Write as _};
 
-/// One mark for each piece of state.
+/// One hash per piece of state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct StateMarks(Vec<u64>);
 
@@ -35,7 +35,7 @@ impl StateMarks {
     }
 }
 
-/// A mark of anything that can be written out: FNV-1a of its text, the same on every computer.
+/// The hash of a value: FNV-1a of its debug text, the same on every computer.
 fn mark(value: &(impl fmt::Debug + ?Sized)) -> u64 {
     let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
     // The writer never fails.

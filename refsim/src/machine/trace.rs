@@ -230,7 +230,7 @@ fn set_up(
     placed
 }
 
-/// A pixel on its way through a draw.
+/// A pixel that is followed through a draw.
 struct Followed {
     tile: TargetTile,
     fragments: Vec<FragmentTrace>,

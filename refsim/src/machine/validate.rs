@@ -1,4 +1,4 @@
-//! Whether a draw call fits the machine: everything is found out before anything is written.
+//! Validation of draw calls, before anything is written.
 
 use super::memory::{Memory, check_target_format, check_texture_format};
 use super::{BoundTexture, DrawCall, MachineError, StepRate, VertexSource};
@@ -27,8 +27,8 @@ pub(super) struct Plan {
     pub(super) provoking: Option<Vec<usize>>,
 }
 
-/// Triangles worked on at a time, about: more instances than make these are drawn in rounds, so that memory stays small
-/// however many there are.
+/// About how many triangles are drawn at a time: instances are drawn in rounds, which bounds the memory that a draw
+/// takes.
 pub(super) const ROUND: usize = 8192;
 
 impl Plan {

@@ -1,4 +1,4 @@
-//! The vertex stage and set-up: from a call's vertices to triangles, in order.
+//! The vertex stage and triangle set-up of a draw call.
 
 use super::validate::Plan;
 use super::{

@@ -1,4 +1,4 @@
-//! The walk over the target: tiles side by side, triangles in order within each.
+//! Drawing by tiles: tiles in parallel, triangles in order within each.
 
 use super::memory::Memory;
 use super::tiles::Tiles;
@@ -23,7 +23,7 @@ pub(super) struct DrawResult {
     pub(super) events: DrawEvents,
 }
 
-/// A tile on its way through the rounds; loaded when the first triangle touches it.
+/// A tile and its counters; loaded when the first triangle touches it.
 struct TileWork {
     region: Region,
     tile: Option<TargetTile>,

@@ -1,4 +1,4 @@
-//! The way of one fragment into the targets.
+//! Alpha test, depth test, blending and masked write of one fragment.
 
 use super::MAX_TARGETS;
 use super::blend::{BlendState, blend_texel};

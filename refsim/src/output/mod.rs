@@ -1,4 +1,4 @@
-//! What happens to a shaded fragment: kill, alpha test, depth test, blending, masks, targets.
+//! The output stage: kill, alpha test, depth test, blending, write masks, targets.
 //!
 //! The steps of a fragment, in order: (kill by the program) -> alpha test -> depth clamped and quantised, then tested
 //! -> depth written -> each colour quantised, blended, masked, written. docs/numbers.md, "Targets and depth".

@@ -1,4 +1,4 @@
-//! From a stream of vertices to triangles.
+//! Primitive assembly.
 
 use super::{Primitive, Provoking, RasterError};
 

@@ -1,4 +1,4 @@
-//! Which pixels a triangle covers.
+//! Coverage: the pixels of a triangle.
 
 use super::triangle::TriangleSetup;
 use crate::texture::Region;

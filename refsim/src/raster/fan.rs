@@ -1,4 +1,4 @@
-//! What the clipper left of a triangle, as a fan of triangles.
+//! Set-up of a clipped triangle as a fan of triangles.
 
 use super::clip::{ClipVertex, Polygon};
 use super::state::{RasterRules, RasterState};

@@ -1,4 +1,4 @@
-//! From vertices to fragments: assembly, clipping, set-up, the fill rule, interpolation.
+//! The rasteriser: primitive assembly, clipping, set-up, fill rule, interpolation.
 //!
 //! Positions are snapped to a fixed-point grid once; from there on coverage is decided by exact integers, so that two
 //! triangles with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of

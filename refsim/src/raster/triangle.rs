@@ -1,4 +1,4 @@
-//! A triangle ready to be walked: edge functions, bounds, attribute planes.
+//! Triangles after set-up: edge functions, bounds, attribute planes.
 
 use super::clip::ClipVertex;
 use super::plane::{Plane, plane, planes};
@@ -28,7 +28,7 @@ impl Edge {
     }
 }
 
-/// A triangle ready to be walked.
+/// A triangle after set-up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleSetup {
     /// Edge `i` lies opposite vertex `i`; the three sum to `area` everywhere.
@@ -59,7 +59,7 @@ pub struct TriangleSetup {
     pub iterator_format: Format,
 }
 
-/// Why a triangle, or what was left of it, is not drawn.
+/// Why a triangle, or a part of it after clipping, is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dropped {
     /// A position is NaN or infinite, or became so.

@@ -1,9 +1,11 @@
-//! From coordinates to texel indices, exactly: what a host's `floor(u * n)` in floats would get wrong near texel edges.
+//! Exact texture addressing, from coordinates to texel indices: what a host's `floor(u * n)` in floats would get wrong
+//! near texel edges.
 
 use super::value;
 
 /// What happens outside 0 to 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum AddressMode {
     /// The image repeats.
     #[default]

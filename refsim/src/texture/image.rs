@@ -65,11 +65,12 @@ pub struct Image {
     stamp: Stamp,
 }
 
-/// A name for what an image holds, 0 for none. Images of one name are equal; equal ones may have different names.
+/// An identity of an image's contents, 0 for none. Images of equal stamps are equal; equal images may have different
+/// stamps.
 #[derive(Clone, Debug, Default)]
 struct Stamp(u64);
 
-/// A name says nothing about what is named.
+/// Stamps do not take part in comparisons of images.
 impl PartialEq for Stamp {
     fn eq(&self, _: &Self) -> bool {
         true
@@ -78,7 +79,7 @@ impl PartialEq for Stamp {
 
 impl Eq for Stamp {}
 
-/// The last name that was given.
+/// The last stamp that was given.
 static LAST_STAMP: AtomicU64 = AtomicU64::new(0);
 
 impl Image {

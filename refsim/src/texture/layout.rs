@@ -1,4 +1,4 @@
-//! Where texels lie in the memory of a card.
+//! Memory layouts of textures.
 //!
 //! Values never depend on it: an [`Image`] keeps its texels row by row. The texture cache of the timing model does,
 //! because a line of it holds what lies together in memory.

@@ -1,4 +1,4 @@
-//! Samplers: from coordinates to a filtered value in the register format.
+//! Sampling: a filtered value in the register format from coordinates.
 
 use serde::Deserialize;
 

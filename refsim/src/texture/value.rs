@@ -1,6 +1,6 @@
 //! The exact value behind a bit pattern, and the FP32 steps that the fixed-function rooms share.
 //!
-//! The one door from texture, raster and output to [`crate::num`].
+//! FP32 arithmetic for texture, raster and output: their only use of [`crate::num`].
 
 use crate::num::{self, Format};
 

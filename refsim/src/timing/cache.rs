@@ -1,4 +1,4 @@
-//! The texture cache: set-associative, the line that was used longest ago makes room.
+//! The texture cache: set-associative, least recently used.
 //!
 //! No geometry of these cards' caches has been published, so all of it is a guess of the profile; [`TextureCaches`]
 //! watches a draw with half, with all and with twice the stated size, so that the effect can be shown without drawing

@@ -1,4 +1,4 @@
-//! What one draw costs each unit of a card.
+//! The cost of one draw per unit of a card.
 
 use super::{Clocks, Picoseconds};
 

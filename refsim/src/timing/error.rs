@@ -1,4 +1,4 @@
-//! What a timing model cannot do.
+//! Errors of the timing model.
 
 /// A question that the model has no answer to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

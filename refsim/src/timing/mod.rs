@@ -1,4 +1,4 @@
-//! When it happened: counts and a profile in, clocks out.
+//! The timing model: clocks from counts and a profile.
 //!
 //! The room sees what the machine wrote down ([`crate::event`]) and what a device can do ([`crate::device`]); it never
 //! sees a value, so a change in here changes no pixel. [`DrawCost`] is what one draw keeps busy, and how long.

@@ -1,4 +1,4 @@
-//! Clocks of a unit, and time on the axis that all units share.
+//! Units of time: clocks of a unit, and picoseconds of the common time axis.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul, Sub};

@@ -1,4 +1,4 @@
-//! What commands cost the host, and how far the card may fall behind.
+//! Costs of commands on the host, and the limits of the queue.
 
 use crate::device::{Confidence, FigureRow};
 

@@ -1,4 +1,4 @@
-//! A command queue: the host gives commands, the card obeys them in order, the buses carry data beside both.
+//! The command queue: the host submits commands, the card executes them in order, the buses transfer data in parallel.
 //!
 //! The simulator is online: each call places its command at once, from what was placed before it. A start is always the
 //! latest of some ends, so that making anything shorter, or taking away a reason to wait, never makes the whole longer.

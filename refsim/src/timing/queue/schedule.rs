@@ -1,4 +1,4 @@
-//! Spans onto units: nothing starts before its unit is free, its command is there and what it needs is done.
+//! Scheduling: a span starts when its unit is free, its command has arrived and its inputs are done.
 
 use crate::timing::Picoseconds;
 use crate::timing::timeline::{Label, Mark, SpanId, SpanKind, Timeline, TimelineSpan, Unit, Wait, WaitReason};

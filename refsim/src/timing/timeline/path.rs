@@ -1,4 +1,4 @@
-//! The critical path: what to make faster if the whole is to be faster.
+//! The critical path: the spans that the total time depends on.
 
 use std::collections::BTreeMap;
 
