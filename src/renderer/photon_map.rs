@@ -58,10 +58,10 @@ impl PhotonMap {
         Self { photons, axes }
     }
 
-    /// The sum of `value` over the photons about a point, an area. Takes the `nearest` photons within `radius` that
-    /// landed on a surface that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the other k
-    /// - 1 the sum: on an even spread that has the right mean. Where fewer than `nearest` lie within the radius, all of
-    /// them count and its own area does.
+    /// The sum of `value` over the photons around a point, per area: the `nearest` photons within `radius` that landed
+    /// on a surface that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the k - 1 others
+    /// the sum, whose mean is right where photons are spread evenly. Where fewer than `nearest` lie within the radius,
+    /// all of them count, over the area of the radius.
     pub(super) fn density(
         &self,
         at: DVec3,

@@ -143,8 +143,7 @@ pub(super) fn follow(
 
 impl Wave {
     fn add(&mut self, slot: u32, light: DVec3) {
-        let sum = &mut self.light[slot as usize];
-        *sum = *sum + light;
+        self.light[slot as usize] += light;
     }
 }
 
