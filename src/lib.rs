@@ -41,3 +41,4 @@ pub mod report;
 pub mod scene;
 pub mod shader;
 pub mod study;
+pub mod tracer;

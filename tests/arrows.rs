@@ -32,6 +32,7 @@ const CROSSBAR: Law = (
         ("linalg", &[]),
         ("elementary", &[]),
         ("geom", &["linalg"]),
+        ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["geom", "scene", "linalg"]),
         ("card", &["geom", "linalg"]),
@@ -40,12 +41,24 @@ const CROSSBAR: Law = (
         ("compare", &[]),
         ("oracle", &["geom", "compare", "linalg"]),
         ("case", &["io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "elementary", "geom", "scene", "linalg", "io"]),
-        ("ray_engine", &["card", "geom", "scene", "linalg", "io"]),
-        ("renderer", &["elementary", "geom", "scene", "linalg"]),
+        ("radiosity", &["card", "tracer", "elementary", "geom", "scene", "linalg", "io"]),
+        ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
+        ("renderer", &["tracer", "elementary", "geom", "scene", "linalg"]),
         (
             "study",
-            &["ray_engine", "radiosity", "renderer", "report", "card", "elementary", "geom", "scene", "linalg", "io"],
+            &[
+                "ray_engine",
+                "radiosity",
+                "renderer",
+                "report",
+                "card",
+                "tracer",
+                "elementary",
+                "geom",
+                "scene",
+                "linalg",
+                "io",
+            ],
         ),
         (
             "cli",
@@ -59,6 +72,7 @@ const CROSSBAR: Law = (
                 "shader",
                 "report",
                 "card",
+                "tracer",
                 "geom",
                 "scene",
                 "linalg",
@@ -71,7 +85,8 @@ const CROSSBAR: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &["card", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] =
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

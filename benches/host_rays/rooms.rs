@@ -1,9 +1,8 @@
 //! What is traced: rooms of the paper's sizes, from within.
 
 use crossbar::geom::{Mesh, Ray, Sides};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::scene::{Scene, built};
+use crossbar::tracer::HostTracer;
 
 /// Pixels along a side of the picture.
 const SIDE: u32 = 256;
@@ -28,7 +27,7 @@ fn room(name: &'static str, scene: &Scene) -> Room {
     let mesh = scene.mesh().clone();
     let primary = scene.views[0].camera(SIDE, SIDE).expect("a view of the scene").rays();
     let light = light(scene);
-    let tracer = HostTracer::new(&mesh, OctreeParameters::HOST, Sides::Front);
+    let tracer = HostTracer::new(&mesh, Sides::Front);
     let to_the_light = |(ray, hit): (&Ray, Option<crossbar::geom::Hit>)| {
         let t = hit?.t * (1.0 - BEFORE);
         let from = [0, 1, 2].map(|k| ray.origin()[k] + t * ray.direction()[k]);

@@ -4,8 +4,7 @@ use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::{BHShape, BoundingHierarchy};
 use bvh::flat_bvh::FlatBvh;
 use crossbar::geom::{Mesh, Ray, Sides};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::tracer::HostTracer;
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::{Bvh2, builder::build_bvh2_from_tris};
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
@@ -27,7 +26,7 @@ pub(crate) trait Tracer: Sync {
 }
 
 pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
-    let ours = HostTracer::new(mesh, OctreeParameters::HOST, Sides::Front);
+    let ours = HostTracer::new(mesh, Sides::Front);
     let mut shapes: Vec<Shape> = mesh.iter_corners().map(|c| Shape { corners: c.map(Into::into), node: 0 }).collect();
     let tree = bvh::bvh::Bvh::build(&mut shapes);
     let way = |way| Box::new(Boxes { shapes: shapes.clone(), tree: tree.clone(), flat: tree.flatten(), way });

@@ -9,9 +9,8 @@ use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
-use crossbar::oracle::{Aim, Kind, Oracle, Report, Tolerance, hard_rays};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
+use crossbar::oracle::{Aim, DisagreementKind, Oracle, Report, Tolerance, hard_rays};
+use crossbar::tracer::HostTracer;
 
 fn main() {
     println!("{}\n{}", teapot_table(), walls_table());
@@ -31,7 +30,7 @@ pub(crate) fn intersector<'a>(name: &str, mesh: &'a Mesh) -> Intersector<'a> {
         "obvhs 0.4" => with_obvhs(mesh),
         "parry3d 0.31" => with_parry(mesh),
         _ => {
-            let tracer = HostTracer::new(mesh, OctreeParameters::default(), Sides::Both);
+            let tracer = HostTracer::new(mesh, Sides::Both);
             Box::new(move |ray| tracer.nearest(ray).0)
         }
     }
@@ -120,10 +119,15 @@ fn with_parry(mesh: &Mesh) -> Intersector<'_> {
 
 /// What counts as a wrong surface in the tables.
 fn wrong(report: &Report) -> usize {
-    [Kind::FalseHit, Kind::BackFace, Kind::WrongTriangle, Kind::WrongNeighbour]
-        .map(|kind| report.count(kind))
-        .iter()
-        .sum()
+    [
+        DisagreementKind::FalseHit,
+        DisagreementKind::BackFace,
+        DisagreementKind::WrongTriangle,
+        DisagreementKind::WrongNeighbour,
+    ]
+    .map(|kind| report.count(kind))
+    .iter()
+    .sum()
 }
 
 /// Two thousand hard rays of each kind at the teapot of 2,256 triangles: surfaces missed, and wrong ones found.

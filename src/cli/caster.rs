@@ -8,11 +8,11 @@ use serde_json::json;
 
 use super::executor::{Decider, DeviceExecutor, GpuArgs};
 use super::{Problem, view};
+use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::geom::{Caster, Mesh};
-use crate::ray_engine::HostTracer;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crate::ray_engine::octree::OctreeParameters;
+use crate::tracer::Caster;
+use crate::tracer::HostTracer;
 
 /// Who finds first hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -72,7 +72,7 @@ impl CasterChoice {
     /// Builds what the caster needs of a mesh: the octree, and for the engine its GPU cells and the card.
     pub(super) fn build(self, mesh: &Mesh, sides: Sides) -> miette::Result<OpenCaster<'_>> {
         Ok(match self {
-            Self::Host => OpenCaster::Host(Box::new(HostTracer::new(mesh, OctreeParameters::default(), sides))),
+            Self::Host => OpenCaster::Host(Box::new(HostTracer::new(mesh, sides))),
             Self::Engine { profile, executor } => {
                 let parameters = EngineParameters { sides, ..EngineParameters::default() };
                 OpenCaster::Engine(Box::new(RayEngine::new(mesh, *profile, executor, parameters)?))

@@ -17,7 +17,7 @@ use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
-use crate::io::obj::load_obj;
+use crate::io::load_mesh;
 use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
@@ -37,11 +37,11 @@ Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hi
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
 the ray's direction, written so that it reads back to the same f32.";
 
-/// First hits of the rays of a CSV file on the triangles of an OBJ file
+/// First hits of the rays of a CSV file on the triangles of an OBJ or PLY file
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The mesh, a Wavefront OBJ file
+    /// The mesh, a Wavefront OBJ or PLY file
     #[arg(long, value_name = "M.obj")]
     mesh: PathBuf,
 
@@ -99,7 +99,7 @@ const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
     view::require_mesh(&args.mesh)?;
-    let mesh = load_obj(&args.mesh)?;
+    let mesh = load_mesh(&args.mesh)?;
     require_rays(&args.rays)?;
     let rays = load_rays(&args.rays)?;
     let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;

@@ -25,7 +25,7 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     Ok(None)
 }
 
-/// A scene of the project by its name, or of a scene file or an OBJ.
+/// A scene of the project by its name, or of a scene file, an OBJ or a PLY.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(match by_name(path)? {
         Some(scene) => scene,

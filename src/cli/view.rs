@@ -60,7 +60,9 @@ pub(super) fn framing(
     (eye, target, up): Stand,
 ) -> miette::Result<Camera> {
     let Some([low, high]) = mesh.bounds() else {
-        return Err(Problem::usage("the mesh has no triangles", "name an OBJ file with at least one face").into());
+        return Err(
+            Problem::usage("the mesh has no triangles", "name an OBJ or PLY file with at least one face").into()
+        );
     };
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let target = target.unwrap_or(middle);
@@ -89,7 +91,7 @@ pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ file, whose text would take more memory than there is.
+/// Refuses a mesh, a Wavefront OBJ or PLY file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), Problem> {
     /// Bytes that reading and holding a mesh takes at most, per byte of its text.
     const PER_BYTE: u64 = 12;

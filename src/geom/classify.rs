@@ -16,7 +16,7 @@ pub struct Candidate {
 
 /// How the answer stands to the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Verdict {
+pub enum HitVerdict {
     /// The first triangle, or one that ties with it at exactly the same t; or rightly none.
     Right,
     /// No hit where there is a surface: a hole.
@@ -43,8 +43,8 @@ pub struct TError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
     /// What happened.
-    pub verdict: Verdict,
-    /// For [`Verdict::Right`] hits and [`Verdict::WrongTriangle`]: t against the true first t.
+    pub verdict: HitVerdict,
+    /// For [`HitVerdict::Right`] hits and [`HitVerdict::WrongTriangle`]: t against the true first t.
     pub t_error: Option<TError>,
 }
 
@@ -52,15 +52,15 @@ pub struct Judgement {
 #[must_use]
 pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -> Judgement {
     let (verdict, t_error) = match (truth, candidate.triangle) {
-        (None, None) => (Verdict::Right, None),
-        (Some(_), None) => (Verdict::Leak, None),
-        (None, Some(_)) => (Verdict::FalseHit, None),
+        (None, None) => (HitVerdict::Right, None),
+        (Some(_), None) => (HitVerdict::Leak, None),
+        (None, Some(_)) => (HitVerdict::FalseHit, None),
         (Some(truth), Some(found)) => {
             let verdict = if truth.ties.contains(&found) {
-                Verdict::Right
+                HitVerdict::Right
             } else {
                 let adjacent = truth.ties.iter().any(|&right| mesh.contact(right, found) != Contact::None);
-                Verdict::WrongTriangle { adjacent }
+                HitVerdict::WrongTriangle { adjacent }
             };
             (verdict, Some(t_error(&truth.t, candidate.t)))
         }
@@ -140,21 +140,21 @@ mod tests {
         let hit = |triangle, t| Candidate { triangle: Some(triangle), t };
         let none = Candidate { triangle: None, t: 0.0 };
         let inside = [0.75, 0.25, 3.0];
-        assert_eq!(judge(inside, hit(0, 3.0)).verdict, Verdict::Right);
-        assert_eq!(judge(inside, none), Judgement { verdict: Verdict::Leak, t_error: None });
-        assert_eq!(judge(inside, hit(1, 3.0)).verdict, Verdict::WrongTriangle { adjacent: true });
-        assert_eq!(judge(inside, hit(2, 3.0)).verdict, Verdict::WrongTriangle { adjacent: true });
-        assert_eq!(judge(inside, hit(3, 3.0)).verdict, Verdict::WrongTriangle { adjacent: false });
-        assert_eq!(judge(inside, hit(77, 3.0)).verdict, Verdict::WrongTriangle { adjacent: false });
-        assert_eq!(judge([9.0, 0.0, 3.0], hit(0, 1.0)).verdict, Verdict::FalseHit);
-        assert_eq!(judge([9.0, 0.0, 3.0], none).verdict, Verdict::Right);
+        assert_eq!(judge(inside, hit(0, 3.0)).verdict, HitVerdict::Right);
+        assert_eq!(judge(inside, none), Judgement { verdict: HitVerdict::Leak, t_error: None });
+        assert_eq!(judge(inside, hit(1, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: true });
+        assert_eq!(judge(inside, hit(2, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: true });
+        assert_eq!(judge(inside, hit(3, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: false });
+        assert_eq!(judge(inside, hit(77, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: false });
+        assert_eq!(judge([9.0, 0.0, 3.0], hit(0, 1.0)).verdict, HitVerdict::FalseHit);
+        assert_eq!(judge([9.0, 0.0, 3.0], none).verdict, HitVerdict::Right);
     }
 
     #[test]
     fn either_triangle_of_a_tie_is_right() {
         for triangle in [0, 1] {
             let candidate = Candidate { triangle: Some(triangle), t: 3.0 };
-            assert_eq!(judge([0.5, 0.5, 3.0], candidate).verdict, Verdict::Right);
+            assert_eq!(judge([0.5, 0.5, 3.0], candidate).verdict, HitVerdict::Right);
         }
     }
 

@@ -2,15 +2,21 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
 use thiserror::Error;
 
 use super::exact;
+use super::vector::{unit, wide};
 
 /// Triangles that share vertices. Every index is in range and every coordinate finite: [`Mesh::new`] has checked it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
+    /// Per vertex, or empty.
+    normals: Vec<[f32; 3]>,
+    /// Per vertex, or empty.
+    texcoords: Vec<[f32; 2]>,
 }
 
 /// Why positions and indices make no mesh.
@@ -29,6 +35,26 @@ pub enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
     NotFinite {
+        /// The vertex, counted from 0.
+        vertex: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// A mesh has one normal, or one pair of texture coordinates, per vertex, or none at all.
+    #[error("found {found} {what}, expected one per vertex: {vertices}")]
+    AttributeCount {
+        /// `normals` or `texture coordinates`.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// Number of vertices there are.
+        vertices: usize,
+    },
+    /// A component of a normal or a texture coordinate is NaN or infinite.
+    #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
+    AttributeNotFinite {
+        /// `normals` or `texture coordinates`.
+        what: &'static str,
         /// The vertex, counted from 0.
         vertex: usize,
         /// What was found.
@@ -53,15 +79,6 @@ pub enum Contact {
     Edge,
 }
 
-/// An edge with the triangles on it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Edge {
-    /// Its two vertices, the smaller index first.
-    pub vertices: [u32; 2],
-    /// The triangles that have it, in rising order: one on a boundary, two inside a surface.
-    pub triangles: Vec<u32>,
-}
-
 impl Mesh {
     /// A mesh of positions and corner indices (counted from 0). Triangles keep their order: a triangle's place is its id.
     /// Degenerate triangles are accepted (nothing ever hits them); count them with [`Mesh::degenerate_count`].
@@ -83,13 +100,58 @@ impl Mesh {
                 return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
             }
         }
-        Ok(Self { positions, triangles })
+        Ok(Self { positions, triangles, ..Self::default() })
+    }
+
+    /// The mesh with a normal per vertex, of any length; a zero vector where none is known.
+    ///
+    /// # Errors
+    /// [`MeshError`] if there is not one finite normal per vertex.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self, MeshError> {
+        self.check_attribute("normals", &normals)?;
+        self.normals = normals;
+        Ok(self)
+    }
+
+    /// The mesh with texture coordinates per vertex.
+    ///
+    /// # Errors
+    /// [`MeshError`] if there is not one finite pair per vertex.
+    pub fn with_texcoords(mut self, texcoords: Vec<[f32; 2]>) -> Result<Self, MeshError> {
+        self.check_attribute("texture coordinates", &texcoords)?;
+        self.texcoords = texcoords;
+        Ok(self)
+    }
+
+    fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), MeshError> {
+        let vertices = self.positions.len();
+        if values.len() != vertices {
+            return Err(MeshError::AttributeCount { what, found: values.len(), vertices });
+        }
+        for (vertex, value) in values.iter().enumerate() {
+            if let Some(&value) = value.iter().find(|value| !value.is_finite()) {
+                return Err(MeshError::AttributeNotFinite { what, vertex, value });
+            }
+        }
+        Ok(())
     }
 
     /// Vertex positions.
     #[must_use]
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
+    }
+
+    /// Normals per vertex as they were given; `None` of a mesh without. [`Mesh::vertex_normals`] computes them.
+    #[must_use]
+    pub fn normals(&self) -> Option<&[[f32; 3]]> {
+        (!self.normals.is_empty()).then_some(&self.normals)
+    }
+
+    /// Texture coordinates per vertex; `None` of a mesh without.
+    #[must_use]
+    pub fn texcoords(&self) -> Option<&[[f32; 2]]> {
+        (!self.texcoords.is_empty()).then_some(&self.texcoords)
     }
 
     /// Corner indices of each triangle; the front is the side from which they run counter-clockwise.
@@ -141,45 +203,31 @@ impl Mesh {
         Some(bounds)
     }
 
-    /// All edges in rising order of their vertices. A triangle's edge from a vertex to itself is left out.
+    /// The area of a triangle; 0 where there is no triangle of that id.
     #[must_use]
-    pub fn edges(&self) -> Vec<Edge> {
-        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(self.triangles.len() * 3);
-        for (id, &[a, b, c]) in (0_u32..).zip(&self.triangles) {
-            for [from, to] in [[a, b], [b, c], [c, a]] {
-                if from != to {
-                    sides.push(([from.min(to), from.max(to)], id));
-                }
-            }
-        }
-        sides.sort_unstable();
-        sides.dedup();
-        let mut edges: Vec<Edge> = Vec::with_capacity(sides.len() / 2);
-        for (vertices, id) in sides {
-            match edges.last_mut() {
-                Some(edge) if edge.vertices == vertices => edge.triangles.push(id),
-                _ => edges.push(Edge { vertices, triangles: vec![id] }),
-            }
-        }
-        edges
+    pub fn area(&self, triangle: u32) -> f64 {
+        self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
     }
 
-    /// Number of edges that only one triangle has: 0 for a closed surface.
+    /// Normals per vertex: the mean of the triangles that meet there, weighted by their areas, at length 1; zero where
+    /// that has no direction.
     #[must_use]
-    pub fn boundary_edge_count(&self) -> usize {
-        self.edges().iter().filter(|edge| edge.triangles.len() == 1).count()
+    pub fn vertex_normals(&self) -> Vec<DVec3> {
+        let mut normals = vec![DVec3::ZERO; self.positions.len()];
+        for (corners, indices) in self.iter_corners().zip(&self.triangles) {
+            let normal = area_vector(corners);
+            indices.iter().for_each(|&index| normals[index as usize] += normal);
+        }
+        normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
     }
 
-    /// Number of edges through which more than one triangle runs the same way: 0 where the surface is oriented
-    /// consistently and no edge has three triangles.
+    /// The same triangles without attributes, in which vertices at the same place are one: files repeat vertices where
+    /// normals or texture coordinates jump, which would tear [`Mesh::adjacency`] apart.
     #[must_use]
-    pub fn orientation_conflicts(&self) -> usize {
-        let mut directed: Vec<[u32; 2]> = Vec::with_capacity(self.triangles.len() * 3);
-        for &[a, b, c] in &self.triangles {
-            directed.extend([[a, b], [b, c], [c, a]]);
-        }
-        directed.sort_unstable();
-        directed.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    pub fn welded(&self) -> Self {
+        let mut welder = Welder::default();
+        let triangles = self.iter_corners().map(|corners| corners.map(|position| welder.vertex(position))).collect();
+        Self { positions: welder.into_positions(), triangles, ..Self::default() }
     }
 
     /// Number of triangles without area: two corners at one place, or three on one line, exactly.
@@ -207,6 +255,12 @@ impl Mesh {
     pub fn are_adjacent(&self, a: u32, b: u32) -> bool {
         self.contact(a, b) != Contact::None
     }
+}
+
+/// The normal of a triangle, twice as long as its area.
+fn area_vector(corners: [[f32; 3]; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(wide);
+    (b - a).cross(c - a)
 }
 
 /// Collects triangles and shares their vertices: corners at the bit-identical place become one vertex.
@@ -249,15 +303,13 @@ mod tests {
     }
 
     #[test]
-    fn a_square_has_four_boundary_edges() {
+    fn a_square_has_area_bounds_and_normals() {
         let mesh = square();
-        assert_eq!(mesh.boundary_edge_count(), 4);
-        assert_eq!(mesh.orientation_conflicts(), 0);
+        assert_eq!((mesh.area(0), mesh.area(1), mesh.area(2)), (0.5, 0.5, 0.0));
+        assert_eq!(mesh.vertex_normals(), [DVec3::Z, DVec3::Z, DVec3::Z, DVec3::Z, DVec3::ZERO]);
         assert_eq!(mesh.degenerate_count(), 0);
         assert_eq!(mesh.contact(0, 1), Contact::Edge);
         assert_eq!(mesh.bounds(), Some([[0.0; 3], [1.0, 1.0, 0.0]]), "unused vertices do not count");
-        let shared: Vec<_> = mesh.edges().into_iter().filter(|edge| edge.triangles.len() == 2).collect();
-        assert_eq!(shared, [Edge { vertices: [0, 2], triangles: vec![0, 1] }]);
     }
 
     #[test]
@@ -272,17 +324,29 @@ mod tests {
     }
 
     #[test]
-    fn two_triangles_the_same_way_round_conflict() {
-        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 1, 3]]).expect("a mesh");
-        assert_eq!(mesh.orientation_conflicts(), 1);
-    }
-
-    #[test]
     fn bad_input_is_named() {
         let found = Mesh::new(vec![[0.0; 3]], vec![[0, 0, 1]]).unwrap_err();
         assert_eq!(found.to_string(), "triangle 0 uses vertex 1, expected an index below 1 (counted from 0)");
         let found = Mesh::new(vec![[0.0; 3], [0.0, f32::INFINITY, 0.0]], vec![]).unwrap_err();
         assert_eq!(found.to_string(), "vertex 1 (counted from 0) has the coordinate inf, expected a finite number");
+    }
+
+    #[test]
+    fn attributes_are_one_per_vertex() {
+        let found = square().with_normals(vec![[0.0, 0.0, 1.0]; 4]).unwrap_err();
+        assert_eq!(found.to_string(), "found 4 normals, expected one per vertex: 5");
+        let found = square().with_texcoords(vec![[0.0, f32::NAN]; 5]).unwrap_err().to_string();
+        let expected = "among the texture coordinates of vertex 0 (counted from 0) is NaN, expected finite numbers";
+        assert_eq!(found, expected);
+        let mesh = square().with_texcoords(vec![[0.5, 1.0]; 5]).expect("a pair per vertex");
+        assert_eq!((mesh.normals(), mesh.texcoords()), (None, Some(&[[0.5, 1.0]; 5][..])));
+    }
+
+    #[test]
+    fn welding_joins_what_is_at_one_place() {
+        let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
+        let torn = Mesh::new(vec![a, b, c, a, c, d], vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");
+        assert_eq!(torn.boundary_edge_count(), 6);
+        assert_eq!((torn.welded().triangles(), torn.welded().boundary_edge_count()), (&[[0, 1, 2], [0, 2, 3]][..], 4));
     }
 }

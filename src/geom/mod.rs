@@ -1,16 +1,16 @@
 //! Meshes, rays, the teapot, and what is true of them.
 //!
 //! - [`mesh`]: triangles with shared vertices, validated once, so that nothing behind it has to check an index again;
+//! - [`adjacency`]: which triangles meet at each edge;
 //! - [`teapot`]: the Utah teapot at any rate of tessellation;
 //! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
 //! - [`classify`]: a renderer's answer held against that truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
-//! - [`cast`]: whoever finds first hits, seen from those who ask;
-//! - [`vector`]: three f64;
+//! - [`vector`]: what glam's vectors lack;
 //! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
 
+pub mod adjacency;
 pub mod aimed;
-pub mod cast;
 pub mod classify;
 pub mod exact;
 pub mod mesh;
@@ -20,7 +20,7 @@ pub mod teapot;
 mod teapot_table;
 pub mod vector;
 
-pub use cast::{CastError, Caster, Hit};
+pub use adjacency::{Adjacency, Edge};
 pub use exact::{ExactT, NearestHit, Sides};
 pub use mesh::{Contact, Mesh, MeshError};
-pub use ray::{Ray, RayError};
+pub use ray::{Hit, Ray, RayError};

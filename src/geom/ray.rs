@@ -1,4 +1,4 @@
-//! Rays.
+//! Rays and what they hit.
 
 use thiserror::Error;
 
@@ -55,6 +55,15 @@ impl Ray {
     pub fn direction(&self) -> [f32; 3] {
         self.direction
     }
+}
+
+/// What a ray hits first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Id of the triangle: its index in the mesh.
+    pub triangle: u32,
+    /// The ray parameter, in multiples of the ray's direction.
+    pub t: f32,
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ pub enum TeapotError {
 
 /// A part of the teapot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Part {
+pub enum TeapotPart {
     /// Lip and wall, patches 0 to 11.
     Body,
     /// Patches 12 to 15.
@@ -65,13 +65,13 @@ pub enum Part {
 
 /// The part that a patch (0 to 31) belongs to.
 #[must_use]
-pub fn part_of_patch(patch: u32) -> Part {
+pub fn part_of_patch(patch: u32) -> TeapotPart {
     match patch {
-        0..=11 => Part::Body,
-        12..=15 => Part::Handle,
-        16..=19 => Part::Spout,
-        20..=27 => Part::Lid,
-        _ => Part::Bottom,
+        0..=11 => TeapotPart::Body,
+        12..=15 => TeapotPart::Handle,
+        16..=19 => TeapotPart::Spout,
+        20..=27 => TeapotPart::Lid,
+        _ => TeapotPart::Bottom,
     }
 }
 

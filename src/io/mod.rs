@@ -1,15 +1,19 @@
 //! Files in and out: models, scenes, rays and hits, and the writing that never leaves half a file.
 
 pub mod atomic;
+pub mod model;
 mod number;
 pub mod obj;
+pub mod ply;
 pub mod rays;
 pub mod scene_file;
 pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
+pub use model::{ModelError, load_mesh};
 pub use number::{NumberError, parse_f32, to_f32};
 pub use obj::{ObjError, load_obj, parse_obj, write_obj};
+pub use ply::{PlyError, load_ply, parse_ply};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};
 pub use scene_obj::{MtlError, SceneObjError, load_scene, parse_mtl, parse_scene, write_mtl, write_scene};

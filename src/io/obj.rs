@@ -1,12 +1,16 @@
-//! Wavefront OBJ, triangles only.
+//! Wavefront OBJ.
 //!
-//! A first pass of ours checks every `v` and `f` line, so that an error can name the line and nothing reaches tobj that it
-//! is not made for; tobj then turns the checked lines into triangles. Read are the positions of vertices and the position
-//! indices of faces: groups, objects, materials, normals, texture coordinates, colours, lines and points are passed over, so
-//! that the whole file is one mesh. A face of more than three corners becomes a fan around its first corner. Triangle ids are
-//! the order of the file, from 0. Vertices are numbered by first use; those that no face uses are dropped. Degenerate
-//! triangles are kept, since they hold a place in that order; nothing ever hits them.
+//! A first pass checks every line that is used, so that an error can name the line and nothing reaches tobj that it is not
+//! made for; tobj then turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects,
+//! materials, colors, lines and points are passed over, so that the whole file is one mesh. A face of more than three
+//! corners becomes a fan around its first corner. Triangle ids are the order of the file, from 0. Vertices are numbered by
+//! first use; those that no face uses are dropped. Degenerate triangles are kept, since they hold a place in that order;
+//! nothing ever hits them.
+//!
+//! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
+//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are dropped.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -47,17 +51,19 @@ pub enum ObjError {
         /// What stands there.
         found: String,
     },
-    /// A face names a vertex that the file does not have.
-    #[error("{}:{line}: a face uses vertex {index}, expected 1 to {vertices} (or -1 to -{vertices})", path.display())]
+    /// A face names a vertex, a texture coordinate or a normal that the file does not have.
+    #[error("{}:{line}: {what} {index}, expected 1 to {count} (or -1 to -{count})", path.display())]
     IndexOutOfRange {
         /// The file.
         path: PathBuf,
         /// The line.
         line: usize,
+        /// What the index is of.
+        what: IndexTarget,
         /// The index as written.
         index: i64,
-        /// How many vertices could be named there.
-        vertices: usize,
+        /// How many could be named there.
+        count: usize,
     },
     /// There is nothing to hit.
     #[error("{}: expected at least one face (a line `f 1 2 3`), found none", path.display())]
@@ -83,6 +89,27 @@ pub enum ObjError {
     },
 }
 
+/// What an index of a corner names, in the order in which a corner writes them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndexTarget {
+    /// A `v` line.
+    Vertex,
+    /// A `vt` line.
+    TextureCoordinate,
+    /// A `vn` line.
+    Normal,
+}
+
+impl fmt::Display for IndexTarget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vertex => "a face uses vertex",
+            Self::TextureCoordinate => "a corner uses texture coordinate",
+            Self::Normal => "a corner uses normal",
+        })
+    }
+}
+
 /// A number of single precision in a line of a file.
 pub(super) fn single(word: &[u8]) -> Result<f32, NumberError> {
     std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f32)
@@ -106,24 +133,29 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ObjError> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ObjError::TooLong { path: name.into() });
     }
-    let mut pass = Pass::new(name);
+    let mut reader = ObjReader::new(name);
     for (line, text) in logical_lines(bytes) {
-        pass.line(line, &words(&text), &text)?;
+        reader.line(line, &words(&text), &text)?;
     }
-    pass.mesh()
+    reader.mesh(true)
 }
 
 /// What tobj makes of checked lines.
 fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
-    let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
+    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)
         .map_err(|reason| ObjError::Loader { path: name.into(), reason })?;
     // Without group lines there is one model.
-    let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
-    let positions = mesh.positions.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
-    let triangles = mesh.indices.chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
-    Mesh::new(positions, triangles).map_err(|reason| ObjError::Mesh { path: name.into(), reason })
+    let read = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
+    let mut mesh = Mesh::new(read.positions.as_chunks().0.to_vec(), read.indices.as_chunks().0.to_vec());
+    if !read.normals.is_empty() {
+        mesh = mesh.and_then(|mesh| mesh.with_normals(read.normals.as_chunks().0.to_vec()));
+    }
+    if !read.texcoords.is_empty() {
+        mesh = mesh.and_then(|mesh| mesh.with_texcoords(read.texcoords.as_chunks().0.to_vec()));
+    }
+    mesh.map_err(|reason| ObjError::Mesh { path: name.into(), reason })
 }
 
 /// Writes a mesh so that it reads back with the same bits in every corner.
@@ -131,14 +163,32 @@ fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
 /// # Errors
 /// Those of the writer.
 pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
+    // Rust prints the shortest decimal that reads back to the same f32.
     for [x, y, z] in mesh.positions() {
-        // Rust prints the shortest decimal that reads back to the same f32.
         writeln!(out, "v {x} {y} {z}")?;
     }
-    for [a, b, c] in mesh.triangles() {
-        writeln!(out, "f {} {} {}", u64::from(*a) + 1, u64::from(*b) + 1, u64::from(*c) + 1)?;
+    for [u, v] in mesh.texcoords().unwrap_or_default() {
+        writeln!(out, "vt {u} {v}")?;
+    }
+    for [x, y, z] in mesh.normals().unwrap_or_default() {
+        writeln!(out, "vn {x} {y} {z}")?;
+    }
+    let (texcoords, normals) = (mesh.texcoords().is_some(), mesh.normals().is_some());
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(|index| corner([u64::from(index) + 1; 3], texcoords, normals));
+        writeln!(out, "f {a} {b} {c}")?;
     }
     Ok(())
+}
+
+/// A corner with the indices that are asked for.
+fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) -> String {
+    match (texcoords, normals) {
+        (false, false) => format!("{v}"),
+        (true, false) => format!("{v}/{vt}"),
+        (false, true) => format!("{v}//{vn}"),
+        (true, true) => format!("{v}/{vt}/{vn}"),
+    }
 }
 
 /// Lines with their numbers, without comments; a line that ends in `\` goes on in the next.
@@ -171,97 +221,181 @@ pub(super) fn words(text: &[u8]) -> Vec<&[u8]> {
 }
 
 /// The first pass: what it has seen, and the checked lines for tobj.
-pub(super) struct Pass<'a> {
+pub(super) struct ObjReader<'a> {
     name: &'a Path,
+    /// Checked `v`, `vt` and `vn` lines.
     clean: String,
     vertices: usize,
-    faces: usize,
-    /// Indices that named a vertex not yet seen, with their lines.
-    forward: Vec<(usize, i64)>,
+    texcoords: usize,
+    normals: Vec<[f32; 3]>,
+    /// Indices from 1 of vertex, texture coordinate and normal; 0 for none.
+    corners: Vec<[usize; 3]>,
+    /// Where the corners of each face begin.
+    faces: Vec<usize>,
+    /// Indices that named something not yet seen, with their lines.
+    forward: Vec<(usize, IndexTarget, i64)>,
 }
 
-impl<'a> Pass<'a> {
+impl<'a> ObjReader<'a> {
     pub(super) fn new(name: &'a Path) -> Self {
-        Self { name, clean: String::new(), vertices: 0, faces: 0, forward: Vec::new() }
+        Self {
+            name,
+            clean: String::new(),
+            vertices: 0,
+            texcoords: 0,
+            normals: Vec::new(),
+            corners: Vec::new(),
+            faces: Vec::new(),
+            forward: Vec::new(),
+        }
     }
 
     /// Checks one line, given as words and as it stands.
     pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ObjError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
+            Some((&b"vt", numbers)) => self.texcoord(line, text, numbers),
+            Some((&b"vn", numbers)) => self.normal(line, text, numbers),
             Some((&b"f", corners)) => self.face(line, text, corners),
             _ => Ok(()),
         }
     }
 
     fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
-        // x y z, then nothing, a weight, or a colour of three or four.
+        // x y z, then nothing, a weight, or a color of three or four.
         if !matches!(numbers.len(), 3 | 4 | 6 | 7) {
             return Err(self.syntax(line, "a vertex `v x y z`", text));
         }
-        self.clean.push('v');
-        for (place, word) in numbers.iter().take(4.min(numbers.len())).enumerate() {
-            match single(word) {
-                Ok(weight) if place == 3 && numbers.len() == 4 => {
-                    if weight != 1.0 {
-                        return Err(self.syntax(line, "a vertex without a weight other than 1", word));
-                    }
-                }
-                _ if place == 3 => {}
-                Ok(_) => {
-                    self.clean.push(' ');
-                    // A number is ASCII.
-                    self.clean.push_str(&String::from_utf8_lossy(word));
-                }
-                Err(fault) => return Err(self.syntax(line, fault.expected(), word)),
-            }
+        self.numbers(line, "v", &numbers[..3])?;
+        if let &[_, _, _, weight] = numbers
+            && self.number(line, weight)? != 1.0
+        {
+            return Err(self.syntax(line, "a vertex without a weight other than 1", weight));
         }
-        self.clean.push('\n');
         self.vertices += 1;
         Ok(())
+    }
+
+    fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
+        // A third number is the depth of a volume texture.
+        let (&[u, v] | &[u, v, _]) = numbers else {
+            return Err(self.syntax(line, "a texture coordinate `vt u v`", text));
+        };
+        self.numbers(line, "vt", &[u, v])?;
+        self.texcoords += 1;
+        Ok(())
+    }
+
+    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
+        if numbers.len() != 3 {
+            return Err(self.syntax(line, "a normal `vn x y z`", text));
+        }
+        let normal = self.numbers(line, "vn", numbers)?;
+        self.normals.push([normal[0], normal[1], normal[2]]);
+        Ok(())
+    }
+
+    /// Checks numbers and writes them to a line of this key for tobj.
+    fn numbers(&mut self, line: usize, key: &str, words: &[&[u8]]) -> Result<Vec<f32>, ObjError> {
+        self.clean.push_str(key);
+        let mut numbers = Vec::with_capacity(words.len());
+        for word in words {
+            numbers.push(self.number(line, word)?);
+            self.clean.push(' ');
+            // A number is ASCII.
+            self.clean.push_str(&String::from_utf8_lossy(word));
+        }
+        self.clean.push('\n');
+        Ok(numbers)
+    }
+
+    fn number(&self, line: usize, word: &[u8]) -> Result<f32, ObjError> {
+        single(word).map_err(|fault| self.syntax(line, fault.expected(), word))
     }
 
     fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), ObjError> {
         if corners.len() < 3 {
             return Err(self.syntax(line, "a face of at least three corners `f 1 2 3`", text));
         }
-        self.clean.push('f');
+        self.faces.push(self.corners.len());
         for &corner in corners {
-            let Some(index) = position_index(corner) else {
+            let Some(indices) = corner_indices(corner) else {
                 return Err(self.syntax(line, "a corner `1`, `1/1`, `1//1` or `1/1/1`", corner));
             };
-            let vertices = self.vertices;
-            let place = match index {
-                0 => None,
-                1.. => usize::try_from(index).ok(),
-                _ => usize::try_from(index.unsigned_abs())
-                    .ok()
-                    .and_then(|back| (vertices + 1).checked_sub(back))
-                    .filter(|&at| at > 0),
-            };
-            let Some(place) = place else {
-                return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, index, vertices });
-            };
-            if place > vertices {
-                self.forward.push((line, index));
+            let mut places = [0; 3];
+            for (place, (what, index)) in places.iter_mut().zip(TARGETS.into_iter().zip(indices)) {
+                if let Some(index) = index {
+                    *place = self.place(line, what, index)?;
+                }
             }
-            self.clean.push_str(&format!(" {place}"));
+            self.corners.push(places);
         }
-        self.clean.push('\n');
-        self.faces += 1;
         Ok(())
     }
 
-    /// The mesh of the checked lines, once it is known how many vertices there are.
-    pub(super) fn mesh(self) -> Result<Mesh, ObjError> {
-        let beyond = |&&(_, index): &&(usize, i64)| usize::try_from(index).map_or(true, |index| index > self.vertices);
-        if let Some(&(line, index)) = self.forward.iter().find(beyond) {
-            return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, index, vertices: self.vertices });
+    /// An index counted from 1, if it names something, perhaps further down in the file.
+    fn place(&mut self, line: usize, what: IndexTarget, index: i64) -> Result<usize, ObjError> {
+        let count = self.count(what);
+        let place = match index {
+            0 => None,
+            1.. => usize::try_from(index).ok(),
+            _ => usize::try_from(index.unsigned_abs()).ok().and_then(|back| (count + 1).checked_sub(back)),
+        };
+        let place = place.filter(|&place| place > 0);
+        if place.is_some_and(|place| place > count) {
+            self.forward.push((line, what, index));
         }
-        if self.faces == 0 {
+        place.ok_or_else(|| ObjError::IndexOutOfRange { path: self.name.into(), line, what, index, count })
+    }
+
+    fn count(&self, what: IndexTarget) -> usize {
+        match what {
+            IndexTarget::Vertex => self.vertices,
+            IndexTarget::TextureCoordinate => self.texcoords,
+            IndexTarget::Normal => self.normals.len(),
+        }
+    }
+
+    /// The corners of each face: indices from 1 of vertex, texture coordinate and normal; 0 for none.
+    pub(super) fn faces(&self) -> impl Iterator<Item = &[[usize; 3]]> {
+        let ends = self.faces.iter().skip(1).copied().chain([self.corners.len()]);
+        self.faces.iter().zip(ends).map(|(&start, end)| &self.corners[start..end])
+    }
+
+    /// The corners of the face that was read last.
+    pub(super) fn last_face(&self) -> &[[usize; 3]] {
+        self.faces.last().map_or(&[], |&start| &self.corners[start..])
+    }
+
+    /// The `vn` lines.
+    pub(super) fn normals(&self) -> &[[f32; 3]] {
+        &self.normals
+    }
+
+    /// The mesh of the checked lines, once it is known how many vertices there are; with texture coordinates and normals
+    /// if all corners have them, or of positions alone.
+    pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ObjError> {
+        for &(line, what, index) in &self.forward {
+            let count = self.count(what);
+            if usize::try_from(index).map_or(true, |index| index > count) {
+                return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, what, index, count });
+            }
+        }
+        if self.faces.is_empty() {
             return Err(ObjError::NoFaces { path: self.name.into() });
         }
-        load_clean(&self.clean, self.name)
+        let all = |place: usize| attributes && self.corners.iter().all(|corner| corner[place] > 0);
+        let (texcoords, normals) = (all(1), all(2));
+        let mut clean = std::mem::take(&mut self.clean);
+        for face in self.faces() {
+            clean.push('f');
+            for &indices in face {
+                clean.push(' ');
+                clean.push_str(&corner(indices, texcoords, normals));
+            }
+            clean.push('\n');
+        }
+        load_clean(&clean, self.name)
     }
 
     pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ObjError {
@@ -269,13 +403,20 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// The position index of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-fn position_index(corner: &[u8]) -> Option<i64> {
+/// What the indices of a corner name.
+const TARGETS: [IndexTarget; 3] = [IndexTarget::Vertex, IndexTarget::TextureCoordinate, IndexTarget::Normal];
+
+/// The indices of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+fn corner_indices(corner: &[u8]) -> Option<[Option<i64>; 3]> {
     let mut parts = std::str::from_utf8(corner).ok()?.split('/');
-    let index = parts.next()?.parse().ok()?;
-    let others: Vec<&str> = parts.collect();
-    let fine = others.len() <= 2 && others.iter().all(|part| part.is_empty() || part.parse::<i64>().is_ok());
-    fine.then_some(index)
+    let mut indices = [Some(parts.next()?.parse().ok()?), None, None];
+    for index in &mut indices[1..] {
+        match parts.next() {
+            None | Some("") => {}
+            Some(part) => *index = Some(part.parse().ok()?),
+        }
+    }
+    parts.next().is_none().then_some(indices)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::geom::{ExactT, Hit, Ray, RayError};
 /// In what way an answer is wrong; the worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum DisagreementKind {
     /// A triangle that the mesh does not have.
     NoSuchTriangle,
     /// No hit where there is a surface: a hole.
@@ -31,7 +31,7 @@ pub enum Kind {
     NearTie,
 }
 
-impl Kind {
+impl DisagreementKind {
     /// All of them, the worst first.
     pub const ALL: [Self; 9] = [
         Self::NoSuchTriangle,
@@ -68,7 +68,7 @@ impl Kind {
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for DisagreementKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -98,7 +98,7 @@ pub struct Disagreement {
     /// Where it goes.
     pub direction: [f32; 3],
     /// In what way.
-    pub kind: Kind,
+    pub kind: DisagreementKind,
     /// What it truly hits, if anything.
     pub expected: Option<Expected>,
     /// What was found, if anything.
@@ -148,9 +148,9 @@ impl Disagreement {
 }
 
 /// Three numbers in parentheses; -0 shows its sign, and every f32 enough digits to be read back.
-pub(super) struct Vector(pub(super) [f32; 3]);
+pub(super) struct ShownVector(pub(super) [f32; 3]);
 
-impl fmt::Display for Vector {
+impl fmt::Display for ShownVector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [x, y, z] = self.0.map(short);
         write!(f, "({x}, {y}, {z})")
@@ -170,7 +170,7 @@ fn short_double(x: f64) -> String {
 
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (from, along) = (Vector(self.origin), Vector(self.direction));
+        let (from, along) = (ShownVector(self.origin), ShownVector(self.direction));
         write!(f, "ray {} from {from} along {along}: {}: expected ", self.ray, self.kind)?;
         match &self.expected {
             None => f.write_str("nothing")?,
@@ -190,8 +190,10 @@ impl fmt::Display for Disagreement {
             Some(ulps) => write!(f, ", {ulps} ULPs off")?,
         }
         match &self.met_at {
-            Some(met) if self.kind != Kind::TOff => write!(f, " (the ray meets it at {})", short_double(met.to_f64())),
-            None if self.kind != Kind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
+            Some(met) if self.kind != DisagreementKind::TOff => {
+                write!(f, " (the ray meets it at {})", short_double(met.to_f64()))
+            }
+            None if self.kind != DisagreementKind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
             _ => Ok(()),
         }
     }

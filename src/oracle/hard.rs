@@ -38,7 +38,7 @@ pub struct HardRay {
 /// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an empty mesh has none.
 #[must_use]
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
-    let Some(place) = Place::of(mesh) else { return Vec::new() };
+    let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };
     let dice = Keyed::new(seed);
     let mut rays = Vec::new();
     for (key, aim) in (0..).zip(Aim::ALL) {
@@ -51,7 +51,7 @@ pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
             }
             Aim::Axis | Aim::Plane | Aim::Surface => {
                 let one = |i: u64| {
-                    let at = Triangle::choose(mesh, dice, key, i)?;
+                    let at = AimedTriangle::choose(mesh, dice, key, i)?;
                     match aim {
                         Aim::Axis => at.axis_ray(&place, i),
                         Aim::Plane => at.plane_ray(dice, i),
@@ -81,12 +81,12 @@ fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
 }
 
 /// Where a mesh is, and how large.
-struct Place {
+struct MeshExtent {
     middle: [f64; 3],
     size: f64,
 }
 
-impl Place {
+impl MeshExtent {
     fn of(mesh: &Mesh) -> Option<Self> {
         let [low, high] = mesh.bounds()?.map(|corner| corner.map(f64::from));
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
@@ -111,12 +111,12 @@ fn in_f32(x: f64) -> f32 {
 }
 
 /// A triangle, and a point of it.
-struct Triangle {
+struct AimedTriangle {
     corners: [[f64; 3]; 3],
     point: [f32; 3],
 }
 
-impl Triangle {
+impl AimedTriangle {
     /// A triangle by dice, with one of its corners, or a point inside it.
     fn choose(mesh: &Mesh, dice: Keyed, key: u64, index: u64) -> Option<Self> {
         let id = dice.bits(index, key, 100) % mesh.len().max(1) as u64;
@@ -136,7 +136,7 @@ impl Triangle {
     }
 
     /// All six ways along the axes, all four pairs of signs of the zeros, in turn.
-    fn axis_ray(&self, place: &Place, index: u64) -> Option<Ray> {
+    fn axis_ray(&self, place: &MeshExtent, index: u64) -> Option<Ray> {
         let axis = (index % 3) as usize;
         let sign = |bit: u64| if (index / 3) >> bit & 1 == 1 { -1.0f32 } else { 1.0 };
         let (way, mut direction) = (sign(0), [0.0, sign(1) * 0.0, sign(2) * 0.0]);

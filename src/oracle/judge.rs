@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::Report;
-use super::disagreement::{Disagreement, Expected, Kind};
+use super::disagreement::{Disagreement, DisagreementKind, Expected};
 use crate::compare::{self, Number};
-use crate::geom::classify::{Candidate, Verdict, classify, t_error};
+use crate::geom::classify::{Candidate, HitVerdict, classify, t_error};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
@@ -102,7 +102,7 @@ impl<'a> Oracle<'a> {
     /// # Errors
     /// The report of the leaks alone, if there is one: surfaces that were missed. Everything else passes.
     pub fn no_leaks(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Result<(), Box<Report>> {
-        let leaks = self.examine(rays, intersector).only(Kind::is_leak);
+        let leaks = self.examine(rays, intersector).only(DisagreementKind::is_leak);
         if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
     }
 
@@ -163,17 +163,23 @@ impl<'a> Oracle<'a> {
         };
         let met_at = meets(Sides::Both);
         let kind = match (verdict, found) {
-            (Verdict::Right, Some(hit)) if !truth.as_ref().is_some_and(|truth| right_t(truth, hit)) => Kind::TOff,
-            (Verdict::Right, _) => return None,
-            (Verdict::Leak, _) => Kind::Leak,
-            _ if corners.is_none() => Kind::NoSuchTriangle,
-            _ if self.sides == Sides::Front && met_at.is_some() && meets(Sides::Front).is_none() => Kind::BackFace,
-            (Verdict::FalseHit, _) => Kind::FalseHit,
-            (Verdict::WrongTriangle { adjacent }, _) => match (&met_at, &truth) {
-                (Some(met), Some(truth)) if self.tolerance != Tolerance::ANY_T && near(met, truth) => Kind::NearTie,
-                _ if adjacent => Kind::WrongNeighbour,
-                (Some(_), _) => Kind::LeakThrough,
-                (None, _) => Kind::WrongTriangle,
+            (HitVerdict::Right, Some(hit)) if !truth.as_ref().is_some_and(|truth| right_t(truth, hit)) => {
+                DisagreementKind::TOff
+            }
+            (HitVerdict::Right, _) => return None,
+            (HitVerdict::Leak, _) => DisagreementKind::Leak,
+            _ if corners.is_none() => DisagreementKind::NoSuchTriangle,
+            _ if self.sides == Sides::Front && met_at.is_some() && meets(Sides::Front).is_none() => {
+                DisagreementKind::BackFace
+            }
+            (HitVerdict::FalseHit, _) => DisagreementKind::FalseHit,
+            (HitVerdict::WrongTriangle { adjacent }, _) => match (&met_at, &truth) {
+                (Some(met), Some(truth)) if self.tolerance != Tolerance::ANY_T && near(met, truth) => {
+                    DisagreementKind::NearTie
+                }
+                _ if adjacent => DisagreementKind::WrongNeighbour,
+                (Some(_), _) => DisagreementKind::LeakThrough,
+                (None, _) => DisagreementKind::WrongTriangle,
             },
         };
         let expected = truth.map(|truth| Expected { triangles: truth.ties, t: truth.t });

@@ -1,14 +1,14 @@
 //! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic out.
 //!
 //! An [`Oracle`] decides first hits on the f32 figures as given ([`crate::geom::exact`]) and sorts each answer that
-//! departs from them into a [`Kind`]: a leak, a false hit, a neighbour in place of the right triangle, a t too far off. Ties are
+//! departs from them into a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the right triangle, a t too far off. Ties are
 //! judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right. [`hard_rays`] makes the rays on
 //! which intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
 //! `assert_` give it back as a [`Result`].
 //!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
-//! use crossbar::oracle::{Kind, Oracle, Tolerance, hard_rays};
+//! use crossbar::oracle::{DisagreementKind, Oracle, Tolerance, hard_rays};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // A square of two triangles, and somebody's intersector that never finds the second.
@@ -25,7 +25,7 @@
 //! oracle.assert_agrees(&[down(0.75, 0.25)?, down(0.5, 0.5)?], mine);
 //!
 //! let report = oracle.examine(&[down(0.75, 0.25)?, down(0.25, 0.75)?], mine);
-//! assert_eq!(report.count(Kind::Leak), 1);
+//! assert_eq!(report.count(DisagreementKind::Leak), 1);
 //! assert!(report.to_string().contains("ray 1 from (0.25, 0.75, 2) along (0, 0, -1): leak: expected triangle 1 at t = 2"));
 //!
 //! // Rays that ask for trouble, for any mesh.
@@ -42,7 +42,7 @@ mod judge;
 mod pictures;
 mod report;
 
-pub use disagreement::{Disagreement, Expected, Kind};
+pub use disagreement::{Disagreement, DisagreementKind, Expected};
 pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
 pub use hard::{Aim, HardRay, hard_rays};
 pub use judge::{Oracle, OracleError, Tolerance};

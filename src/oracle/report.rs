@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use serde::ser::{SerializeStruct as _, Serializer};
 
-use super::disagreement::{Disagreement, Kind};
+use super::disagreement::{Disagreement, DisagreementKind};
 use super::judge::Tolerance;
 use crate::geom::Sides;
 
@@ -62,7 +62,7 @@ impl Report {
         self.disagreements.is_empty()
     }
 
-    /// Every wrong answer, the worst first: by [`Kind`], then by the error of t, then by place.
+    /// Every wrong answer, the worst first: by [`DisagreementKind`], then by the error of t, then by place.
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
@@ -70,24 +70,24 @@ impl Report {
 
     /// Number of wrong answers of one kind.
     #[must_use]
-    pub fn count(&self, kind: Kind) -> usize {
+    pub fn count(&self, kind: DisagreementKind) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind == kind).count()
     }
 
-    /// Number of surfaces missed: [`Kind::Leak`] and [`Kind::LeakThrough`].
+    /// Number of surfaces missed: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
     #[must_use]
     pub fn leaks(&self) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()
     }
 
     /// The kinds that occur and how often, the worst first.
-    pub fn counts(&self) -> impl Iterator<Item = (Kind, usize)> + '_ {
-        Kind::ALL.into_iter().map(|kind| (kind, self.count(kind))).filter(|&(_, count)| count > 0)
+    pub fn counts(&self) -> impl Iterator<Item = (DisagreementKind, usize)> + '_ {
+        DisagreementKind::ALL.into_iter().map(|kind| (kind, self.count(kind))).filter(|&(_, count)| count > 0)
     }
 
     /// The report of some kinds alone.
     #[must_use]
-    pub fn only(mut self, wanted: impl Fn(Kind) -> bool) -> Self {
+    pub fn only(mut self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
         self.disagreements.retain(|wrong| wanted(wrong.kind));
         self
     }
@@ -129,7 +129,7 @@ impl std::error::Error for Report {}
 
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let counts: std::collections::BTreeMap<Kind, usize> = self.counts().collect();
+        let counts: std::collections::BTreeMap<DisagreementKind, usize> = self.counts().collect();
         let listed = &self.disagreements[..self.disagreements.len().min(LISTED_IN_JSON)];
         let sides = match self.sides {
             Sides::Front => "front",

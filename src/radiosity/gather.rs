@@ -3,7 +3,7 @@
 use super::Patches;
 use super::form_factor::point_to_polygon;
 use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
-use crate::geom::Caster;
+use crate::tracer::Caster;
 use glam::DVec3;
 
 /// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the

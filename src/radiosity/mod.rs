@@ -4,7 +4,7 @@
 //!
 //! - [`Patches`]: a scene cut into patches;
 //! - [`FormFactors`]: the fraction of each patch's light that reaches each other patch, visibility by a
-//!   [`crate::geom::Caster`];
+//!   [`crate::tracer::Caster`];
 //! - [`System`]: form factors, reflectances and emittances, and the matrix of equation 2;
 //! - [`solve`]: Jacobi, Gauss-Seidel, over-relaxation, shooting, and a reference solution by LU;
 //! - [`packing`], [`card_order`]: texture layouts, and the Jacobi step in f32 in the order of a card's passes;

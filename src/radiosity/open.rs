@@ -4,7 +4,7 @@
 //! patch that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its
 //! light too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
 //!
-//! The rule, for each face's plane raised by [`lift`] towards its front, where visibility rays start:
+//! The rule, for each face's plane raised by [`scene_clearance`] towards its front, where visibility rays start:
 //!
 //! 1. Triangles of other faces that cross the raised plane leave line segments in it, which cut the patches into convex
 //!    cells.
@@ -22,9 +22,8 @@ use super::patch::Patch;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
+use crate::tracer::offset::scene_clearance;
 
-/// See [`lift`].
-const LIFT: f64 = 1.0 / 65_536.0;
 /// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
 const FINEST: f64 = 4.0;
 /// Cells per patch. Beyond, cells are not cut further.
@@ -34,19 +33,13 @@ const OUTWARDS: f64 = 0.75;
 /// Tangents of the tested directions, along two axes of the plane: the normal first.
 const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
 
-/// How far in front of a patch's plane rays start, for a scene of this diagonal: farther than f32 corners and a
-/// tracer's rounding can be off, less than any modelled distance.
-pub(super) fn lift(extent: f64) -> f64 {
-    LIFT * extent
-}
-
 /// A line segment in a raised plane.
 type PlaneSegment = [DVec3; 2];
 
 /// The open parts of the patches that are not wholly open, by patch; none for a patch that is covered altogether.
 pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
     let triangles: Vec<[DVec3; 3]> = mesh.iter_corners().map(|t| t.map(wide)).collect();
-    let lift = lift(extent);
+    let lift = scene_clearance(extent);
     let mut faces: BTreeMap<u32, Vec<PlaneSegment>> = BTreeMap::new();
     for patch in list {
         faces.entry(patch.face).or_insert_with(|| {

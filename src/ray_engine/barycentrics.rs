@@ -2,9 +2,9 @@
 //!
 //! Written for being the same as the card, not for speed: it is asked once a hit.
 
-use super::host_test::{HostRay, cross, dot, neg, scaled_corners, sub};
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
+use crate::tracer::triangle_test::{HostRay, scaled_corners};
 
 /// A point of a triangle's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,18 +19,18 @@ pub(super) struct PlanePoint {
 pub(super) fn plane_point(mesh: &Mesh, scale: f64, triangle: u32, ray: &Ray, sides: Sides) -> Option<PlanePoint> {
     let [a, b, c] = scaled_corners(mesh.corners(triangle)?, scale);
     let HostRay { origin, direction: d, power } = HostRay::new(ray, scale);
-    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-    let n = cross(ab, ac);
-    let (ao, bo) = (sub(origin, a), sub(origin, b));
-    let n_dot_d = dot(n, d);
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let n = ab.cross(ac);
+    let (ao, bo) = (origin - a, origin - b);
+    let n_dot_d = n.dot(d);
     let inverse = n_dot_d.recip();
-    let (aod, bod) = (cross(ao, d), cross(bo, d));
-    let uvw = [dot(ac, aod), dot(neg(ab), aod), dot(neg(bc), bod)];
+    let (aod, bod) = (ao.cross(d), bo.cross(d));
+    let uvw = [ac.dot(aod), (-ab).dot(aod), (-bc).dot(bod)];
     let uvw = match sides {
         Sides::Front => uvw.map(|x| x * -inverse),
-        Sides::Both if n_dot_d >= 0.0 => neg(uvw).map(|x| x * inverse.abs()),
+        Sides::Both if n_dot_d >= 0.0 => uvw.map(|x| -x * inverse.abs()),
         Sides::Both => uvw.map(|x| x * inverse.abs()),
     };
-    let t = dot(n, ao) * -inverse;
+    let t = n.dot(ao) * -inverse;
     Some(PlanePoint { t: f64::from(t) * power, uvw })
 }

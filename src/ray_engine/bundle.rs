@@ -3,13 +3,12 @@
 //! Section 5.3 keeps triangles outside the bucket of rays away from the card. The test here is conservative by a margin
 //! that is much wider than the card's errors, in f64: a triangle is left out only if it lies wholly to one side of all rays.
 
+use glam::DVec3;
 use refsim::texture::Region;
 
 use super::RayBatch;
-use super::reference::{cross, dot, sub};
 use crate::geom::Mesh;
-
-type Vec3 = [f64; 3];
+use crate::geom::vector::{unit, wide};
 
 /// By how much a bucket grows on each side, as a share of its extent...
 const MARGIN_SHARE: f64 = 0.25;
@@ -28,9 +27,9 @@ pub(super) fn regions(rays: &RayBatch, side: u32) -> Vec<Region> {
 /// A bundle of rays of one origin, as a rectangle on a plane at distance 1 across its middle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bundle {
-    origin: Vec3,
-    forward: Vec3,
-    axes: [Vec3; 2],
+    origin: DVec3,
+    forward: DVec3,
+    axes: [DVec3; 2],
     low: [f64; 2],
     high: [f64; 2],
 }
@@ -38,18 +37,16 @@ pub(super) struct Bundle {
 impl Bundle {
     /// The bundle of a region's rays, which all start at `origin`; `None` if they have no common side to look to.
     pub(super) fn of(rays: &RayBatch, region: Region, origin: [f32; 3]) -> Option<Self> {
-        let origin = origin.map(f64::from);
+        let origin = wide(origin);
         let rows = region.y..region.y + region.height;
         let index = |(x, y): (u32, u32)| y as usize * rays.width() as usize + x as usize;
         let pixels = rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| (x, y)));
-        let directions: Vec<Vec3> =
-            pixels.filter_map(|p| unit(rays.rays()[index(p)].direction().map(f64::from))).collect();
-        let sum = directions.iter().fold([0.0; 3], |s, d| [s[0] + d[0], s[1] + d[1], s[2] + d[2]]);
-        let forward = unit(sum)?;
+        let directions: Vec<DVec3> = pixels.filter_map(|p| unit(wide(rays.rays()[index(p)].direction()))).collect();
+        let forward = unit(directions.iter().sum())?;
         // Any vector that is not along the view serves to span the plane.
-        let helper = if forward[0].abs() < 0.7 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-        let right = unit(cross(forward, helper))?;
-        let axes = [right, cross(right, forward)];
+        let helper = if forward.x.abs() < 0.7 { DVec3::X } else { DVec3::Y };
+        let right = unit(forward.cross(helper))?;
+        let axes = [right, right.cross(forward)];
         let mut bundle = Self { origin, forward, axes, low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for d in directions {
             let point = bundle.project(d)?;
@@ -67,22 +64,21 @@ impl Bundle {
     }
 
     /// Where a vector from the origin meets the plane; `None` behind it or nearly so.
-    fn project(&self, v: Vec3) -> Option<[f64; 2]> {
-        let depth = dot(v, self.forward);
-        let length = dot(v, v).sqrt();
-        (depth > 1e-3 * length).then(|| self.axes.map(|axis| dot(v, axis) / depth))
+    fn project(&self, v: DVec3) -> Option<[f64; 2]> {
+        let depth = v.dot(self.forward);
+        (depth > 1e-3 * v.length()).then(|| self.axes.map(|axis| v.dot(axis) / depth))
     }
 
     /// The triangles that the bundle may meet, in rising order.
     pub(super) fn near(&self, mesh: &Mesh) -> Vec<u32> {
-        let corners = mesh.iter_corners().map(|t| t.map(|p| p.map(f64::from)));
+        let corners = mesh.iter_corners().map(|corners| corners.map(wide));
         (0..).zip(corners).filter(|(_, corners)| self.may_meet(corners)).map(|(id, _)| id).collect()
     }
 
-    fn may_meet(&self, corners: &[Vec3; 3]) -> bool {
-        let [Some(a), Some(b), Some(c)] = corners.map(|p| self.project(sub(p, self.origin))) else {
+    fn may_meet(&self, corners: &[DVec3; 3]) -> bool {
+        let [Some(a), Some(b), Some(c)] = corners.map(|p| self.project(p - self.origin)) else {
             // A triangle that reaches behind the plane has no outline on it. It is out of reach only if all of it is behind.
-            return corners.iter().any(|p| dot(sub(*p, self.origin), self.forward) > 0.0);
+            return corners.iter().any(|p| (p - self.origin).dot(self.forward) > 0.0);
         };
         (0..2).all(|axis| {
             let least = a[axis].min(b[axis]).min(c[axis]);
@@ -90,9 +86,4 @@ impl Bundle {
             most >= self.low[axis] && least <= self.high[axis]
         })
     }
-}
-
-fn unit(v: Vec3) -> Option<Vec3> {
-    let length = dot(v, v).sqrt();
-    (length > 0.0).then(|| v.map(|x| x / length))
 }

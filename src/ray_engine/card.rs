@@ -15,9 +15,9 @@ use refsim::texture::{Image, Region, SamplerState};
 
 use super::outputs::{PixelResult, TargetEncoding};
 use super::units::{Units, ray_textures};
-use super::{EngineError, Form, Hit, Kernel, RayBatch};
+use super::{EngineError, Form, Kernel, RayBatch};
 use crate::card::NearestTarget;
-use crate::geom::{Mesh, Ray};
+use crate::geom::{Hit, Mesh, Ray};
 
 /// The resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
 #[derive(Debug)]

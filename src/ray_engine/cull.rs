@@ -13,17 +13,17 @@
 //! magnitudes, plus something for underflow or for the steps of fixed point; both are bounded here from the largest |a| + |o| and |d| of the pass, and
 //! added to q and to what stands alone. Where an intermediate could leave the range of the format, triangles stay.
 
+use glam::DVec3;
 use refsim::device::Rules;
 use refsim::num::{Format, Kind};
 
 use super::RayBatch;
-use super::rays::normalise_range;
 use super::reach::mixed;
 use super::units::Units;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-
-type Vec3 = [f64; 3];
+use crate::geom::vector::{narrow, wide};
+use crate::tracer::scale::normalize_range;
 
 /// Constants of a bucket: c3 to c10.
 const COUNT: usize = 8;
@@ -95,10 +95,10 @@ pub(super) fn bucket(
     sides: Sides,
 ) -> Vec<[u32; 4]> {
     let errors = Errors::of(rules);
-    let origins = Extent::of(rays.rays().iter().map(|ray| ray.origin().map(|x| f64::from(x) * units.scale())));
-    let directions = Extent::of(rays.rays().iter().map(|ray| normalise_range(ray.direction()).0));
+    let origins = Extent::of(rays.rays().iter().map(|ray| wide(ray.origin()) * units.scale()));
+    let directions = Extent::of(rays.rays().iter().map(|ray| normalize_range(ray.direction()).0));
     let corners = triangles.iter().filter_map(|id| mesh.corners(*id)).flatten();
-    let places = Extent::of(corners.map(|p| p.map(|x| f64::from(x) * units.scale())));
+    let places = Extent::of(corners.map(|corner| wide(corner) * units.scale()));
     let (Some(origins), Some(directions), Some(places)) = (origins, directions, places) else { return nothing() };
     let (origins, directions) = (origins.grown(errors.texel), directions.grown(errors.texel));
     Bounds::new(&origins, &directions, &places, errors).constants(&origins, &directions, sides)
@@ -107,40 +107,37 @@ pub(super) fn bucket(
 /// Vectors that lie in a box: its middle, a single-precision number, half its extent, and the largest magnitudes.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
-    middle: Vec3,
-    half: Vec3,
-    most: Vec3,
+    middle: DVec3,
+    half: DVec3,
+    most: DVec3,
 }
 
 impl Extent {
-    fn of(vectors: impl Iterator<Item = Vec3>) -> Option<Self> {
-        let mut bounds: Option<[Vec3; 2]> = None;
+    fn of(vectors: impl Iterator<Item = DVec3>) -> Option<Self> {
+        let mut bounds: Option<[DVec3; 2]> = None;
         for v in vectors {
             let [low, high] = bounds.get_or_insert([v, v]);
-            for axis in 0..3 {
-                low[axis] = low[axis].min(v[axis]);
-                high[axis] = high[axis].max(v[axis]);
-            }
+            (*low, *high) = (low.min(v), high.max(v));
         }
         let [low, high] = bounds?;
-        let middle = [0, 1, 2].map(|i| f64::from((0.5 * (low[i] + high[i])) as f32));
-        let half = [0, 1, 2].map(|i| (high[i] - middle[i]).max(middle[i] - low[i]));
-        Some(Self { middle, half, most: [0, 1, 2].map(|i| low[i].abs().max(high[i].abs())) })
+        let middle = wide(narrow(0.5 * (low + high)));
+        let half = (high - middle).max(middle - low);
+        Some(Self { middle, half, most: low.abs().max(high.abs()) })
     }
 
     fn grown(self, by: f64) -> Self {
-        Self { middle: self.middle, half: self.half.map(|x| x + by), most: self.most.map(|x| x + by) }
+        Self { middle: self.middle, half: self.half + by, most: self.most + by }
     }
 }
 
 /// The reaches of the tests, rounding included.
 struct Bounds {
     /// Of n.ao, by |n|.
-    n_ao: Vec3,
+    n_ao: DVec3,
     /// Of n.d, by |n|.
-    n_d: Vec3,
+    n_d: DVec3,
     /// Of u, v and w by their edge, beside what is known of a triangle itself.
-    edge: Vec3,
+    edge: DVec3,
     /// Of n.ao, n.d and of u, v, w, whatever the triangle.
     alone: [f64; 3],
     /// Of |ab| + |ac|.
@@ -151,20 +148,19 @@ impl Bounds {
     fn new(origins: &Extent, directions: &Extent, places: &Extent, errors: Errors) -> Self {
         let Errors { share, step, .. } = errors;
         let d = directions.most;
-        let a = [0, 1, 2].map(|i| places.most[i] + origins.most[i]);
+        let a = places.most + origins.most;
         let products = mixed(a, d);
         let both = mixed(origins.half, directions.half);
-        let sum = |v: Vec3| v[0] + v[1] + v[2];
-        let others = 2.0 * sum(a) + 2.0 * sum(d) + 4.0;
+        let others = 2.0 * a.element_sum() + 2.0 * d.element_sum() + 4.0;
         Self {
-            n_ao: [0, 1, 2].map(|i| origins.half[i] + share * a[i] + step * (8.0 + d[i])),
-            n_d: [0, 1, 2].map(|i| directions.half[i] + share * d[i] + 2.0 * step),
-            edge: [0, 1, 2].map(|i| both[i] + share * products[i] + 2.0 * step * others),
+            n_ao: origins.half + share * a + step * (8.0 + d),
+            n_d: directions.half + share * d + 2.0 * step,
+            edge: both + share * products + 2.0 * step * others,
             // One card divides n.ao by four before it looks at its sign.
             alone: [
-                8.0 * step * (sum(a) + 4.0),
-                2.0 * step * (sum(d) + 4.0),
-                2.0 * step * (sum(products) + sum(d) + 8.0),
+                8.0 * step * (a.element_sum() + 4.0),
+                2.0 * step * (d.element_sum() + 4.0),
+                2.0 * step * (products.element_sum() + d.element_sum() + 8.0),
             ],
             most_edges: most_edges(a, d, products, errors),
         }
@@ -172,8 +168,8 @@ impl Bounds {
 
     fn constants(&self, origins: &Extent, directions: &Extent, sides: Sides) -> Vec<[u32; 4]> {
         let front = f64::from(u8::from(sides == Sides::Front));
-        let vector = |[x, y, z]: Vec3, w: f64| [x as f32, y as f32, z as f32, w as f32];
-        let up = |v: Vec3, w: f64| vector(v, w).map(upward);
+        let vector = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
+        let up = |v: DVec3, w: f64| vector(v, w).map(upward);
         let [n_ao, n_d, uvw] = self.alone.map(|x| upward(x as f32));
         let all = [
             vector(origins.middle, front),
@@ -191,9 +187,8 @@ impl Bounds {
 }
 
 /// The largest |ab| + |ac| at which nothing leaves the range of the format; negative if other things do.
-fn most_edges(a: Vec3, d: Vec3, products: Vec3, errors: Errors) -> f64 {
-    let most = |v: Vec3| v[0].max(v[1]).max(v[2]);
-    let (range, largest) = (0.5 * errors.largest, most(a).max(most(d)).max(most(products)));
+fn most_edges(a: DVec3, d: DVec3, products: DVec3, errors: Errors) -> f64 {
+    let (range, largest) = (0.5 * errors.largest, a.max(d).max(products).max_element());
     let limit = if errors.fixed { 0.9 * errors.largest } else { errors.largest };
     if largest > limit {
         return -1.0;
@@ -203,7 +198,7 @@ fn most_edges(a: Vec3, d: Vec3, products: Vec3, errors: Errors) -> f64 {
     }
     // |n| is at most the square of that by four, n.ao and n.d three times that and a or d; u, v and w an edge times the products.
     let normal = (range * 4.0 / (3.0 * largest.max(1.0))).sqrt();
-    range.min(normal).min(range / most(products).max(1.0))
+    range.min(normal).min(range / products.max_element().max(1.0))
 }
 
 /// The next larger number or the one after: what is computed from f64 is not too small afterwards.

@@ -20,7 +20,7 @@
 use refsim::device::{Rules, TexdepthDenominator};
 use refsim::num::{Format, Kind};
 
-use super::rays::{ceil_power_of_two, power_of_two};
+use crate::tracer::scale::{ceil_power_of_two, power_of_two};
 
 /// A number format, as far as intersection programs ask.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -103,56 +103,9 @@ impl RayBatch {
     }
 }
 
-/// The exponent of the largest power of two that is not above `x`; `x` finite and above zero.
-fn floor_log2(x: f64) -> i32 {
-    // Denormal f64 can't come from f32 inputs, so the biased exponent says it all.
-    ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
-}
-
-/// 2^`exponent`, for exponents in the range of normal f64.
-pub(super) fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
-}
-
-/// A direction scaled by a power of two so that its largest component lies in [1/2, 1), and the power.
-///
-/// `scaled = direction * power`, hence `t = t_scaled * power`.
-pub(super) fn normalise_range(direction: [f32; 3]) -> ([f64; 3], f64) {
-    let d = direction.map(f64::from);
-    let largest = d.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let power = power_of_two(-1 - floor_log2(largest));
-    (d.map(|x| x * power), power)
-}
-
-/// The smallest power of two that is not below `x`; 1 for 0.
-pub(super) fn ceil_power_of_two(x: f64) -> f64 {
-    if x == 0.0 {
-        return 1.0;
-    }
-    let floor = power_of_two(floor_log2(x));
-    if floor == x { floor } else { floor * 2.0 }
-}
-
-/// The largest power of two `s` with `s * extent <= range`; 1 for an empty scene.
-pub(super) fn scale_into(extent: f64, range: f64) -> f64 {
-    if extent == 0.0 { 1.0 } else { 1.0 / ceil_power_of_two(extent / range) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ranges_are_powers_of_two() {
-        assert_eq!(ceil_power_of_two(5.0), 8.0, "rounds up");
-        assert_eq!(ceil_power_of_two(0.25), 0.25, "exact powers stay");
-        assert_eq!(scale_into(5.0, 8.0), 1.0, "5 fits 8 as it is");
-        assert_eq!(scale_into(17.0, 8.0), 0.25, "17 / 4 fits 8, 17 / 2 does not");
-        let (d, power) = normalise_range([0.0, -3.0, 1.0]);
-        assert_eq!((d, power), ([0.0, -0.75, 0.25], 0.25), "largest component in [1/2, 1)");
-        let (d, _) = normalise_range([f32::from_bits(1), 0.0, 0.0]);
-        assert_eq!(d[0], 0.5, "denormal f32 directions too");
-    }
 
     #[test]
     fn lists_are_laid_out_in_squares_and_padded_with_their_last_ray() {

@@ -1,35 +1,37 @@
 //! How large the numbers of a batch can become: intervals over all its rays, in f64.
 
+use glam::{DVec3, Vec3Swizzles};
+
 use super::RayBatch;
-use super::rays::normalise_range;
-use super::reference::{Vec3, sub};
+use crate::geom::vector::wide;
+use crate::tracer::scale::normalize_range;
 
 /// Depth 1 means no hit, so that the largest t must stay below it, rounded as it may be.
 const ROOM: f64 = 1.0 + 1.0 / 32.0;
 
 /// Vectors between two corners of a box: the lowest and the highest components.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span([Vec3; 2]);
+pub(super) struct VectorRange([DVec3; 2]);
 
-impl Span {
+impl VectorRange {
     /// All times a positive number.
     pub(super) fn times(self, factor: f64) -> Self {
-        Self(self.0.map(|v| v.map(|x| x * factor)))
+        Self(self.0.map(|v| v * factor))
     }
 
     /// All minus a point.
-    pub(super) fn minus(self, p: Vec3) -> Self {
-        Self(self.0.map(|v| sub(v, p)))
+    pub(super) fn minus(self, p: DVec3) -> Self {
+        Self(self.0.map(|v| v - p))
     }
 
-    fn include(&mut self, v: Vec3) {
+    fn include(&mut self, v: DVec3) {
         let [low, high] = self.0;
-        self.0 = [[0, 1, 2].map(|axis| low[axis].min(v[axis])), [0, 1, 2].map(|axis| high[axis].max(v[axis]))];
+        self.0 = [low.min(v), high.max(v)];
     }
 
     /// The largest magnitude of each component.
-    pub(super) fn magnitudes(self) -> Vec3 {
-        [0, 1, 2].map(|axis| magnitude(self.axis(axis)))
+    pub(super) fn magnitudes(self) -> DVec3 {
+        self.0[0].abs().max(self.0[1].abs())
     }
 
     /// One component: from, to.
@@ -38,13 +40,13 @@ impl Span {
     }
 
     /// The largest magnitude of the inner product with a vector.
-    pub(super) fn dot(&self, v: Vec3) -> f64 {
+    pub(super) fn dot(&self, v: DVec3) -> f64 {
         let terms = [0, 1, 2].map(|axis| scaled(v[axis], self.axis(axis)));
         magnitude(added(added(terms[0], terms[1]), terms[2]))
     }
 
     /// The largest magnitude of e . (v x d) = d . (e x v), for v of this box and d of another.
-    pub(super) fn triple(&self, e: Vec3, d: Self) -> f64 {
+    pub(super) fn triple(&self, e: DVec3, d: Self) -> f64 {
         let term = |q: usize| {
             let (j, k) = ((q + 1) % 3, (q + 2) % 3);
             product(added(scaled(e[j], self.axis(k)), scaled(-e[k], self.axis(j))), d.axis(q))
@@ -72,25 +74,25 @@ fn magnitude([low, high]: [f64; 2]) -> f64 {
 }
 
 /// The largest of an inner product with a vector and of the sums on the way to it: each term, the first two, all three.
-pub(super) fn most_of_partial_sums(v: Vec3, most: impl Fn(Vec3) -> f64) -> f64 {
-    let [x, y, z] = v;
-    let sums = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z], [x, y, 0.0], v];
+pub(super) fn most_of_partial_sums(v: DVec3, most: impl Fn(DVec3) -> f64) -> f64 {
+    let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| v * axis);
+    let sums = [x, y, z, x + y, v];
     sums.into_iter().map(most).fold(0.0, f64::max)
 }
 
 /// The components of a cross product of vectors with these magnitudes, at most.
-pub(super) fn mixed(a: Vec3, d: Vec3) -> Vec3 {
-    [a[1] * d[2] + a[2] * d[1], a[2] * d[0] + a[0] * d[2], a[0] * d[1] + a[1] * d[0]]
+pub(super) fn mixed(a: DVec3, d: DVec3) -> DVec3 {
+    DVec3::new(a.y * d.z + a.z * d.y, a.z * d.x + a.x * d.z, a.x * d.y + a.y * d.x)
 }
 
 /// The largest magnitude of a component.
-pub(super) fn largest(v: Vec3) -> f64 {
-    v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+pub(super) fn largest(v: DVec3) -> f64 {
+    v.abs().max_element()
 }
 
 /// The sum of the magnitudes of an inner product's terms.
-pub(super) fn inner(v: Vec3, most: Vec3) -> f64 {
-    v[0].abs() * most[0] + v[1].abs() * most[1] + v[2].abs() * most[2]
+pub(super) fn inner(v: DVec3, most: DVec3) -> f64 {
+    v.abs().dot(most)
 }
 
 /// The largest magnitudes of a scene.
@@ -106,17 +108,16 @@ pub(super) struct Reach {
     /// Of t, for directions brought into range, with room below depth 1.
     pub(super) t: f64,
     /// The origins.
-    pub(super) origins: Span,
+    pub(super) origins: VectorRange,
     /// The directions in range.
-    pub(super) directions: Span,
+    pub(super) directions: VectorRange,
 }
 
 impl Reach {
     /// Of rays and a mesh of which these are the lowest and the highest coordinates.
     pub(super) fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
-        let [low, high] = bounds.map(|p| p.map(f64::from));
-        let mut all =
-            rays.rays().iter().map(|r| (r.origin().map(f64::from), normalise_range(r.direction()).0)).peekable();
+        let [low, high] = bounds.map(wide);
+        let mut all = rays.rays().iter().map(|r| (wide(r.origin()), normalize_range(r.direction()).0)).peekable();
         let first = all.peek().copied().unwrap_or_default();
         let mut reach = Self {
             position: largest(low).max(largest(high)),
@@ -124,36 +125,29 @@ impl Reach {
             offset: 0.0,
             cross: 0.0,
             t: 0.0,
-            origins: Span([first.0; 2]),
-            directions: Span([first.1; 2]),
+            origins: VectorRange([first.0; 2]),
+            directions: VectorRange([first.1; 2]),
         };
         for (origin, d) in all {
             reach.origins.include(origin);
             reach.directions.include(d);
-            let [p, q] = [sub(origin, low), sub(origin, high)];
-            let farthest = [0, 1, 2].map(|axis| p[axis].abs().max(q[axis].abs()));
+            let [p, q] = [origin - low, origin - high];
+            let farthest = p.abs().max(q.abs());
             reach.origin = reach.origin.max(largest(origin));
             reach.offset = reach.offset.max(largest(farthest));
             // No cross product of this ray exceeds the magnitudes of its terms: few rays can be the largest.
-            if largest(mixed(farthest, d.map(f64::abs))) > reach.cross {
-                let mut offsets = Span([p; 2]);
+            if largest(mixed(farthest, d.abs())) > reach.cross {
+                let mut offsets = VectorRange([p; 2]);
                 offsets.include(q);
-                let d_alone = Span([d; 2]);
-                let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-                let components = units.map(|unit| offsets.triple(unit, d_alone));
-                let products = [1, 2].map(|by| inner_most(farthest, [d[by % 3], d[(by + 1) % 3], d[(by + 2) % 3]]));
+                let d_alone = VectorRange([d; 2]);
+                let components = DVec3::from(DVec3::AXES.map(|axis| offsets.triple(axis, d_alone)));
+                let products = [d.yzx(), d.zxy()].map(|d| largest(farthest * d));
                 reach.cross = reach.cross.max(largest(components)).max(products[0]).max(products[1]);
             }
             // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at
             // t <= 2 r; along its own length, at t <= r / |d|.
-            let length = |v: Vec3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-            reach.t = reach.t.max(length(farthest) / length(d) * ROOM);
+            reach.t = reach.t.max(farthest.length() / d.length() * ROOM);
         }
         reach
     }
-}
-
-/// The largest product of components of the same place.
-fn inner_most(a: Vec3, b: Vec3) -> f64 {
-    largest([0, 1, 2].map(|i| a[i] * b[i]))
 }

@@ -3,8 +3,7 @@
 //! For reading beside the paper, and as the independent answer in `tests/papers`. Whether a ray *truly* hits is
 //! decided by [`crate::geom::exact`], not here.
 
-/// A vector of three f64.
-pub type Vec3 = [f64; 3];
+use glam::DVec3;
 
 /// What equations (3) and (6) to (8) give for one ray and one triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,32 +34,17 @@ impl Crossing {
 }
 
 /// Evaluates the equations for the ray `o + t d` and the triangle `a b c`.
-pub fn intersect(o: Vec3, d: Vec3, [a, b, c]: [Vec3; 3]) -> Crossing {
-    let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-    let n = cross(ab, ac);
-    let ao = sub(o, a); // (1)
-    let bo = sub(o, b); // (2)
-    let n_dot_d = dot(n, d);
-    let t = -dot(n, ao) / n_dot_d; // (3)
-    let aod = cross(ao, d); // (4)
-    let bod = cross(bo, d); // (5)
-    let u = dot(ac, aod); // (6)
-    let v = -dot(ab, aod); // (7)
-    let w = -dot(bc, bod); // (8), DIFFERENCE: printed without the minus
+pub fn intersect(o: DVec3, d: DVec3, [a, b, c]: [DVec3; 3]) -> Crossing {
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let n = ab.cross(ac);
+    let ao = o - a; // (1)
+    let bo = o - b; // (2)
+    let n_dot_d = n.dot(d);
+    let t = -n.dot(ao) / n_dot_d; // (3)
+    let aod = ao.cross(d); // (4)
+    let bod = bo.cross(d); // (5)
+    let u = ac.dot(aod); // (6)
+    let v = -ab.dot(aod); // (7)
+    let w = -bc.dot(bod); // (8), DIFFERENCE: printed without the minus
     Crossing { t, u, v, w, n_dot_d }
-}
-
-/// `a - b`
-pub fn sub(a: Vec3, b: Vec3) -> Vec3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// `a . b`
-pub fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a x b`
-pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -1,14 +1,14 @@
 //! The scene in the units of a card, by powers of two; and rays as textures.
 
-use refsim::num::Format;
+use glam::DVec3;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
 
 use super::range::Range;
-use super::rays::{ceil_power_of_two, normalise_range, power_of_two, scale_into};
-use super::reach::{Reach, Span, inner, largest, mixed, most_of_partial_sums};
-use super::reference::{Vec3, cross, sub};
+use super::reach::{Reach, VectorRange, inner, largest, mixed, most_of_partial_sums};
 use super::{Form, Kernel, RayBatch};
+use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
+use crate::tracer::scale::{ceil_power_of_two, in_single_precision, normalize_range, scale_into};
 
 /// What positions are multiplied by on the way to the card, and what depth 1 means there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +20,9 @@ pub(super) struct Units {
     /// The t of depth 1, in card units and for directions brought into range; a power of two.
     t_max: f64,
     /// The origins, in card units.
-    origins: Span,
+    origins: VectorRange,
     /// The directions, brought into range.
-    directions: Span,
+    directions: VectorRange,
     /// The common origin, in card units.
     origin: [f32; 3],
 }
@@ -60,7 +60,7 @@ impl Units {
             Form::OneOrigin | Form::Float => ceil_power_of_two(reach.t * scale),
         };
         let origins = reach.origins.times(scale);
-        let origin = rays.common_origin().unwrap_or_default().map(|x| (f64::from(x) * scale) as f32);
+        let origin = narrow(wide(rays.common_origin().unwrap_or_default()) * scale);
         Self { form, range, scale, t_max, origins, directions: reach.directions, origin }
     }
 
@@ -80,39 +80,39 @@ impl Units {
         if !self.range.has_edge_scale() {
             return 1.0;
         }
-        let [a, b, c] = corners.map(|p| p.map(|x| f64::from(x) * self.scale));
-        let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-        let n = cross(ab, ac);
+        let [a, b, c] = corners.map(|corner| wide(corner) * self.scale);
+        let (ab, ac, bc) = (b - a, c - a, c - b);
+        let n = ab.cross(ac);
         let (texel, error) = (self.range.texel_error(), self.range.cross_product_error());
         let (ao, bo, d) = (self.origins.minus(a), self.origins.minus(b), self.directions);
         let components = [ab, ac, bc, n].map(largest).into_iter().fold(0.0, f64::max);
         let scale = |sum: f64| self.range.edge_scale(sum.max(components), largest(n));
 
         // Most triangles are small: the magnitudes of all terms together, which no sum exceeds, settle it for them.
-        let [ao_most, bo_most, d_most] = [ao, bo, d].map(Span::magnitudes);
-        let [aod, bod] = [ao_most, bo_most].map(|v| mixed(v, d_most).map(|x| x + error));
-        let n_d = inner(n, d_most.map(|x| x + texel)) * self.range.of_divisors();
+        let [ao_most, bo_most, d_most] = [ao, bo, d].map(VectorRange::magnitudes);
+        let [aod, bod] = [ao_most, bo_most].map(|v| mixed(v, d_most) + error);
+        let n_d = inner(n, d_most + texel) * self.range.of_divisors();
         let n_ao = match self.form {
             Form::OneOrigin => inner(n, ao_most) / self.t_max,
-            Form::AnyOrigin | Form::Float => inner(n, ao_most.map(|x| x + texel + 2.0 * self.range.step)),
+            Form::AnyOrigin | Form::Float => inner(n, ao_most + texel + 2.0 * self.range.step),
         };
-        let w = inner(bc, bod) + inner(n, [texel; 3]);
+        let w = inner(bc, bod) + inner(n, DVec3::splat(texel));
         let terms = [n_d, n_ao, inner(ac, aod), inner(ab, aod), inner(bc, aod), w].into_iter().fold(0.0, f64::max);
         if scale(terms) == scale(0.0) {
             return scale(0.0);
         }
 
-        let turned = |e: Vec3| most_of_partial_sums(e, |e| ao.triple(e, d)) + inner(e, [error; 3]);
-        let n_d = most_of_partial_sums(n, |n| d.dot(n)) + inner(n, [texel; 3]);
+        let turned = |e: DVec3| most_of_partial_sums(e, |e| ao.triple(e, d)) + inner(e, DVec3::splat(error));
+        let n_d = most_of_partial_sums(n, |n| d.dot(n)) + inner(n, DVec3::splat(texel));
         let n_ao = match self.form {
             // The vertex program computes it, in single precision.
             Form::OneOrigin => ao.dot(n) / self.t_max,
             Form::AnyOrigin | Form::Float => {
-                most_of_partial_sums(n, |n| ao.dot(n)) + inner(n, [texel + 2.0 * self.range.step; 3])
+                most_of_partial_sums(n, |n| ao.dot(n)) + inner(n, DVec3::splat(texel + 2.0 * self.range.step))
             }
         };
         // w is the difference of n.d and bc.aod, and has the errors of both.
-        let w = bo.triple(bc, d) + inner(bc, [error; 3]) + inner(n, [texel; 3]);
+        let w = bo.triple(bc, d) + inner(bc, DVec3::splat(error)) + inner(n, DVec3::splat(texel));
         let sums = [n_d * self.range.of_divisors(), n_ao, turned(ac), turned(ab), turned(bc), w];
         scale(sums.into_iter().fold(0.0, f64::max))
     }
@@ -134,23 +134,9 @@ impl Units {
 
     /// t in multiples of the ray's own direction, from a depth: exact.
     pub(super) fn t(&self, depth: f32, ray: &Ray) -> f64 {
-        let (_, power) = normalise_range(ray.direction());
+        let (_, power) = normalize_range(ray.direction());
         f64::from(depth) * self.t_max / self.scale * power
     }
-}
-
-/// What corners are multiplied by for arithmetic in single precision, on the host as on a card: the scale of [`Units`]
-/// for such a card, unless rays start 2^100 times farther away than the mesh is large.
-pub(super) fn host_scale(mesh: &Mesh) -> f64 {
-    let [corners, _] = Range::of(&Format::FP32).of_float_scenes();
-    let bounds = mesh.bounds().unwrap_or_default().map(|p| p.map(f64::from));
-    in_single_precision(scale_into(largest(bounds[0]).max(largest(bounds[1])), corners))
-}
-
-/// The nearest scale that a vertex constant holds. Scenes below 2^-123, numbers with few bits left, get less than they
-/// need.
-fn in_single_precision(scale: f64) -> f64 {
-    scale.clamp(power_of_two(-149), power_of_two(127))
 }
 
 /// The textures of a program's head comment, with the samplers that they belong to.
@@ -159,10 +145,10 @@ pub(super) fn ray_textures(
     rays: &RayBatch,
     units: &Units,
 ) -> Result<Vec<(usize, Image)>, TextureError> {
-    let directions: Vec<[f64; 3]> = rays.rays().iter().map(|r| normalise_range(r.direction()).0).collect();
-    let origin = |r: &Ray| r.origin().map(|x| f64::from(x) * units.scale);
+    let directions: Vec<DVec3> = rays.rays().iter().map(|r| normalize_range(r.direction()).0).collect();
+    let origin = |r: &Ray| wide(r.origin()) * units.scale;
     if kernel.form == Form::Float {
-        let origins: Vec<[f64; 3]> = match rays.common_origin() {
+        let origins: Vec<DVec3> = match rays.common_origin() {
             // Section 4.1: rays of one origin need a single texel.
             Some(_) => rays.rays().first().map(origin).into_iter().collect(),
             None => rays.rays().iter().map(origin).collect(),
@@ -178,7 +164,7 @@ pub(super) fn ray_textures(
     if kernel.form == Form::OneOrigin {
         return Ok(vec![(1, xy), (2, pairs(&|i| [directions[i][2], 0.0])?)]);
     }
-    let origins: Vec<[f64; 3]> = rays.rays().iter().map(origin).collect();
+    let origins: Vec<DVec3> = rays.rays().iter().map(origin).collect();
     Ok(vec![
         (0, pairs(&|i| [origins[i][0], origins[i][1]])?),
         (1, xy),
@@ -191,10 +177,9 @@ fn extents(rays: &RayBatch) -> [u32; 3] {
 }
 
 /// Four fp32 channels: x, y, z, 1.
-fn float_texture(extents: [u32; 3], vectors: &[[f64; 3]]) -> Result<Image, TextureError> {
-    let texel = |v: &[f64; 3]| [v[0] as f32, v[1] as f32, v[2] as f32, 1.0];
+fn float_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureError> {
     let mut bytes = Vec::with_capacity(16 * vectors.len());
-    for value in vectors.iter().flat_map(texel) {
+    for value in vectors.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32, 1.0]) {
         bytes.extend_from_slice(&value.to_le_bytes());
     }
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)

@@ -11,13 +11,13 @@ use refsim::texture::TexelFormat;
 
 use super::card::bind;
 use super::crossbar::{Answer, EngineError, color_of_id, id_of_color};
-use super::host_test::{cross, scaled, scaled_corners, sub};
 use super::range::Range;
-use super::rays::normalise_range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};
 use crate::card::NearestTarget;
 use crate::geom::{Hit, Mesh, Ray};
+use crate::tracer::scale::normalize_range;
+use crate::tracer::triangle_test::{scaled, scaled_corners};
 
 /// Corners of a triangle around a pixel's centre, in pixels.
 const AROUND: [[f32; 2]; 3] = [[0.0, 0.4], [0.4, -0.3], [-0.4, -0.3]];
@@ -62,8 +62,8 @@ impl VertexCrossbar {
             let at = |i: usize, count: u32| (2 * i + 1) as f32 / count as f32 - 1.0;
             let width = rays.width() as usize;
             let center = [at(i % width, rays.width()), -at(i / width, rays.height())];
-            let [ox, oy, oz] = scaled(ray.origin(), units.scale());
-            let [dx, dy, dz] = normalise_range(ray.direction()).0.map(|x| x as f32);
+            let [ox, oy, oz] = scaled(ray.origin(), units.scale()).into();
+            let [dx, dy, dz] = normalize_range(ray.direction()).0.as_vec3().into();
             let float = [
                 [0.0, 1.0, 4.0, -1.0],
                 [center[0], center[1], (1.0 / units.t_max()) as f32, 1.0],
@@ -113,9 +113,9 @@ impl Streams {
         let mut triangles: [Vec<[u32; 4]>; 5] = Default::default();
         for (id, [a, b, c]) in (0..mesh.len() as u32).filter_map(|id| Some((id, mesh.corners(id)?))) {
             let [a, b, c] = scaled_corners([a, b, c], scale);
-            let (ab, ac) = (sub(b, a), sub(c, a));
-            for (stream, [x, y, z]) in triangles.iter_mut().zip([a, cross(ab, ac), ab, ac]) {
-                stream.push([x, y, z, 1.0].map(f32::to_bits));
+            let (ab, ac) = (b - a, c - a);
+            for (stream, v) in triangles.iter_mut().zip([a, ab.cross(ac), ab, ac]) {
+                stream.push([v.x, v.y, v.z, 1.0].map(f32::to_bits));
             }
             triangles[4].push(color_of_id(id));
         }

@@ -1,15 +1,16 @@
 //! Distributed ray tracing: what Whitted's rays did sharply, spread at random (Cook, Porter and Carpenter 1984).
 
-use super::film::{Picture, expose};
-use super::lamps::Lamps;
+use super::counting::{CountingCaster, RayKind, WatchProgress};
+use super::film::{RenderedPicture, expose};
+use super::lights::Lights;
 use super::lobes::{Lobes, one_way, ways};
 use super::surfel::Surfel;
-use super::tracer::{Kind, Tracer, Watch};
-use super::wave::{Flight, Scatter, Shade};
+use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::Hit;
 use crate::geom::vector::wide;
-use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use crate::tracer::Caster;
 use glam::DVec3;
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the point lights if
@@ -24,30 +25,30 @@ pub fn render<'a>(
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
-) -> Result<Picture, RenderError> {
-    let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene, settings.rounding);
-    let fan = 2 + lamps.points();
-    expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lamps })
+    watch: &'a mut WatchProgress<'a>,
+) -> Result<RenderedPicture, RenderError> {
+    let mut tracer = CountingCaster::new(caster, watch);
+    let lights = Lights::areas_of(scene, settings.rounding);
+    let fan = 2 + lights.points();
+    expose(&mut tracer, camera, settings, fan, &Distributed { scene, settings, lights })
 }
 
 struct Distributed<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
-    lamps: Lamps<'a>,
+    lights: Lights<'a>,
 }
 
 impl Shade for Distributed<'_> {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lamps::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => {
-                direct(&self.lamps, flight, &surfel, &lobes, &mut scatter);
+                direct(&self.lights, flight, &surfel, &lobes, &mut scatter);
                 if more && lobes.specular.max_element() > 0.0 {
                     gloss(flight, &surfel, lobes, &mut scatter);
                 }
@@ -60,9 +61,9 @@ impl Shade for Distributed<'_> {
 }
 
 /// The diffuse part, by one point of the emitters; and both parts by the point lights, which no ray from a lobe could find.
-pub(super) fn direct(lamps: &Lamps<'_>, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-    let area = lamps.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
-    let points = (0..lamps.points()).filter_map(|light| Some((lamps.point(surfel, light)?, *lobes)));
+pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+    let area = lights.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
+    let points = (0..lights.points()).filter_map(|light| Some((lights.point(surfel, light)?, *lobes)));
     for (arriving, lobes) in area.into_iter().chain(points) {
         let (value, _) = lobes.evaluate(surfel, arriving.towards);
         let light = flight.weight * (value * arriving.light);
@@ -73,15 +74,15 @@ pub(super) fn direct(lamps: &Lamps<'_>, flight: &Flight, surfel: &Surfel<'_>, lo
 }
 
 /// The glossy lobe, by one ray.
-pub(super) fn gloss(flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
+pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
     let shiny = Lobes { albedo: DVec3::ZERO, ..lobes };
     let Some(chosen) = shiny.choose(surfel, 0.0, flight.dice.pair(flight.depth, 4)) else { return };
     let weight = flight.weight * chosen.weight;
-    scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, Kind::Reflection, weight)));
+    scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
 /// A mirror's ray, or those of glass: both where the eye sees it first, since a choice there is seen as grain, afterwards one.
-pub(super) fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+pub(super) fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen =
         if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };
     for way in chosen.into_iter().flatten() {
@@ -89,7 +90,7 @@ pub(super) fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter)
         if weight.max_element() > 0.0 {
             let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
             // A gather ray stays one.
-            scatter.next.extend(next.map(|next| Flight { density: flight.density, ..next }));
+            scatter.next.extend(next.map(|next| PathRay { density: flight.density, ..next }));
         }
     }
 }

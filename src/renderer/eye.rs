@@ -1,13 +1,14 @@
-//! Eye rays alone: what is seen where, in the light of a lamp at the eye.
+//! Eye rays alone: what is seen where, in the light of a light at the eye.
 
-use super::film::{Picture, expose};
+use super::counting::{CountingCaster, WatchProgress};
+use super::film::{RenderedPicture, expose};
 use super::surfel::Surfel;
-use super::tracer::{Tracer, Watch};
-use super::wave::{Flight, Scatter, Shade};
+use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::Hit;
 use crate::geom::vector::wide;
-use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene, Surface};
+use crate::tracer::Caster;
 
 /// Casts eye rays. A surface shows its own colour (of mirrors and glass what they let pass) times the cosine to the eye, and what it emits
 /// on top; a back face shows half of it, so that holes and turned triangles are seen. No other rays are cast.
@@ -19,9 +20,9 @@ pub fn render<'a>(
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
-) -> Result<Picture, RenderError> {
-    let mut tracer = Tracer::new(caster, watch);
+    watch: &'a mut WatchProgress<'a>,
+) -> Result<RenderedPicture, RenderError> {
+    let mut tracer = CountingCaster::new(caster, watch);
     expose(&mut tracer, camera, settings, 1, &Eye { scene, settings })
 }
 
@@ -31,7 +32,7 @@ struct Eye<'a> {
 }
 
 impl Shade for Eye<'_> {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(wide(self.settings.background));
         };
@@ -42,6 +43,6 @@ impl Shade for Eye<'_> {
             Surface::Glass { transmittance, .. } => wide(transmittance),
         };
         let facing = surfel.shading.dot(surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
-        Scatter::of(facing * color + super::lamps::Lamps::seen(&surfel))
+        Scatter::of(facing * color + super::lights::Lights::seen(&surfel))
     }
 }

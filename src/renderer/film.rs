@@ -3,16 +3,16 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::counting::{CountingCaster, RayCounts, RayKind};
 use super::settings::{Lens, RenderError, Settings};
-use super::tracer::{Kind, RayCounts, Tracer};
-use super::wave::{Dice, Flight, Shade, follow};
+use super::wave::{Dice, PathRay, Shade, follow};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::scene::Camera;
 
 /// Linear radiance of each pixel, rows from the top, with what was first hit through its middle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct RenderedPicture {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
@@ -29,7 +29,7 @@ pub struct Picture {
     pub counts: RayCounts,
 }
 
-impl Picture {
+impl RenderedPicture {
     /// t of each pixel, infinite where nothing is hit.
     pub fn t(&self) -> Vec<f32> {
         self.first.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t)).collect()
@@ -66,12 +66,12 @@ impl Film {
 
 /// Renders by a shader. `fan` says how many rays one ray from the eye may become at a time, about.
 pub(super) fn expose(
-    tracer: &mut Tracer<'_>,
+    tracer: &mut CountingCaster<'_>,
     camera: &Camera,
     settings: &Settings,
     fan: usize,
     shader: &impl Shade,
-) -> Result<Picture, RenderError> {
+) -> Result<RenderedPicture, RenderError> {
     settings.checked()?;
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
@@ -88,7 +88,7 @@ pub(super) fn expose(
         let flights = (start..end).into_par_iter().map(|index| {
             let (pixel, sample) = (index / samples, index % samples);
             let dice = Dice::new(settings.seed, pixel, sample);
-            Flight::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
+            PathRay::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
         });
         let wave = follow(tracer, flights.collect(), shader)?;
         for (index, light) in (start..end).zip(wave.light) {
@@ -102,7 +102,7 @@ pub(super) fn expose(
     }
     let (color, variance) = means(&film, settings.samples);
     let (width, height, counts) = (camera.width(), camera.height(), tracer.counts);
-    Ok(Picture { width, height, color, variance, first, not_finite: film.not_finite, counts })
+    Ok(RenderedPicture { width, height, color, variance, first, not_finite: film.not_finite, counts })
 }
 
 /// Means, and the variances of the means.
@@ -119,7 +119,7 @@ fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
 
 /// What the rays through the middles of the pixels meet.
 fn through_middles(
-    tracer: &mut Tracer<'_>,
+    tracer: &mut CountingCaster<'_>,
     camera: &Camera,
     settings: &Settings,
 ) -> Result<Vec<Option<Hit>>, RenderError> {
@@ -130,7 +130,7 @@ fn through_middles(
         let start = hits.len() as u64;
         let end = pixels.min(start + settings.bundle.clamp(1, 1 << 24) as u64);
         let rays: Vec<Ray> = (start..end).map(|pixel| middle(camera, pixel)).collect();
-        hits.extend(tracer.cast(&rays, |_| Kind::Eye)?);
+        hits.extend(tracer.cast(&rays, |_| RayKind::Eye)?);
         if (hits.len() as u64) < end {
             // A caster that answers too little; the rest is taken as missed.
             hits.resize(end as usize, None);

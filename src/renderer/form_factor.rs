@@ -5,15 +5,14 @@
 
 use std::f64::consts::PI;
 
+use super::counting::CountingCaster;
 use super::sampling::triangle;
-use super::surfel::{Place, between};
-use super::tracer::Tracer;
 use super::visibility::visible;
+use crate::geom::Ray;
 use crate::geom::random::Keyed;
-use crate::geom::vector::wide;
-use crate::geom::{CastError, Caster, Ray};
 use crate::scene::Scene;
-use glam::DVec3;
+use crate::tracer::offset::{SINGLE, SurfacePoint};
+use crate::tracer::{CastError, Caster};
 
 /// An estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,7 +41,7 @@ pub fn form_factor(
     let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
     let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
     let mut ignore = |_| {};
-    let (seen, _) = visible(&rays, &mut Tracer::new(caster, &mut ignore))?;
+    let (seen, _) = visible(&rays, &mut CountingCaster::new(caster, &mut ignore))?;
     let (mut sum, mut squares) = (0.0, 0.0);
     for ((value, _), seen) in pairs.into_iter().flatten().zip(seen) {
         if seen {
@@ -67,30 +66,26 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<
     if !(square > 0.0 && cosines.iter().all(|&cosine| cosine > 0.0)) {
         return None;
     }
-    Some((to.area * cosines[0] * cosines[1] / (PI * square * square), between(&p, &q)?))
+    Some((to.area * cosines[0] * cosines[1] / (PI * square * square), p.ray_to(&q)?))
 }
 
 /// Triangles from which points are drawn, uniformly over their area.
 struct Patch<'a> {
     scene: &'a Scene,
     triangles: &'a [u32],
-    table: super::sampling::Table,
+    table: super::sampling::DiscreteDistribution,
     area: f64,
 }
 
 impl<'a> Patch<'a> {
     fn new(scene: &'a Scene, triangles: &'a [u32]) -> Self {
-        let area = |id: &u32| {
-            let [a, b, c]: [DVec3; 3] = scene.mesh().corners(*id).unwrap_or([[0.0; 3]; 3]).map(wide);
-            (b - a).cross(c - a).length() / 2.0
-        };
-        let table = super::sampling::Table::new(triangles.iter().map(area));
+        let table = super::sampling::DiscreteDistribution::new(triangles.iter().map(|&id| scene.mesh().area(id)));
         let area = table.total();
         Self { scene, triangles, table, area }
     }
 
-    fn place(&self, which: f64, u: [f64; 2]) -> Option<Place> {
+    fn place(&self, which: f64, u: [f64; 2]) -> Option<SurfacePoint> {
         let (entry, _) = self.table.draw(which)?;
-        Place::new(self.scene, self.triangles[entry], triangle(u), super::settings::SINGLE)
+        SurfacePoint::new(self.scene.mesh(), self.triangles[entry], triangle(u), SINGLE)
     }
 }

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use super::counting::RayKind;
 use super::fresnel::{reflectance, reflected, refracted};
 use super::sampling::{cosine, lobe};
 use super::surfel::Surfel;
-use super::tracer::Kind;
 use super::vector::mean;
 use crate::elementary::pow;
 use crate::geom::vector::wide;
@@ -23,7 +23,7 @@ pub(super) struct Lobes {
 
 /// A direction that a surface chose.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen {
+pub(super) struct LobeSample {
     pub(super) towards: DVec3,
     /// `f cos / density`.
     pub(super) weight: DVec3,
@@ -77,23 +77,23 @@ impl Lobes {
     }
 
     /// A direction, from three numbers in [0, 1); `None` if the surface swallows the light.
-    pub(super) fn choose(&self, surfel: &Surfel<'_>, which: f64, u: [f64; 2]) -> Option<Chosen> {
+    pub(super) fn choose(&self, surfel: &Surfel<'_>, which: f64, u: [f64; 2]) -> Option<LobeSample> {
         let towards = if which < self.chance_of_gloss() {
             lobe(reflected(surfel.view, surfel.shading), self.exponent, u)
         } else {
             cosine(surfel.shading, u)
         };
         let (value, density) = self.evaluate(surfel, towards);
-        (density > 0.0).then(|| Chosen { towards, weight: 1.0 / density * value, density })
+        (density > 0.0).then(|| LobeSample { towards, weight: 1.0 / density * value, density })
     }
 }
 
 /// A way on from a mirror or glass, with the share of the light.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct SpecularRay {
     pub(super) towards: DVec3,
     pub(super) weight: DVec3,
-    pub(super) kind: Kind,
+    pub(super) kind: RayKind,
     /// The chance with which it is taken where one of several is.
     pub(super) chance: f64,
     /// What a photon's flux is multiplied by, beside `weight`, so that what it lands as is irradiance over the square of the index too: the
@@ -105,11 +105,11 @@ pub(super) struct Way {
 ///
 /// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963): so there is no factor here,
 /// and what shines or scatters inside glass does so as in air.
-pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
-    let mirrored = |weight, chance| Way {
+pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
+    let mirrored = |weight, chance| SpecularRay {
         towards: mirror_direction(surfel),
         weight,
-        kind: Kind::Reflection,
+        kind: RayKind::Reflection,
         chance,
         squeeze: 1.0,
     };
@@ -123,7 +123,7 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
             let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(DVec3::ONE, 1.0)), None] };
             let weight = (1.0 - share) * wide(transmittance);
             let chance = 1.0 - share;
-            let refracted = Way { towards, weight, kind: Kind::Refraction, chance, squeeze: ratio * ratio };
+            let refracted = SpecularRay { towards, weight, kind: RayKind::Refraction, chance, squeeze: ratio * ratio };
             let reflected = (share > 0.0).then(|| mirrored(DVec3::splat(share), share));
             [Some(refracted), reflected]
         }
@@ -131,14 +131,14 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<Way>; 2] {
 }
 
 /// One of the ways, by a number in [0, 1), its weight divided by its chance.
-pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<Way> {
+pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
     let [first, second] = ways(surfel);
     let first = first?;
     let way = match second {
         Some(second) if u >= first.chance => second,
         _ => first,
     };
-    Some(Way { weight: 1.0 / way.chance * way.weight, ..way })
+    Some(SpecularRay { weight: 1.0 / way.chance * way.weight, ..way })
 }
 
 /// By the shading normal, unless that leads through the triangle.

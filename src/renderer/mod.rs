@@ -1,23 +1,24 @@
 //! Host renderers: what a ray engine is for (Ray Engine, section 5.2). docs/renderers.md says what each one estimates.
 //!
-//! - [`eye`]: eye rays alone, shaded by a lamp at the eye;
+//! - [`eye`]: eye rays alone, shaded by a light at the eye;
 //! - [`whitted`]: point lights with hard shadows, mirrors, glass (Whitted 1980);
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
 //! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
 //! - [`visibility`] and [`form_factor`]: rays as questions, without a picture.
 //!
-//! All work breadth first: they make a bundle of rays, have it cast by whoever is behind [`crate::geom::Caster`], shade, and make the next bundle.
+//! All work breadth first: they make a bundle of rays, have it cast by whoever is behind [`crate::tracer::Caster`], shade, and make the next bundle.
 //! Random numbers are keyed by pixel, sample and dimension, and all sums run in the order of samples: the picture does not depend on the size
 //! of bundles, on threads, or on the order in which rays are traced. It depends on the caster only where casters differ in the first
 //! triangle of a ray.
 
+mod counting;
 pub mod distributed;
 pub mod eye;
 mod film;
 pub mod form_factor;
 pub mod fresnel;
-mod lamps;
+mod lights;
 mod lobes;
 pub mod path;
 pub mod photon;
@@ -26,12 +27,11 @@ pub mod sampling;
 mod settings;
 mod surfel;
 pub mod tone;
-mod tracer;
 mod vector;
 pub mod visibility;
 mod wave;
 pub mod whitted;
 
-pub use film::Picture;
+pub use counting::{RayCounts, RayKind, RenderProgress, WatchProgress};
+pub use film::RenderedPicture;
 pub use settings::{Lens, RenderError, Settings};
-pub use tracer::{Kind, Progress, RayCounts, Watch};

@@ -1,15 +1,16 @@
 //! Path tracing: the rendering equation by random walks (Kajiya 1986), unbiased.
 
-use super::film::{Picture, expose};
-use super::lamps::{Arriving, Lamps};
+use super::counting::{CountingCaster, RayKind, WatchProgress};
+use super::film::{RenderedPicture, expose};
+use super::lights::{Arriving, Lights};
 use super::lobes::{Lobes, one_way};
 use super::surfel::Surfel;
-use super::tracer::{Kind, Tracer, Watch};
-use super::wave::{Flight, Scatter, Shade};
+use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::Hit;
 use crate::geom::vector::wide;
-use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use crate::tracer::Caster;
 use glam::DVec3;
 
 /// Hits before Russian roulette begins.
@@ -40,23 +41,23 @@ pub fn render<'a>(
     settings: &Settings,
     direct: Direct,
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
-) -> Result<Picture, RenderError> {
-    let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene, settings.rounding);
-    let fan = 2 + lamps.points();
-    expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lamps, direct })
+    watch: &'a mut WatchProgress<'a>,
+) -> Result<RenderedPicture, RenderError> {
+    let mut tracer = CountingCaster::new(caster, watch);
+    let lights = Lights::areas_of(scene, settings.rounding);
+    let fan = 2 + lights.points();
+    expose(&mut tracer, camera, settings, fan, &Paths { scene, settings, lights, direct })
 }
 
 struct Paths<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
-    lamps: Lamps<'a>,
+    lights: Lights<'a>,
     direct: Direct,
 }
 
 impl Shade for Paths<'_> {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
         let found = hit
             .and_then(|hit| Some((Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)?, hit.triangle)));
         let Some((surfel, triangle)) = found else {
@@ -64,7 +65,7 @@ impl Shade for Paths<'_> {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
         let share = self.share_of_walk(flight, &surfel, triangle);
-        let mut scatter = Scatter::of(share * (flight.weight * Lamps::seen(&surfel)));
+        let mut scatter = Scatter::of(share * (flight.weight * Lights::seen(&surfel)));
         if flight.depth < self.settings.depth {
             match Lobes::of(&surfel.material.surface) {
                 Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),
@@ -77,27 +78,27 @@ impl Shade for Paths<'_> {
 
 impl Paths<'_> {
     /// How much an emitter counts that the walk has found.
-    fn share_of_walk(&self, flight: &Flight, surfel: &Surfel<'_>, triangle: u32) -> f64 {
+    fn share_of_walk(&self, flight: &PathRay, surfel: &Surfel<'_>, triangle: u32) -> f64 {
         match (flight.density, self.direct) {
             // From the eye, a mirror or glass there is no other way to find it.
             (None, _) | (_, Direct::Walk) => 1.0,
             (Some(_), Direct::Emitters) => 0.0,
             (Some(walk), Direct::Both) => {
-                let chosen = self.lamps.density(surfel, triangle, wide(flight.ray.origin()));
+                let chosen = self.lights.density(surfel, triangle, wide(flight.ray.origin()));
                 walk / (walk + chosen)
             }
         }
     }
 
-    fn scatter(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+    fn scatter(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let dice = flight.dice;
         if self.direct != Direct::Walk
-            && let Some(arriving) = self.lamps.area(surfel, dice, flight.depth)
+            && let Some(arriving) = self.lights.area(surfel, dice, flight.depth)
         {
             self.lit(flight, surfel, lobes, &arriving, scatter);
         }
-        for light in 0..self.lamps.points() {
-            if let Some(arriving) = self.lamps.point(surfel, light) {
+        for light in 0..self.lights.points() {
+            if let Some(arriving) = self.lights.point(surfel, light) {
                 self.lit(flight, surfel, lobes, &arriving, scatter);
             }
         }
@@ -107,7 +108,7 @@ impl Paths<'_> {
             return;
         }
         let weight = flight.weight * chosen.weight;
-        if let Some(mut next) = self.go_on(flight, surfel, chosen.towards, Kind::Gather, weight) {
+        if let Some(mut next) = self.go_on(flight, surfel, chosen.towards, RayKind::Gather, weight) {
             next.density = Some(chosen.density);
             scatter.next.push(next);
         }
@@ -117,7 +118,7 @@ impl Paths<'_> {
         self.settings.background.iter().any(|&channel| channel > 0.0)
     }
 
-    fn lit(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &Arriving, scatter: &mut Scatter) {
+    fn lit(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &Arriving, scatter: &mut Scatter) {
         let (value, walk) = lobes.evaluate(surfel, arriving.towards);
         // Points have an infinite density: nothing else finds them, and they count in full.
         let share = match self.direct {
@@ -130,14 +131,21 @@ impl Paths<'_> {
         }
     }
 
-    fn pass(&self, flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    fn pass(&self, flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
         let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
         let weight = flight.weight * way.weight;
         scatter.next.extend(self.go_on(flight, surfel, way.towards, way.kind, weight));
     }
 
     /// The ray on, if roulette lets it live.
-    fn go_on(&self, flight: &Flight, surfel: &Surfel<'_>, towards: DVec3, kind: Kind, weight: DVec3) -> Option<Flight> {
+    fn go_on(
+        &self,
+        flight: &PathRay,
+        surfel: &Surfel<'_>,
+        towards: DVec3,
+        kind: RayKind,
+        weight: DVec3,
+    ) -> Option<PathRay> {
         let chance = if flight.depth < SAFE { 1.0 } else { weight.max_element().clamp(LEAST_CHANCE, 1.0) };
         if weight.max_element() <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
             return None;

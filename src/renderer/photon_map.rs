@@ -69,7 +69,7 @@ impl PhotonMap {
         radius: f64,
         value: impl Fn(&Photon) -> DVec3,
     ) -> DVec3 {
-        let mut search = Search {
+        let mut search = NearestSearch {
             map: self,
             at,
             normal,
@@ -116,7 +116,7 @@ fn widest(photons: &[Photon]) -> usize {
     (0..3).fold(0, |best, axis| if widths[axis] > widths[best] { axis } else { best })
 }
 
-struct Search<'a> {
+struct NearestSearch<'a> {
     map: &'a PhotonMap,
     at: DVec3,
     normal: DVec3,
@@ -126,7 +126,7 @@ struct Search<'a> {
     found: BinaryHeap<Near>,
 }
 
-impl Search<'_> {
+impl NearestSearch<'_> {
     fn range(&mut self, start: usize, end: usize) {
         if start >= end {
             return;

@@ -41,12 +41,12 @@ pub fn triangle(u: [f64; 2]) -> DVec3 {
 
 /// A table from which entries are drawn with chances in proportion to weights.
 #[derive(Clone, Debug, Default)]
-pub struct Table {
+pub struct DiscreteDistribution {
     /// Running sums of the weights.
     sums: Vec<f64>,
 }
 
-impl Table {
+impl DiscreteDistribution {
     /// A table of weights, none below zero.
     pub fn new(weights: impl IntoIterator<Item = f64>) -> Self {
         let mut sum = 0.0;
@@ -104,11 +104,11 @@ mod tests {
 
     #[test]
     fn tables_pass_over_what_has_no_weight() {
-        let table = Table::new([0.0, 1.0, 0.0, 3.0, 0.0]);
+        let table = DiscreteDistribution::new([0.0, 1.0, 0.0, 3.0, 0.0]);
         assert_eq!(table.draw(0.0), Some((1, 0.25)));
         assert_eq!(table.draw(0.2499), Some((1, 0.25)));
         assert_eq!(table.draw(0.25), Some((3, 0.75)));
         assert_eq!(table.draw(0.999), Some((3, 0.75)));
-        assert_eq!(Table::new([0.0]).draw(0.5), None);
+        assert_eq!(DiscreteDistribution::new([0.0]).draw(0.5), None);
     }
 }

@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
-use crate::geom::CastError;
 use crate::scene::Color;
+use crate::tracer::CastError;
+use crate::tracer::offset::SINGLE;
 
 /// A thin lens in place of the pinhole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,9 +14,6 @@ pub struct Lens {
     /// Distance along the view at which everything is sharp.
     pub focus: f64,
 }
-
-/// Unit roundoff of single precision.
-pub(super) const SINGLE: f64 = 1.0 / 16_777_216.0;
 
 /// What all renderers are told; each says what it makes of `depth`.
 #[derive(Clone, Debug, PartialEq)]

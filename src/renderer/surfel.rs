@@ -6,69 +6,17 @@
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::scene::{Material, Scene};
+use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
-/// A triangle thinner than this counts as so thin: then the bound on the plane test stops growing.
-const THINNEST: f64 = 1.0 / 256.0;
 /// The least cosine between a shading normal and the view, to which normals that look away are bent.
 const LEAST_COSINE: f64 = 1e-3;
-
-/// A point of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    /// The point.
-    pub(super) at: DVec3,
-    /// The triangle's unit normal, on the side from which the corners run counter-clockwise.
-    pub(super) normal: DVec3,
-    /// Longest of the sides ab and ac.
-    size: f64,
-    /// `|ab| |ac| / |ab x ac|`: 1 over the sine of the angle at a.
-    thinness: f64,
-    /// The caster's unit roundoff.
-    rounding: f64,
-}
-
-impl Place {
-    /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not exist.
-    /// `rounding` is the unit roundoff of whoever tests rays.
-    pub(super) fn new(scene: &Scene, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
-        let corners = scene.mesh().corners(triangle)?.map(wide);
-        Self::of(corners, weights, rounding)
-    }
-
-    fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
-        let (ab, ac) = (b - a, c - a);
-        let across = ab.cross(ac);
-        let normal = unit(across)?;
-        let (ab, ac) = (ab.length(), ac.length());
-        let at = weights[0] * a + weights[1] * b + weights[2] * c;
-        let sine = (across.length() / (ab * ac)).max(THINNEST);
-        Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })
-    }
-
-    /// How far off the triangle a ray must start so that its test misses it, for points up to `reach` from the origin.
-    ///
-    /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u (|x| + |y| + |z|); we take twice
-    /// that. The test finds the side from n . ao. One rounding a component of ao, ab and ac, and three of the cross product and four of the dot product, make
-    /// at most (1 + 2 + 2 + 4) u of the sum of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|.
-    /// Here |ao| is at most the triangle's size plus `reach`.
-    pub(super) fn clearance(&self, reach: f64) -> f64 {
-        self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
-    }
-
-    /// The point lifted off the triangle, to the side of `towards`, clear of the test of rays that start there (or, with a
-    /// `reach`, that end there).
-    pub(super) fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
-        let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };
-        narrow(self.at + side * self.clearance(reach) * self.normal)
-    }
-}
 
 /// A hit seen from where its ray came.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surfel<'a> {
     /// The point, and its triangle's front.
-    pub(super) place: Place,
+    pub(super) place: SurfacePoint,
     /// The triangle's normal on the side that was hit.
     pub(super) normal: DVec3,
     /// The normal to shade with: interpolated, on the side that was hit, and turned no further from the viewer than that it is seen.
@@ -88,7 +36,7 @@ impl<'a> Surfel<'a> {
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
         let view = -unit(direction)?;
         let weights = barycentric(corners, origin, direction, f64::from(hit.t));
-        let place = Place::of(corners, weights, rounding)?;
+        let place = SurfacePoint::of(corners, weights, rounding)?;
         let front = place.normal.dot(view) >= 0.0;
         let normal = if front { place.normal } else { -place.normal };
         let smooth = scene.corner_normals(hit.triangle).and_then(|corners| interpolated(corners, weights));
@@ -110,8 +58,8 @@ impl<'a> Surfel<'a> {
     }
 
     /// A ray to a place on another triangle, which meets something at t < 1 if and only if something is between. `None` if they coincide.
-    pub(super) fn ray_to(&self, other: &Place) -> Option<Ray> {
-        between(&self.place, other)
+    pub(super) fn ray_to(&self, other: &SurfacePoint) -> Option<Ray> {
+        self.place.ray_to(other)
     }
 
     /// A ray to a point in space, that is reached at t = 1.
@@ -119,19 +67,6 @@ impl<'a> Surfel<'a> {
         let start = self.start(point - self.place.at);
         Ray::new(start, narrow(point - wide(start))).ok()
     }
-}
-
-/// A ray from one triangle to another, clear of both.
-pub(super) fn between(from: &Place, to: &Place) -> Option<Ray> {
-    let way = to.at - from.at;
-    let start = from.lifted(way, 0.0);
-    let end = to.lifted(-way, way.length());
-    Ray::new(start, narrow(wide(end) - wide(start))).ok()
-}
-
-/// Whether such a ray is stopped before its end.
-pub(super) fn blocked(hit: Option<Hit>) -> bool {
-    hit.is_some_and(|hit| hit.t < 1.0)
 }
 
 /// Where the ray passes the triangle's plane, pulled onto the triangle; at `t` where the plane is seen edge on.
@@ -173,7 +108,7 @@ mod tests {
     use super::*;
     use crate::geom::Mesh;
     use crate::geom::random::Keyed;
-    use crate::renderer::settings::SINGLE;
+    use crate::tracer::offset::SINGLE;
 
     fn triangle() -> Scene {
         let corners = vec![[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];
@@ -187,8 +122,8 @@ mod tests {
         let random = Keyed::new(1);
         for i in 0..200 {
             let eye = [0, 1, 2].map(|k| (20.0 * random.unit(i, 0, k)) as f32);
-            let inside = Place::new(
-                &scene,
+            let inside = SurfacePoint::new(
+                scene.mesh(),
                 0,
                 super::super::sampling::triangle([random.unit(i, 1, 0), random.unit(i, 1, 1)]),
                 SINGLE,
@@ -201,15 +136,6 @@ mod tests {
             assert!(surfel.normal.dot(surfel.view) >= 0.0);
             assert_eq!(surfel.front, surfel.place.normal.dot(surfel.view) >= 0.0);
         }
-    }
-
-    #[test]
-    fn the_clearance_is_a_few_units_in_the_last_place() {
-        let place = Place::new(&triangle(), 0, DVec3::splat(1.0 / 3.0), SINGLE).expect("a place");
-        let clearance = place.clearance(0.0);
-        assert!(clearance > 0.0 && clearance < 1e-5, "{clearance}");
-        let lifted = wide(place.lifted(place.normal, 0.0));
-        assert!((lifted - place.at).dot(place.normal) > clearance / 2.0, "rounding does not eat it up");
     }
 
     #[test]

@@ -4,10 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::RenderError;
-use super::surfel::blocked;
-use super::tracer::{Kind, Tracer};
+use super::counting::{CountingCaster, RayKind};
 use crate::geom::random::Keyed;
-use crate::geom::{CastError, Hit, Ray};
+use crate::geom::{Hit, Ray};
+use crate::tracer::{CastError, is_occluder};
 
 /// Random numbers of one sample of one pixel, along one branch of its tree of rays.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +50,11 @@ impl Dice {
 
 /// A ray on its way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flight {
+pub(super) struct PathRay {
     /// The ray.
     pub(super) ray: Ray,
     /// What it is for.
-    pub(super) kind: Kind,
+    pub(super) kind: RayKind,
     /// Whose radiance it adds to: the place in the chunk.
     pub(super) slot: u32,
     /// What light along it counts.
@@ -67,14 +67,14 @@ pub(super) struct Flight {
     pub(super) dice: Dice,
 }
 
-impl Flight {
+impl PathRay {
     /// The ray of a sample from the eye.
     pub(super) fn eye(ray: Ray, slot: u32, dice: Dice) -> Self {
-        Self { ray, kind: Kind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, dice }
+        Self { ray, kind: RayKind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, dice }
     }
 
     /// The ray that goes on from its hit; without choice of direction unless the caller says otherwise.
-    pub(super) fn on(&self, ray: Ray, kind: Kind, weight: DVec3) -> Self {
+    pub(super) fn on(&self, ray: Ray, kind: RayKind, weight: DVec3) -> Self {
         Self { ray, kind, weight, depth: self.depth + 1, density: None, ..*self }
     }
 }
@@ -87,7 +87,7 @@ pub(super) struct Scatter {
     /// Rays to lights, with what arrives if nothing is before t = 1.
     pub(super) shadows: Vec<(Ray, DVec3)>,
     /// Rays that go on.
-    pub(super) next: Vec<Flight>,
+    pub(super) next: Vec<PathRay>,
 }
 
 impl Scatter {
@@ -98,7 +98,7 @@ impl Scatter {
 
 /// What a renderer is: a hit (or none), and what comes of it.
 pub(super) trait Shade: Sync {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter;
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter;
 }
 
 /// A chunk's light, by slot, and the hits of its first rays.
@@ -109,8 +109,8 @@ pub(super) struct Wave {
 
 /// Follows rays from the eye, one a slot, to their ends. Every sum runs in an order that the chunk's size does not change.
 pub(super) fn follow(
-    tracer: &mut Tracer<'_>,
-    mut flights: Vec<Flight>,
+    tracer: &mut CountingCaster<'_>,
+    mut flights: Vec<PathRay>,
     shader: &impl Shade,
 ) -> Result<Wave, RenderError> {
     let mut wave = Wave { light: vec![DVec3::ZERO; flights.len()], first: Vec::new() };
@@ -120,7 +120,7 @@ pub(super) fn follow(
         let hits = cast(tracer, &flights, &shadows)?;
         let (ahead, between) = hits.split_at(flights.len().min(hits.len()));
         for ((slot, _, light), hit) in shadows.drain(..).zip(between) {
-            if !blocked(*hit) {
+            if !is_occluder(*hit) {
                 wave.add(slot, light);
             }
         }
@@ -148,10 +148,10 @@ impl Wave {
 }
 
 fn cast(
-    tracer: &mut Tracer<'_>,
-    flights: &[Flight],
+    tracer: &mut CountingCaster<'_>,
+    flights: &[PathRay],
     shadows: &[(u32, Ray, DVec3)],
 ) -> Result<Vec<Option<Hit>>, CastError> {
     let rays: Vec<Ray> = flights.iter().map(|f| f.ray).chain(shadows.iter().map(|s| s.1)).collect();
-    tracer.cast(&rays, |index| flights.get(index).map_or(Kind::Shadow, |flight| flight.kind))
+    tracer.cast(&rays, |index| flights.get(index).map_or(RayKind::Shadow, |flight| flight.kind))
 }

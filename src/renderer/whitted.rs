@@ -1,15 +1,16 @@
 //! Whitted's ray tracing: point lights, hard shadows, mirrors, glass (An Improved Illumination Model for Shaded Display, 1980).
 
-use super::film::{Picture, expose};
-use super::lamps::Lamps;
+use super::counting::{CountingCaster, WatchProgress};
+use super::film::{RenderedPicture, expose};
+use super::lights::Lights;
 use super::lobes::{Lobes, ways};
 use super::surfel::Surfel;
-use super::tracer::{Tracer, Watch};
-use super::wave::{Flight, Scatter, Shade};
+use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
+use crate::geom::Hit;
 use crate::geom::vector::wide;
-use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use crate::tracer::Caster;
 use glam::DVec3;
 
 /// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit display.
@@ -25,27 +26,27 @@ pub fn render<'a>(
     camera: &Camera,
     settings: &Settings,
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
-) -> Result<Picture, RenderError> {
-    let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::points_of(scene, settings.rounding);
+    watch: &'a mut WatchProgress<'a>,
+) -> Result<RenderedPicture, RenderError> {
+    let mut tracer = CountingCaster::new(caster, watch);
+    let lights = Lights::points_of(scene, settings.rounding);
     // A ray may become two at each glass surface on its way; few do.
-    let fan = 2 + lamps.points();
-    expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lamps })
+    let fan = 2 + lights.points();
+    expose(&mut tracer, camera, settings, fan, &Whitted { scene, settings, lights })
 }
 
 struct Whitted<'a> {
     scene: &'a Scene,
     settings: &'a Settings,
-    lamps: Lamps<'a>,
+    lights: Lights<'a>,
 }
 
 impl Shade for Whitted<'_> {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lamps::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
             None if flight.depth < self.settings.depth => go_on(flight, &surfel, &mut scatter),
@@ -59,8 +60,8 @@ impl Whitted<'_> {
     fn light(&self, weight: DVec3, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let ambient = lobes.albedo * wide(self.settings.ambient);
         scatter.light += weight * ambient;
-        for light in 0..self.lamps.points() {
-            let Some(arriving) = self.lamps.point(surfel, light) else { continue };
+        for light in 0..self.lights.points() {
+            let Some(arriving) = self.lights.point(surfel, light) else { continue };
             let (value, _) = lobes.evaluate(surfel, arriving.towards);
             let light = weight * (value * arriving.light);
             if light.max_element() > 0.0 {
@@ -70,7 +71,7 @@ impl Whitted<'_> {
     }
 }
 
-fn go_on(flight: &Flight, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     for way in ways(surfel).into_iter().flatten() {
         let weight = flight.weight * way.weight;
         if weight.max_element() < LEAST_WEIGHT {

@@ -10,11 +10,12 @@ use serde::Serialize;
 
 use super::configuration::Configuration;
 use super::shade::Shader;
+use crate::geom::Hit;
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
-use crate::geom::classify::{Candidate, Verdict, classify};
+use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
-use crate::ray_engine::{Crossbar, EngineError, Hit, RayBatch};
+use crate::ray_engine::{Crossbar, EngineError, RayBatch};
 
 /// What is asked.
 #[derive(Clone, Debug)]
@@ -64,15 +65,15 @@ impl Tally {
         if self.surface == 0 { 0.0 } else { self.leaks as f64 / self.surface as f64 }
     }
 
-    fn add(&mut self, verdict: Verdict, surface: bool, hit: bool, t_error: Option<f64>) {
+    fn add(&mut self, verdict: HitVerdict, surface: bool, hit: bool, t_error: Option<f64>) {
         self.rays += 1;
         self.surface += u64::from(surface);
         self.hits += u64::from(hit);
         match verdict {
-            Verdict::Right => {}
-            Verdict::Leak => self.leaks += 1,
-            Verdict::FalseHit => self.false_hits += 1,
-            Verdict::WrongTriangle { adjacent } => {
+            HitVerdict::Right => {}
+            HitVerdict::Leak => self.leaks += 1,
+            HitVerdict::FalseHit => self.false_hits += 1,
+            HitVerdict::WrongTriangle { adjacent } => {
                 self.wrong_triangle += 1;
                 self.wrong_adjacent += u64::from(adjacent);
             }
@@ -134,7 +135,7 @@ impl Judged {
     }
 
     /// The verdicts on an answer, a ray each, and their tally.
-    fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<Verdict>, Tally) {
+    fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
         let judge = |(hit, truth): (&Option<Hit>, &Option<NearestHit>)| {
             let none = Candidate { triangle: None, t: 0.0 };
             let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
@@ -207,13 +208,13 @@ fn pixels_differing(a: &[u8], b: &[u8]) -> u64 {
 
 /// The leak map's colours: red for a leak, blue for a false hit, yellow and orange for a wrong triangle that touches the
 /// right one or does not, grey where the surface is right, black where nothing is.
-pub const fn verdict_colour(verdict: Verdict, surface: bool) -> [u8; 3] {
+pub const fn verdict_colour(verdict: HitVerdict, surface: bool) -> [u8; 3] {
     match verdict {
-        Verdict::Right if surface => [120, 124, 130],
-        Verdict::Right => [16, 18, 22],
-        Verdict::Leak => [235, 40, 40],
-        Verdict::FalseHit => [60, 110, 255],
-        Verdict::WrongTriangle { adjacent: true } => [240, 205, 70],
-        Verdict::WrongTriangle { adjacent: false } => [245, 130, 30],
+        HitVerdict::Right if surface => [120, 124, 130],
+        HitVerdict::Right => [16, 18, 22],
+        HitVerdict::Leak => [235, 40, 40],
+        HitVerdict::FalseHit => [60, 110, 255],
+        HitVerdict::WrongTriangle { adjacent: true } => [240, 205, 70],
+        HitVerdict::WrongTriangle { adjacent: false } => [245, 130, 30],
     }
 }

@@ -3,35 +3,27 @@
 //! A study's picture must show where hits are wrong and nothing else, so shading depends on the ray and the triangle
 //! reported for it, never on the reported t.
 
+use glam::DVec3;
+
+use crate::geom::vector::{unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::ray_engine::{RayBatch, reference};
 
-type Vec3 = [f64; 3];
-
 /// Colour where no surface is: linear RGB.
-const BACKGROUND: Vec3 = [0.012, 0.016, 0.024];
+const BACKGROUND: DVec3 = DVec3::new(0.012, 0.016, 0.024);
 /// The clay of the surface: linear RGB.
-const ALBEDO: Vec3 = [0.78, 0.60, 0.42];
+const ALBEDO: DVec3 = DVec3::new(0.78, 0.60, 0.42);
 
 /// Normals of the corners, averaged over the triangles that meet there and weighted by their areas.
 pub struct Shader<'a> {
     mesh: &'a Mesh,
-    normals: Vec<Vec3>,
+    normals: Vec<DVec3>,
 }
 
 impl<'a> Shader<'a> {
     /// Prepares the normals.
     pub fn new(mesh: &'a Mesh) -> Self {
-        let mut normals = vec![[0.0; 3]; mesh.positions().len()];
-        for (corners, indices) in mesh.iter_corners().zip(mesh.triangles()) {
-            let [a, b, c] = corners.map(|p| p.map(f64::from));
-            let n = reference::cross(reference::sub(b, a), reference::sub(c, a));
-            for &i in indices {
-                let sum = &mut normals[i as usize];
-                *sum = [sum[0] + n[0], sum[1] + n[1], sum[2] + n[2]];
-            }
-        }
-        Self { mesh, normals: normals.into_iter().map(unit).collect() }
+        Self { mesh, normals: mesh.vertex_normals() }
     }
 
     /// The picture of a batch of rays: `width * height` RGB bytes, row by row. `hits` holds a triangle a ray, or none.
@@ -39,51 +31,46 @@ impl<'a> Shader<'a> {
         let pixel = |(ray, hit): (usize, &Option<u32>)| {
             let ray = &rays.rays()[ray];
             let colour = hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle));
-            colour.map(encode)
+            colour.to_array().map(encode)
         };
         hits.iter().enumerate().flat_map(pixel).collect()
     }
 
-    fn shade(&self, ray: &Ray, triangle: u32) -> Vec3 {
-        let (origin, direction) = (ray.origin().map(f64::from), ray.direction().map(f64::from));
-        let Some(corners) = self.mesh.corners(triangle) else { return [1.0, 0.0, 1.0] };
-        let crossing = reference::intersect(origin, direction, corners.map(|p| p.map(f64::from)));
-        let weights = [crossing.w, crossing.u, crossing.v];
+    fn shade(&self, ray: &Ray, triangle: u32) -> DVec3 {
+        let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
+        let Some(corners) = self.mesh.corners(triangle) else { return DVec3::new(1.0, 0.0, 1.0) };
+        let crossing = reference::intersect(origin, direction, corners.map(wide));
+        let weights = DVec3::new(crossing.w, crossing.u, crossing.v);
         // u belongs to b, v to c, w to a. Rays that miss the triangle they are said to hit are pulled onto its rim.
         let sign = if crossing.n_dot_d < 0.0 { 1.0 } else { -1.0 };
         let barycentric = area_weights(weights.map(|x| (x * sign).max(0.0)));
         let indices = self.mesh.triangles()[triangle as usize];
-        let mut normal = [0.0; 3];
-        for (weight, index) in barycentric.into_iter().zip(indices) {
-            let corner = self.normals[index as usize];
-            normal = [normal[0] + weight * corner[0], normal[1] + weight * corner[1], normal[2] + weight * corner[2]];
-        }
-        let normal = unit(normal);
-        let view = unit(direction.map(|x| -x));
-        light(if reference::dot(normal, view) < 0.0 { normal.map(|x| -x) } else { normal }, view)
+        let corners = barycentric.to_array().into_iter().zip(indices);
+        let normal = unit_or_zero(corners.map(|(weight, index)| weight * self.normals[index as usize]).sum());
+        let view = unit_or_zero(-direction);
+        light(if normal.dot(view) < 0.0 { -normal } else { normal }, view)
     }
 }
 
-fn area_weights(w: Vec3) -> Vec3 {
-    let sum = w[0] + w[1] + w[2];
-    if sum > 0.0 { w.map(|x| x / sum) } else { [1.0 / 3.0; 3] }
+fn area_weights(w: DVec3) -> DVec3 {
+    let sum = w.element_sum();
+    if sum > 0.0 { w / sum } else { DVec3::splat(1.0 / 3.0) }
 }
 
 /// A key light from above, a fill from the eye, and a highlight.
-fn light(normal: Vec3, view: Vec3) -> Vec3 {
-    let key = unit([-0.35, -0.55, 0.9]);
-    let diffuse = 0.05 + 0.25 * reference::dot(normal, view).max(0.0) + 0.75 * reference::dot(normal, key).max(0.0);
-    let half = unit([key[0] + view[0], key[1] + view[1], key[2] + view[2]]);
-    let mut highlight = reference::dot(normal, half).max(0.0);
+fn light(normal: DVec3, view: DVec3) -> DVec3 {
+    let key = unit_or_zero(DVec3::new(-0.35, -0.55, 0.9));
+    let diffuse = 0.05 + 0.25 * normal.dot(view).max(0.0) + 0.75 * normal.dot(key).max(0.0);
+    let half = unit_or_zero(key + view);
+    let mut highlight = normal.dot(half).max(0.0);
     for _ in 0..5 {
         highlight *= highlight; // to the 32nd power
     }
     ALBEDO.map(|a| a * diffuse + 0.25 * highlight)
 }
 
-fn unit(v: Vec3) -> Vec3 {
-    let length = reference::dot(v, v).sqrt();
-    if length > 0.0 { v.map(|x| x / length) } else { v }
+fn unit_or_zero(v: DVec3) -> DVec3 {
+    unit(v).unwrap_or(v)
 }
 
 /// Linear light to a byte, with a square root for the display's curve.

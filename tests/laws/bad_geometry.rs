@@ -3,9 +3,10 @@
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{Oracle, Tolerance, assert_hits_eq, hard_rays, hits_equal};
+use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{Crossbar, HostTracer};
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
@@ -14,7 +15,7 @@ const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth:
 /// Every path's answers, by name: the host, the engine on a card, the cards alone.
 fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Option<Hit>>)> {
     let profile = |name| Profile::named(name).expect("a profile");
-    let mut found = vec![("host", HostTracer::new(mesh, FINE, sides).nearest_all(rays).0)];
+    let mut found = vec![("host", HostTracer::with_octree(mesh, FINE, sides).nearest_all(rays).0)];
     let parameters = EngineParameters { octree: FINE, triangles: 1..=4, rays: 2, sides, ..EngineParameters::default() };
     let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     found.push(("engine", engine.trace(rays).expect("the card works")));
@@ -181,6 +182,6 @@ fn a_ray_that_starts_on_a_back_face_starts_at_plus_zero() {
     let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");
     let rays = [ray([0.25, 0.25, 0.0], [0.0, 0.0, 1.0]), ray([0.25, 0.25, 0.0], [0.0, 0.0, -1.0])];
     right_everywhere(&mesh, &rays, Sides::Both);
-    let hits = HostTracer::new(&mesh, FINE, Sides::Both).nearest_all(&rays).0;
+    let hits = HostTracer::with_octree(&mesh, FINE, Sides::Both).nearest_all(&rays).0;
     assert!(hits.iter().flatten().all(|hit| hit.t.to_bits() == 0), "{hits:?}");
 }

@@ -3,7 +3,7 @@
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::octree::{Beam, Flow, GpuCells, Octree, OctreeParameters};
+use crossbar::tracer::octree::{Beam, Flow, GpuCells, Octree, OctreeParameters};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 

@@ -1,14 +1,16 @@
 //! However the engine schedules, the hits are the same.
 
+use crossbar::geom::Hit;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::Outputs;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine, Readback};
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::ray_engine::ray_tree::RayTreeParameters;
-use crossbar::ray_engine::{Hit, HostTracer, Outputs};
 use crossbar::scene::Camera;
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
@@ -49,7 +51,8 @@ fn schedules_change_counts_and_never_a_hit() {
     let (mesh, rays) = (teapot(3).expect("a teapot"), rays(3000));
     for sides in [Sides::Front, Sides::Both] {
         let base = EngineParameters { octree: SMALL, sides, ..EngineParameters::default() };
-        let truth: Vec<_> = HostTracer::new(&mesh, SMALL, sides).nearest_all(&rays).0.iter().map(bits).collect();
+        let truth: Vec<_> =
+            HostTracer::with_octree(&mesh, SMALL, sides).nearest_all(&rays).0.iter().map(bits).collect();
         let variants = [
             base.clone(),
             EngineParameters { card: false, ..base.clone() },

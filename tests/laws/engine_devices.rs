@@ -1,13 +1,14 @@
 //! The engine on every kind of card and on every executor.
 
+use crossbar::geom::Hit;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{Crossbar, Hit};
 use crossbar::scene::Camera;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};

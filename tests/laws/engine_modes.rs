@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use crossbar::geom::Hit;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::Hit;
 use crossbar::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine, Readback};
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::scene::Camera;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::event::{Event, FenceId, ReadBackMode};
 use refsim::machine::ExecutorKind;

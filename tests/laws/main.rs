@@ -19,6 +19,7 @@ mod mutation;
 mod octree;
 mod oracle;
 mod outputs;
+mod ply;
 mod radiosity;
 mod ranges;
 mod ray_tree;

@@ -5,12 +5,13 @@ use std::ops::Range;
 use proptest::prelude::*;
 
 /// A good text with so many bytes replaced, put in or left out.
-pub(crate) fn mutated(good: &'static str, edits: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
+pub(crate) fn mutated(good: impl Into<Vec<u8>>, edits: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
+    let good = good.into();
     let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), edits);
     edits.prop_map(move |edits| {
-        let mut bytes = good.as_bytes().to_vec();
+        let mut bytes = good.clone();
         for (place, kind, byte) in edits {
-            let at = place.index(bytes.len());
+            let at = place.index(bytes.len().max(1));
             match kind {
                 0 => bytes[at] = byte,
                 1 => bytes.insert(at, byte),

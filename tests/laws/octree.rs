@@ -1,12 +1,14 @@
 //! The octree loses no hit.
 
+use crossbar::geom::Hit;
 use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::octree::{Flow, GpuCells, Octree, OctreeParameters};
-use crossbar::ray_engine::{Crossbar, Hit, HostTracer, RayBatch};
+use crossbar::ray_engine::{Crossbar, RayBatch};
 use crossbar::scene::Camera;
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::{Flow, GpuCells, Octree, OctreeParameters};
 use proptest::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -61,7 +63,7 @@ proptest! {
         let sides = if both { Sides::Both } else { Sides::Front };
         let [low, high] = mesh.bounds().expect("it has corners");
         let reach = (0..3).map(|i| high[i] - low[i]).fold(f32::MIN_POSITIVE, f32::max);
-        let (fine, whole) = (HostTracer::new(&mesh, FINE, sides), HostTracer::new(&mesh, WHOLE, sides));
+        let (fine, whole) = (HostTracer::with_octree(&mesh, FINE, sides), HostTracer::with_octree(&mesh, WHOLE, sides));
         for (i, (origin, d)) in rays.into_iter().enumerate() {
             let origin = if i % 2 == 1 { mesh.positions()[0] } else { origin.map(|x| x * reach) };
             let ray = Ray::new(origin, d).expect("finite, not 0");
@@ -77,7 +79,7 @@ proptest! {
             prop_assert_eq!((found, counts), fine.nearest_in(&ray, None), "the plain way");
             let before = found.map_or(1.0, |hit| hit.t);
             for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
-                let (occluded, cost) = fine.occluded(&ray, end);
+                let (occluded, cost) = fine.occluded_before(&ray, end);
                 if occluded != found.is_some_and(|hit| hit.t < end) {
                     // Rounding can bring the t of a hit in front of the cells that hold the triangle, which a search
                     // that ends at `end` does not reach. Then nothing is there in exact arithmetic either.
@@ -126,7 +128,7 @@ fn host_and_card_agree_to_the_bit() {
     for sides in [Sides::Front, Sides::Both] {
         let card = Crossbar::new(Profile::named("ideal-fp32").expect("a profile"), ExecutorKind::Batch).all_pairs(true);
         let on_card = card.intersect(&mesh, &rays, sides).expect("the card intersects").hits;
-        let (on_host, counts) = HostTracer::new(&mesh, OctreeParameters::default(), sides).nearest_all(rays.rays());
+        let (on_host, counts) = HostTracer::new(&mesh, sides).nearest_all(rays.rays());
         let bits = |hit: &Option<Hit>| hit.map(|h| (h.triangle, h.t.to_bits()));
         let differing = on_card.iter().zip(&on_host).filter(|(a, b)| bits(a) != bits(b)).count();
         assert_eq!(differing, 0, "{sides:?}");

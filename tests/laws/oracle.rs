@@ -3,8 +3,8 @@
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray, Sides, exact};
 use crossbar::oracle::{
-    Aim, Kind, Oracle, OracleError, Tolerance, assert_bits_eq, assert_hits_eq, assert_images_equal, assert_within_ulps,
-    bits_equal, hard_rays, hits_equal, images_equal, within_ulps,
+    Aim, DisagreementKind, Oracle, OracleError, Tolerance, assert_bits_eq, assert_hits_eq, assert_images_equal,
+    assert_within_ulps, bits_equal, hard_rays, hits_equal, images_equal, within_ulps,
 };
 
 /// The square in z = 0 seen from above, a triangle that touches its corner, one far below, one that looks down.
@@ -42,22 +42,22 @@ fn every_way_to_be_wrong_has_its_kind() {
     let cases = [
         (inside, hit(0, 3.0), None),
         (inside, hit(0, 3.000_000_2), None),
-        (inside, hit(0, 3.000_000_5), Some(Kind::TOff)),
-        (inside, hit(0, f32::NAN), Some(Kind::TOff)),
-        (inside, None, Some(Kind::Leak)),
-        (inside, hit(3, 5.0), Some(Kind::LeakThrough)),
-        (inside, hit(1, 3.0), Some(Kind::WrongNeighbour)),
-        (inside, hit(2, 3.0), Some(Kind::WrongNeighbour)),
-        (inside, hit(4, 3.0), Some(Kind::WrongTriangle)),
-        (inside, hit(5, 3.0), Some(Kind::NoSuchTriangle)),
+        (inside, hit(0, 3.000_000_5), Some(DisagreementKind::TOff)),
+        (inside, hit(0, f32::NAN), Some(DisagreementKind::TOff)),
+        (inside, None, Some(DisagreementKind::Leak)),
+        (inside, hit(3, 5.0), Some(DisagreementKind::LeakThrough)),
+        (inside, hit(1, 3.0), Some(DisagreementKind::WrongNeighbour)),
+        (inside, hit(2, 3.0), Some(DisagreementKind::WrongNeighbour)),
+        (inside, hit(4, 3.0), Some(DisagreementKind::WrongTriangle)),
+        (inside, hit(5, 3.0), Some(DisagreementKind::NoSuchTriangle)),
         (down(0.5, 0.5), hit(0, 3.0), None),
         (down(0.5, 0.5), hit(1, 3.0), None),
         (down(0.0, 0.0), hit(1, 3.0), None),
         (past, None, None),
-        (past, hit(0, 3.0), Some(Kind::FalseHit)),
-        (past, hit(77, 3.0), Some(Kind::NoSuchTriangle)),
+        (past, hit(0, 3.0), Some(DisagreementKind::FalseHit)),
+        (past, hit(77, 3.0), Some(DisagreementKind::NoSuchTriangle)),
         (down(3.25, 3.25), None, None),
-        (down(3.25, 3.25), hit(4, 3.0), Some(Kind::BackFace)),
+        (down(3.25, 3.25), hit(4, 3.0), Some(DisagreementKind::BackFace)),
     ];
     let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(1));
     for (ray, found, kind) in cases {
@@ -79,9 +79,9 @@ fn what_t_cannot_tell_apart_is_a_near_tie() {
         let report = Oracle::new(&mesh, Sides::Front, tolerance).examine(&[ray], |_| hit(1, 3.0));
         report.disagreements().first().map(|wrong| wrong.kind)
     };
-    assert_eq!(kind(Tolerance::ulps(1)), Some(Kind::NearTie), "4 - (1 + 2 ULPs) is 3 less one ULP");
-    assert_eq!(kind(Tolerance::ulps(0)), Some(Kind::LeakThrough));
-    assert_eq!(kind(Tolerance::ulps(0).or_absolute(1e-6)), Some(Kind::NearTie));
+    assert_eq!(kind(Tolerance::ulps(1)), Some(DisagreementKind::NearTie), "4 - (1 + 2 ULPs) is 3 less one ULP");
+    assert_eq!(kind(Tolerance::ulps(0)), Some(DisagreementKind::LeakThrough));
+    assert_eq!(kind(Tolerance::ulps(0).or_absolute(1e-6)), Some(DisagreementKind::NearTie));
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn tolerances_near_zero_can_be_a_distance() {
     let mesh = scene();
     let ray = Ray::new([0.25, 0.125, 0.0], [0.5, 0.5, -1.0]).expect("a ray");
     let off = |tolerance: Tolerance, t| {
-        Oracle::new(&mesh, Sides::Front, tolerance).examine(&[ray], |_| hit(0, t)).count(Kind::TOff)
+        Oracle::new(&mesh, Sides::Front, tolerance).examine(&[ray], |_| hit(0, t)).count(DisagreementKind::TOff)
     };
     assert_eq!(off(Tolerance::ulps(100), 1e-9), 1);
     assert_eq!(off(Tolerance::ulps(100).or_absolute(1e-8), 1e-9), 0);
@@ -108,7 +108,7 @@ fn the_report_reads_well() {
     insta::assert_snapshot!("report_counts", serde_json::to_string(&json["counts"]).expect("JSON"));
     insta::assert_snapshot!("report_worst_in_json", serde_json::to_string(&json["worst"][1]).expect("JSON"));
     assert!(json["worst"][3]["found"]["t"].is_null(), "JSON has no NaN: {json}");
-    let leaks = report.only(Kind::is_leak);
+    let leaks = report.only(DisagreementKind::is_leak);
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
 
@@ -209,7 +209,7 @@ fn exact_hits_agree_with_the_oracle_and_damaged_ones_do_not() {
         oracle.assert_agrees(&rays, first);
         oracle.assert_agrees(&rays, last);
         let blind = oracle.examine(&rays, |_| None);
-        assert_eq!(blind.count(Kind::Leak), blind.surface());
+        assert_eq!(blind.count(DisagreementKind::Leak), blind.surface());
         assert_eq!(blind.disagreements().len(), blind.surface());
     }
 }

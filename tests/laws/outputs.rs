@@ -3,10 +3,11 @@
 use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
+use crossbar::ray_engine::Outputs;
 use crossbar::ray_engine::engine::{EngineParameters, LocatedHit, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{HostTracer, Outputs};
 use crossbar::scene::Camera;
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::OctreeParameters;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
@@ -37,7 +38,7 @@ fn gamma(engine: &mut RayEngine<'_>) -> f64 {
 fn gamma_is_what_the_book_says_and_hits_are_the_same() {
     let (mesh, rays) = scene();
     for sides in [Sides::Front, Sides::Both] {
-        let truth = HostTracer::new(&mesh, SMALL, sides).nearest_all(&rays).0;
+        let truth = HostTracer::with_octree(&mesh, SMALL, sides).nearest_all(&rays).0;
         for (device, outputs, small_ids, bytes) in [
             ("ideal-fp32", Outputs::IdAndT, false, 8.0),
             ("ideal-fp32", Outputs::IdAndT, true, 5.0),

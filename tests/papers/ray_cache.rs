@@ -4,10 +4,9 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray};
-use crossbar::ray_engine::HostTracer;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::scene::Camera;
+use crossbar::tracer::HostTracer;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
@@ -29,7 +28,7 @@ fn reflected(mesh: &Mesh, ray: &Ray, hit: &Hit, random: Keyed, i: u64) -> Option
 /// Eye rays and the rays that their hits reflect.
 fn rays(mesh: &Mesh, side: u32) -> Vec<Ray> {
     let mut rays = Camera::teapot(side, side).expect("a camera").rays();
-    let hits = HostTracer::new(mesh, OctreeParameters::default(), Sides::Front).nearest_all(&rays).0;
+    let hits = HostTracer::new(mesh, Sides::Front).nearest_all(&rays).0;
     let random = Keyed::new(5);
     let second: Vec<Ray> = (0..)
         .zip(rays.iter().zip(&hits))

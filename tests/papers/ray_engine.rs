@@ -3,9 +3,10 @@
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::Keyed;
 use crossbar::geom::teapot::teapot;
-use crossbar::ray_engine::reference::{cross, dot, intersect, sub};
+use crossbar::ray_engine::reference::intersect;
 use crossbar::ray_engine::{Answer, Crossbar, Form, Kernel, RayBatch, VertexCrossbar, kernels};
 use crossbar::scene::Camera;
+use glam::DVec3;
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
@@ -13,14 +14,14 @@ use refsim::isa::{OpcodeClass, Program, RegisterFile};
 use refsim::machine::ExecutorKind;
 
 /// Random triangles, and rays through their insides.
-fn interior_hits(count: u64) -> impl Iterator<Item = ([f64; 3], [f64; 3], [[f64; 3]; 3])> {
+fn interior_hits(count: u64) -> impl Iterator<Item = (DVec3, DVec3, [DVec3; 3])> {
     let random = Keyed::new(8);
     (0..count).map(move |i| {
-        let point = |sample| [0, 1, 2].map(|axis| 4.0 * random.unit(i, sample, axis) - 2.0);
+        let point = |sample| DVec3::from([0, 1, 2].map(|axis| 4.0 * random.unit(i, sample, axis) - 2.0));
         let (a, b, c, o) = (point(0), point(1), point(2), point(3));
         let [x, y] = [0, 1].map(|k| 0.05 + 0.425 * random.unit(i, 4, k));
-        let inside = [0, 1, 2].map(|k| a[k] + x * (b[k] - a[k]) + y * (c[k] - a[k]));
-        (o, sub(inside, o), [a, b, c])
+        let inside = a + x * (b - a) + y * (c - a);
+        (o, inside - o, [a, b, c])
     })
 }
 
@@ -29,7 +30,7 @@ fn equation_8_as_printed_has_the_wrong_sign() {
     let mut front = 0;
     for (o, d, [a, b, c]) in interior_hits(20_000) {
         let found = intersect(o, d, [a, b, c]);
-        let printed_w = dot(sub(c, b), cross(sub(o, b), d));
+        let printed_w = (c - b).dot((o - b).cross(d));
         assert_eq!(printed_w, -found.w, "ours is the printed one with its sign changed");
         let all_as_printed = found.u >= 0.0 && found.v >= 0.0 && printed_w >= 0.0;
         assert!(!all_as_printed, "as printed, no interior ray passes");
@@ -46,12 +47,13 @@ fn equation_8_as_printed_has_the_wrong_sign() {
 fn the_three_areas_add_up_so_the_second_cross_product_can_go() {
     let random = Keyed::new(9);
     for i in 0..20_000 {
-        let point = |sample| [0, 1, 2].map(|axis| (2000.0 * random.unit(i, sample, axis)).floor() - 1000.0);
+        let point =
+            |sample| DVec3::from([0, 1, 2].map(|axis| (2000.0 * random.unit(i, sample, axis)).floor() - 1000.0));
         let (a, b, c, o, d) = (point(0), point(1), point(2), point(3), point(4));
         let found = intersect(o, d, [a, b, c]);
         assert_eq!(found.u + found.v + found.w, -found.n_dot_d, "u + v + w = -n.d");
-        let aod = cross(sub(o, a), d);
-        assert_eq!(-dot(sub(c, b), aod) - found.n_dot_d, found.w, "w = -bc.aod - n.d");
+        let aod = (o - a).cross(d);
+        assert_eq!(-(c - b).dot(aod) - found.n_dot_d, found.w, "w = -bc.aod - n.d");
     }
 }
 

@@ -12,15 +12,15 @@ use super::scene::{Asked, camera};
 use super::{Args, Out, Problem, SMALLER, Verdict, view};
 use crate::cli::caster::{self, CasterArg};
 use crate::cli::{Progress, memory, number};
-use crate::geom::Caster;
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
-use crate::renderer::{Lens, Picture, Settings, Watch, distributed, eye, path, tone, whitted};
+use crate::renderer::{Lens, RenderedPicture, Settings, WatchProgress, distributed, eye, path, tone, whitted};
 use crate::report::picture::rgb8;
 use crate::report::{Channel, exr};
 use crate::scene::{Camera, Scene};
+use crate::tracer::Caster;
 
 /// How light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -174,7 +174,7 @@ fn trace(
     camera: &Camera,
     rounding: f64,
     caster: &mut dyn Caster,
-) -> miette::Result<Picture> {
+) -> miette::Result<RenderedPicture> {
     let light = &args.light;
     let usual = match renderer {
         Renderer::Eye => 1,
@@ -195,11 +195,11 @@ fn trace(
     photons.caustic = light.photons.unwrap_or(photons.caustic);
     photons.gather = light.gather.unwrap_or(photons.gather);
     let (start, bar) = (Instant::now(), Progress::new("rendering", 1));
-    let mut watch = |progress: crate::renderer::Progress| {
+    let mut watch = |progress: crate::renderer::RenderProgress| {
         let rate = progress.rays as f64 / start.elapsed().as_secs_f64().max(1e-3) / 1e6;
         bar.show(format!("{}, {rate:.2} M rays/s", progress.what), progress.done, progress.total);
     };
-    let watch: &mut Watch<'_> = &mut watch;
+    let watch: &mut WatchProgress<'_> = &mut watch;
     let picture = match renderer {
         Renderer::Eye => eye::render(scene, camera, &settings, caster, watch),
         Renderer::Whitted => whitted::render(scene, camera, &settings, caster, watch),
@@ -217,7 +217,7 @@ fn trace(
     Ok(picture)
 }
 
-fn files(picture: &Picture, exposure: f64) -> miette::Result<Vec<(String, Vec<u8>)>> {
+fn files(picture: &RenderedPicture, exposure: f64) -> miette::Result<Vec<(String, Vec<u8>)>> {
     let (w, h) = (picture.width as usize, picture.height as usize);
     let [red, green, blue] = [0, 1, 2].map(|channel| picture.channel(channel));
     let (t, triangles) = (picture.t(), picture.triangles());
@@ -234,7 +234,7 @@ fn files(picture: &Picture, exposure: f64) -> miette::Result<Vec<(String, Vec<u8
     ])
 }
 
-fn tell(args: &Args, picture: &Picture, engine: Option<&EngineCounts>, out: &mut Out) -> miette::Result<()> {
+fn tell(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, out: &mut Out) -> miette::Result<()> {
     let (pixels, found) = (picture.first.len(), picture.first.iter().flatten().count());
     let counts = picture.counts;
     if out.json() {

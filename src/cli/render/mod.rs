@@ -1,4 +1,4 @@
-//! `crossbar render`: an OBJ by eye rays on a card, and scenes by the host renderers.
+//! `crossbar render`: an OBJ or PLY by eye rays on a card, and scenes by the host renderers.
 
 mod light;
 mod scene;
@@ -15,7 +15,7 @@ use super::{Out, Problem, Verdict, memory, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
-use crate::io::obj::load_obj;
+use crate::io::load_mesh;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::picture::rgb8;
 use crate::report::{Channel, exr};
@@ -35,12 +35,12 @@ Examples:
 
 /// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
 ///
-/// An OBJ file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a scene file, or anything with
+/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a scene file, or anything with
 /// `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor, teapot-room, white-box
+    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor, teapot-room, white-box
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
 
@@ -86,7 +86,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     view::require_mesh(&args.scene)?;
-    let mesh = load_obj(&args.scene)?;
+    let mesh = load_mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;
     let need = memory::of_pixels(width, height, PER_PIXEL, 0);

@@ -13,7 +13,7 @@ pub(super) struct Asked {
     pub(super) lit: bool,
 }
 
-/// The scene, if it is to be lit; `None` for an OBJ file by its eye rays on a card.
+/// The scene, if it is to be lit; `None` for an OBJ or PLY file by its eye rays on a card.
 pub(super) fn lit(args: &Args) -> miette::Result<Option<Asked>> {
     if let Some(scene) = scene_name::by_name(&args.scene)? {
         return Ok(Some(Asked { scene, lit: true }));

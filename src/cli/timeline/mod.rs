@@ -44,7 +44,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
     rays: Option<Size>,
 
-    /// With --rays: the mesh, a Wavefront OBJ file [default: the teapot, 8 x 8 quads a patch]
+    /// With --rays: the mesh, a Wavefront OBJ or PLY file [default: the teapot, 8 x 8 quads a patch]
     #[arg(long, value_name = "M.obj", requires = "rays", conflicts_with = "case")]
     mesh: Option<PathBuf>,
 

@@ -19,7 +19,7 @@ use crate::cli::{Problem, memory, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
-use crate::io::obj::load_obj;
+use crate::io::load_mesh;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
@@ -117,7 +117,7 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
     match mesh {
         Some(path) => {
             view::require_mesh(path)?;
-            let mesh = load_obj(path)?;
+            let mesh = load_mesh(path)?;
             let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
             Ok((mesh, camera, path.display().to_string()))
         }

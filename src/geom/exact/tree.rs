@@ -20,21 +20,21 @@ const CHUNK: usize = 256;
 #[derive(Debug, Clone)]
 pub struct Tracer<'a> {
     mesh: &'a Mesh,
-    nodes: Vec<Node>,
+    nodes: Vec<BoxNode>,
     /// Triangle ids in the order of the leaves.
     order: Vec<u32>,
     corners: Vec<[[f32; 3]; 3]>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct BoxNode {
     low: [f64; 3],
     high: [f64; 3],
-    kind: Kind,
+    kind: BoxContent,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum BoxContent {
     /// A range of `order`.
     Leaf { start: u32, end: u32 },
     /// The first child follows its parent; the second stands here.
@@ -84,12 +84,12 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             match self.nodes[index as usize].kind {
-                Kind::Leaf { start, end } => {
+                BoxContent::Leaf { start, end } => {
                     for slot in start as usize..end as usize {
                         shortlist.try_triangle(ray, self.order[slot], &self.corners[slot], sides);
                     }
                 }
-                Kind::Inner { second } => {
+                BoxContent::Inner { second } => {
                     let first = index + 1;
                     let mut found = [first, second].map(|child| (child, probe.enter(&self.nodes[child as usize])));
                     // The nearer child last, so that it is taken first.
@@ -117,7 +117,7 @@ pub fn nearest_all(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<Option<Neares
 }
 
 /// Builds the node of `items`, which stand at `offset` in the whole order, and all below it.
-fn build(items: &mut [(u32, [f64; 3])], offset: usize, corners: &[[[f32; 3]; 3]], nodes: &mut Vec<Node>) {
+fn build(items: &mut [(u32, [f64; 3])], offset: usize, corners: &[[[f32; 3]; 3]], nodes: &mut Vec<BoxNode>) {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for corner in items.iter().flat_map(|&(id, _)| corners[id as usize]) {
@@ -128,8 +128,8 @@ fn build(items: &mut [(u32, [f64; 3])], offset: usize, corners: &[[[f32; 3]; 3]]
         }
     }
     let place = nodes.len();
-    let leaf = Kind::Leaf { start: offset as u32, end: (offset + items.len()) as u32 };
-    nodes.push(Node { low, high, kind: leaf });
+    let leaf = BoxContent::Leaf { start: offset as u32, end: (offset + items.len()) as u32 };
+    nodes.push(BoxNode { low, high, kind: leaf });
     if items.len() <= LEAF {
         return;
     }
@@ -141,12 +141,12 @@ fn build(items: &mut [(u32, [f64; 3])], offset: usize, corners: &[[[f32; 3]; 3]]
     build(left, offset, corners, nodes);
     let second = nodes.len() as u32;
     build(right, offset + middle, corners, nodes);
-    nodes[place].kind = Kind::Inner { second };
+    nodes[place].kind = BoxContent::Inner { second };
 }
 
 impl Probe {
     /// A t not beyond the first at which the ray is inside the box (at least 0); `None` when it certainly never is.
-    fn enter(&self, node: &Node) -> Option<f64> {
+    fn enter(&self, node: &BoxNode) -> Option<f64> {
         let (mut start, mut end) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
             let low = node.low[axis] - self.origin[axis];

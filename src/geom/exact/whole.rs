@@ -6,7 +6,7 @@ use num_traits::Zero;
 use super::{ExactT, NearestHit, Sides};
 use crate::geom::{Mesh, Ray};
 
-type Vector = [BigInt; 3];
+type IntegerVector = [BigInt; 3];
 
 /// A finite f32 as `mantissa * 2^exponent`.
 fn split(value: f32) -> (i64, i32) {
@@ -29,19 +29,19 @@ fn whole(value: f32, exponent: i32) -> BigInt {
     if mantissa == 0 { BigInt::zero() } else { BigInt::from(mantissa) << (own - exponent).unsigned_abs() }
 }
 
-fn vector(values: [f32; 3], exponent: i32) -> Vector {
+fn vector(values: [f32; 3], exponent: i32) -> IntegerVector {
     values.map(|value| whole(value, exponent))
 }
 
-fn sub(a: &Vector, b: &Vector) -> Vector {
+fn sub(a: &IntegerVector, b: &IntegerVector) -> IntegerVector {
     [&a[0] - &b[0], &a[1] - &b[1], &a[2] - &b[2]]
 }
 
-fn cross(a: &Vector, b: &Vector) -> Vector {
+fn cross(a: &IntegerVector, b: &IntegerVector) -> IntegerVector {
     [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
-fn dot(a: &Vector, b: &Vector) -> BigInt {
+fn dot(a: &IntegerVector, b: &IntegerVector) -> BigInt {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 

@@ -7,7 +7,7 @@
 //! [`write`] gives text that reads back with the same bits.
 
 pub mod mtl;
-mod pass;
+mod reader;
 mod write;
 
 use std::io;
@@ -18,10 +18,12 @@ use thiserror::Error;
 pub use mtl::{MtlError, parse_mtl};
 pub use write::{write_mtl, write_scene};
 
+use super::model::is_ply;
 use super::obj::{MAX_BYTES, ObjError, logical_lines, words};
+use super::ply::{PlyError, parse_ply};
 use super::read_limited;
 use crate::scene::{Scene, SceneError};
-use pass::ScenePass;
+use reader::SceneReader;
 
 /// Why a file is no scene. Lines count from 1.
 #[derive(Debug, Error, miette::Diagnostic)]
@@ -30,6 +32,10 @@ pub enum SceneObjError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Obj(#[from] ObjError),
+    /// Something about a PLY file.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Ply(#[from] PlyError),
     /// A material library cannot be read.
     #[error(
         "{}:{line}: cannot read the material library {}; put it beside the model, or take the line out",
@@ -49,18 +55,6 @@ pub enum SceneObjError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Mtl(#[from] MtlError),
-    /// A corner names a normal that the file does not have.
-    #[error("{}:{line}: a corner uses normal {index}, expected 1 to {normals} (or -1 to -{normals})", path.display())]
-    Normal {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// The index as written.
-        index: i64,
-        /// How many normals could be named there.
-        normals: usize,
-    },
     /// The parts do not make a scene.
     #[error("{}: {reason}", path.display())]
     Scene {
@@ -71,13 +65,17 @@ pub enum SceneObjError {
     },
 }
 
-/// Reads a scene from an OBJ file and the libraries that it names. It has no views and no point lights.
+/// Reads a scene from an OBJ file and the libraries that it names, or from a PLY file, all of one grey material. It has no
+/// views and no point lights.
 ///
 /// # Errors
 /// [`SceneObjError`], with the path, and the line where there is one.
 pub fn load_scene(path: &Path) -> Result<Scene, SceneObjError> {
     let read = read_limited(path, MAX_BYTES).map_err(|source| ObjError::Read { path: path.into(), source })?;
     let bytes = read.ok_or_else(|| ObjError::TooLong { path: path.into() })?;
+    if is_ply(&bytes, path) {
+        return reader::plain_scene(parse_ply(&bytes, path)?, path);
+    }
     let folder = path.parent().unwrap_or(Path::new(""));
     parse_scene(&bytes, path, &mut |library| {
         let file = folder.join(library);
@@ -99,9 +97,9 @@ pub fn parse_scene(
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ObjError::TooLong { path: name.into() }.into());
     }
-    let mut pass = ScenePass::new(name);
+    let mut reader = SceneReader::new(name);
     for (line, text) in logical_lines(bytes) {
-        pass.line(line, &words(&text), &text, library)?;
+        reader.line(line, &words(&text), &text, library)?;
     }
-    pass.scene()
+    reader.scene()
 }

@@ -81,25 +81,25 @@ pub enum MtlError {
 /// # Errors
 /// [`MtlError`], with the line where there is one.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, MtlError> {
-    let mut pass = Pass { name, clean: String::new(), materials: Vec::new(), seen: BTreeSet::new() };
+    let mut reader = MtlReader { name, clean: String::new(), materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
-        pass.line(line, &text)?;
+        reader.line(line, &text)?;
     }
-    let (read, _) = tobj::load_mtl_buf(&mut pass.clean.as_bytes())
+    let (read, _) = tobj::load_mtl_buf(&mut reader.clean.as_bytes())
         .map_err(|reason| MtlError::Loader { path: name.into(), reason })?;
-    let pairs = pass.materials.iter().zip(read);
+    let pairs = reader.materials.iter().zip(read);
     pairs.map(|((line, material), read)| assemble(&read, name, *line, material)).collect()
 }
 
 /// The first pass: the checked lines for tobj, and each material's line and name.
-struct Pass<'a> {
+struct MtlReader<'a> {
     name: &'a Path,
     clean: String,
     materials: Vec<(usize, String)>,
     seen: BTreeSet<String>,
 }
 
-impl Pass<'_> {
+impl MtlReader<'_> {
     fn line(&mut self, line: usize, text: &[u8]) -> Result<(), MtlError> {
         let words = words(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };

@@ -20,8 +20,8 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::{DrawError, Patches};
-use crate::geom::{CastError, Caster};
 use crate::linalg::{Matrix, MatrixError};
+use crate::tracer::{CastError, Caster};
 use exchange::QuadraturePatch;
 
 pub use closure::RowSums;

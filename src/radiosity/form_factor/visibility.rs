@@ -10,9 +10,10 @@ use super::exchange::kernel;
 use super::{FormFactorError, Patches};
 use crate::geom::random::Keyed;
 use crate::geom::vector::narrow;
-use crate::geom::{Caster, Hit, Ray};
+use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
-use crate::radiosity::open::lift;
+use crate::tracer::Caster;
+use crate::tracer::offset::scene_clearance;
 
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +78,7 @@ pub(super) fn hide(
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
-    let (side, lift) = (parameters.side as usize, lift(patches.extent()));
+    let (side, lift) = (parameters.side as usize, scene_clearance(patches.extent()));
     let at = |patch: u32, stratum: usize, sample: u64, dimension: u64| {
         let along = |k: usize, d| (k as f64 + random.unit(index, sample, dimension + d)) / side as f64;
         let point = patches.open_point(patch as usize, [along(stratum % side, 0), along(stratum / side, 1)]);
@@ -135,7 +136,7 @@ pub(in crate::radiosity) fn point_share(
     if parameters.side == 0 {
         return Err(FormFactorError::NoSamples);
     }
-    let (side, lift) = (u64::from(parameters.side), lift(patches.extent()));
+    let (side, lift) = (u64::from(parameters.side), scene_clearance(patches.extent()));
     let (random, start) = (Keyed::new(parameters.seed), point + lift * normal);
     let count = side.saturating_mul(side);
     let sample = |target: usize, k: u64| {

@@ -1,7 +1,7 @@
 //! What an engine did, in numbers.
 
-use crate::ray_engine::octree::TraversalCounts;
 use crate::ray_engine::ray_tree::RayTreeCounts;
+use crate::tracer::octree::TraversalCounts;
 
 /// What an engine did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use super::Ticket;
 use crate::geom::{Hit, Ray};
-use crate::ray_engine::host_test::HostRay;
-use crate::ray_engine::host_tracer::Best;
+use crate::tracer::Best;
+use crate::tracer::triangle_test::HostRay;
 
 /// A ray in a GPU cell's cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ impl Cache {
 
 /// A ray that has no answer yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flight {
+pub(super) struct RayInFlight {
     pub(super) ticket: Ticket,
     pub(super) ray: Ray,
     pub(super) host: HostRay,
@@ -51,13 +51,13 @@ pub(super) struct Answered {
 
 /// All of them, in places that are used again.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Flights {
-    places: Vec<Flight>,
+pub(super) struct RaysInFlight {
+    places: Vec<RayInFlight>,
     free: Vec<u32>,
     given: u64,
 }
 
-impl Flights {
+impl RaysInFlight {
     /// Rays given so far: the next ticket.
     pub(super) fn given(&self) -> u64 {
         self.given
@@ -69,7 +69,7 @@ impl Flights {
     }
 
     pub(super) fn start(&mut self, ticket: Ticket, ray: Ray, host: HostRay) -> u32 {
-        let flight = Flight { ticket, ray, host, best: Best::default(), on_card: false, uvw: None };
+        let flight = RayInFlight { ticket, ray, host, best: Best::default(), on_card: false, uvw: None };
         if let Some(place) = self.free.pop() {
             self.places[place as usize] = flight;
             return place;
@@ -78,17 +78,17 @@ impl Flights {
         (self.places.len() - 1) as u32
     }
 
-    pub(super) fn at(&mut self, place: u32) -> &mut Flight {
+    pub(super) fn at(&mut self, place: u32) -> &mut RayInFlight {
         &mut self.places[place as usize]
     }
 
     /// Takes a ray out; its place is free again.
-    pub(super) fn end(&mut self, place: u32) -> Flight {
+    pub(super) fn end(&mut self, place: u32) -> RayInFlight {
         self.free.push(place);
         self.places[place as usize]
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.places.capacity() * size_of::<Flight>() + self.free.capacity() * size_of::<u32>()
+        self.places.capacity() * size_of::<RayInFlight>() + self.free.capacity() * size_of::<u32>()
     }
 }

@@ -26,13 +26,14 @@ use refsim::machine::Executor;
 use refsim::timing::host::Operation;
 
 use super::barycentrics::plane_point;
-use super::host_tracer::HostTracer;
-use super::octree::{CellId, GpuCells};
 use super::pass::PassRequirements;
 use super::ray_tree::RayTree;
-use super::{Crossbar, EngineError, Hit};
-use crate::geom::{CastError, Caster, Mesh, Ray};
-use flight::{Answered, Cache, Flights};
+use super::{Crossbar, EngineError};
+use crate::geom::{Hit, Mesh, Ray};
+use crate::tracer::HostTracer;
+use crate::tracer::octree::{CellId, GpuCells};
+use crate::tracer::{CastError, Caster};
+use flight::{Answered, Cache, RaysInFlight};
 use order::order;
 use passes::Passes;
 
@@ -61,7 +62,7 @@ pub struct RayEngine<'a> {
     passes: Passes,
     parameters: EngineParameters,
     tree: RayTree,
-    flights: Flights,
+    flights: RaysInFlight,
     /// The caches of the GPU cells that have rays.
     caches: BTreeMap<usize, Cache>,
     /// Rays that can go on, and from where.
@@ -84,7 +85,7 @@ impl<'a> RayEngine<'a> {
         executor: impl Into<Executor>,
         parameters: EngineParameters,
     ) -> Result<Self, EngineError> {
-        let tracer = HostTracer::new(mesh, parameters.octree, parameters.sides);
+        let tracer = HostTracer::with_octree(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
         let EngineParameters { outputs, small_ids, cull, .. } = parameters;
         let wish = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
@@ -97,7 +98,7 @@ impl<'a> RayEngine<'a> {
             passes,
             tree: RayTree::new(parameters.tree),
             parameters: EngineParameters { rays: parameters.rays.max(1), ..parameters },
-            flights: Flights::default(),
+            flights: RaysInFlight::default(),
             caches: BTreeMap::new(),
             ready: VecDeque::new(),
             full: VecDeque::new(),

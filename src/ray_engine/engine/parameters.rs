@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use crate::geom::exact::Sides;
 use crate::ray_engine::Outputs;
-use crate::ray_engine::octree::OctreeParameters;
 use crate::ray_engine::ray_tree::RayTreeParameters;
+use crate::tracer::octree::OctreeParameters;
 
 /// When the results of a pass on the card are taken (Table 3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -61,7 +61,8 @@ pub struct EngineParameters {
 impl Default for EngineParameters {
     fn default() -> Self {
         Self {
-            octree: OctreeParameters::default(),
+            // Triangles one by one, as the paper tests them.
+            octree: OctreeParameters { most_triangles: 8, most_depth: 10 },
             triangles: 5..=15,
             rays: 64,
             tree: RayTreeParameters::default(),

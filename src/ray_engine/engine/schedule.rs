@@ -9,7 +9,7 @@ use crate::geom::Ray;
 use crate::ray_engine::EngineError;
 use crate::ray_engine::barycentrics::plane_point;
 use crate::ray_engine::card::CardHit;
-use crate::ray_engine::octree::{Beam, CellId, Flow, Visit};
+use crate::tracer::octree::{Beam, CellId, Flow, Visit};
 
 impl RayEngine<'_> {
     /// A ray enters the tree; buckets leave it when it is full.

@@ -1,15 +1,15 @@
-//! Photons from the lamps to where they land.
+//! Photons from the lights to where they land.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::Hit;
-use crate::renderer::lamps::Lamps;
+use crate::renderer::counting::{CountingCaster, RayKind};
+use crate::renderer::lights::Lights;
 use crate::renderer::lobes::{Lobes, one_way};
 use crate::renderer::photon_map::Photon;
 use crate::renderer::surfel::Surfel;
-use crate::renderer::tracer::{Kind, Tracer};
-use crate::renderer::wave::{Dice, Flight};
+use crate::renderer::wave::{Dice, PathRay};
 use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
 
@@ -22,7 +22,7 @@ const CAUSTIC: u64 = 1 << 41;
 pub(super) struct Shot<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a Settings,
-    pub(super) lamps: &'a Lamps<'a>,
+    pub(super) lights: &'a Lights<'a>,
     /// How many.
     pub(super) count: u32,
     /// Whether only light counts that came by mirrors and glass alone, and by at least one.
@@ -33,12 +33,12 @@ pub(super) struct Shot<'a> {
 #[derive(Default)]
 struct Landing {
     stored: Option<Photon>,
-    next: Option<Flight>,
+    next: Option<PathRay>,
 }
 
 impl Shot<'_> {
     /// Shoots them, and returns those that landed, by their number and then by their hits.
-    pub(super) fn landed(&self, tracer: &mut Tracer<'_>) -> Result<Vec<Photon>, RenderError> {
+    pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, RenderError> {
         tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
         let chunk = self.settings.bundle.clamp(1, 1 << 24) as u32;
         let mut landed = Vec::new();
@@ -56,19 +56,23 @@ impl Shot<'_> {
         Ok(landed)
     }
 
-    fn leaving(&self, photon: u32, start: u32) -> Option<Flight> {
+    fn leaving(&self, photon: u32, start: u32) -> Option<PathRay> {
         let first = FIRST + if self.caustic { CAUSTIC } else { 0 };
         let dice = Dice::new(self.settings.seed, first + u64::from(photon), 0);
-        let leaving = self.lamps.leaving(|n| dice.before(n))?;
+        let leaving = self.lights.leaving(|n| dice.before(n))?;
         let weight = 1.0 / f64::from(self.count) * leaving.power;
-        Some(Flight { kind: Kind::Photon, weight, ..Flight::eye(leaving.ray, photon - start, dice) })
+        Some(PathRay { kind: RayKind::Photon, weight, ..PathRay::eye(leaving.ray, photon - start, dice) })
     }
 
-    fn follow(&self, tracer: &mut Tracer<'_>, mut flights: Vec<Flight>) -> Result<Vec<(u32, Photon)>, RenderError> {
+    fn follow(
+        &self,
+        tracer: &mut CountingCaster<'_>,
+        mut flights: Vec<PathRay>,
+    ) -> Result<Vec<(u32, Photon)>, RenderError> {
         let mut landed = Vec::new();
         while !flights.is_empty() {
             let rays: Vec<_> = flights.iter().map(|flight| flight.ray).collect();
-            let hits = tracer.cast(&rays, |_| Kind::Photon)?;
+            let hits = tracer.cast(&rays, |_| RayKind::Photon)?;
             let landings: Vec<Landing> =
                 flights.par_iter().zip(&hits).map(|(flight, hit)| self.land(flight, *hit)).collect();
             let numbers = flights.iter().map(|flight| flight.slot);
@@ -78,7 +82,7 @@ impl Shot<'_> {
         Ok(landed)
     }
 
-    fn land(&self, flight: &Flight, hit: Option<Hit>) -> Landing {
+    fn land(&self, flight: &PathRay, hit: Option<Hit>) -> Landing {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Landing::default();
         };
@@ -89,7 +93,7 @@ impl Shot<'_> {
             let next = way.and_then(|way| {
                 let next = go_on(flight, &surfel, way.towards, way.weight)?;
                 // Apart from the weight, so that roulette takes no heed of what comes back at the way out.
-                Some(Flight { weight: way.squeeze * next.weight, ..next })
+                Some(PathRay { weight: way.squeeze * next.weight, ..next })
             });
             return Landing { stored: None, next };
         };
@@ -119,11 +123,11 @@ fn adjoint(surfel: &Surfel<'_>, towards: DVec3) -> f64 {
 }
 
 /// Goes on with a chance of the weight, so that power stays about what it was.
-fn go_on(flight: &Flight, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<Flight> {
+fn go_on(flight: &PathRay, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<PathRay> {
     let chance = weight.max_element().min(1.0);
     if chance <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
         return None;
     }
     let power = flight.weight * (1.0 / chance * weight);
-    Some(flight.on(surfel.ray(towards)?, Kind::Photon, power))
+    Some(flight.on(surfel.ray(towards)?, RayKind::Photon, power))
 }

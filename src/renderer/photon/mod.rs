@@ -1,9 +1,9 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
-//! Two maps are filled from the lamps. The *global* map holds every landing on a diffuse or glossy surface; the *caustic* map those of light that
+//! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the *caustic* map those of light that
 //! met nothing but mirrors and glass before. What the eye sees of a diffuse part is then the sum of three that share no path: light straight from
-//! the lamps (a shadow ray), caustics (the caustic map's density), and light by other diffuse and glossy surfaces (gather rays, which end at
-//! the next such surface in the global map's density, and see no lamp themselves). Glossy lobes, mirrors and glass send rays on as in
+//! the lights (a shadow ray), caustics (the caustic map's density), and light by other diffuse and glossy surfaces (gather rays, which end at
+//! the next such surface in the global map's density, and see no light themselves). Glossy lobes, mirrors and glass send rays on as in
 //! [`super::distributed`].
 //!
 //! Densities are taken over disks of finite size, so this is the one renderer whose mean is not the rendering equation's: it blurs within
@@ -11,18 +11,19 @@
 
 mod emit;
 
-use super::film::{Picture, expose};
-use super::lamps::Lamps;
+use super::counting::{CountingCaster, RayKind, WatchProgress};
+use super::film::{RenderedPicture, expose};
+use super::lights::Lights;
 use super::lobes::Lobes;
 use super::photon_map::{Photon, PhotonMap};
 use super::sampling::cosine;
 use super::surfel::Surfel;
-use super::tracer::{Kind, Tracer, Watch};
-use super::wave::{Flight, Scatter, Shade};
+use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings, distributed};
+use crate::geom::Hit;
 use crate::geom::vector::wide;
-use crate::geom::{Caster, Hit};
 use crate::scene::{Camera, Scene};
+use crate::tracer::Caster;
 use glam::DVec3;
 
 /// The least cosine by which a photon's flux is turned back into what a shading normal makes of it.
@@ -69,17 +70,17 @@ pub fn render<'a>(
     settings: &Settings,
     photons: &Photons,
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
-) -> Result<Picture, RenderError> {
+    watch: &'a mut WatchProgress<'a>,
+) -> Result<RenderedPicture, RenderError> {
     settings.checked()?;
     photons.checked()?;
-    let mut tracer = Tracer::new(caster, watch);
-    let lamps = Lamps::areas_of(scene, settings.rounding);
-    let shot = |count, caustic| emit::Shot { scene, settings, lamps: &lamps, count, caustic };
+    let mut tracer = CountingCaster::new(caster, watch);
+    let lights = Lights::areas_of(scene, settings.rounding);
+    let shot = |count, caustic| emit::Shot { scene, settings, lights: &lights, count, caustic };
     let global = PhotonMap::new(shot(photons.global, false).landed(&mut tracer)?);
     let caustic = PhotonMap::new(shot(photons.caustic, true).landed(&mut tracer)?);
-    let fan = 2 + photons.gather as usize + lamps.points();
-    let shader = Gathering { scene, settings, photons, global: &global, caustic: &caustic, lamps: &lamps };
+    let fan = 2 + photons.gather as usize + lights.points();
+    let shader = Gathering { scene, settings, photons, global: &global, caustic: &caustic, lights: &lights };
     expose(&mut tracer, camera, settings, fan, &shader)
 }
 
@@ -89,17 +90,17 @@ struct Gathering<'a> {
     photons: &'a Photons,
     global: &'a PhotonMap,
     caustic: &'a PhotonMap,
-    lamps: &'a Lamps<'a>,
+    lights: &'a Lights<'a>,
 }
 
 impl Shade for Gathering<'_> {
-    fn shade(&self, flight: &Flight, hit: Option<Hit>) -> Scatter {
+    fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        // Gather rays carry a density. They see no lamps: shadow rays and the caustic map have counted those.
+        // Gather rays carry a density. They see no lights: shadow rays and the caustic map have counted those.
         let gathers = flight.density.is_some();
-        let seen = if gathers { DVec3::ZERO } else { Lamps::seen(&surfel) };
+        let seen = if gathers { DVec3::ZERO } else { Lights::seen(&surfel) };
         let mut scatter = Scatter::of(flight.weight * seen);
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
@@ -116,13 +117,13 @@ impl Shade for Gathering<'_> {
 }
 
 impl Gathering<'_> {
-    fn scatter(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
+    fn scatter(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
         let diffuse = lobes.diffuse();
         if lobes.albedo.max_element() > 0.0 {
             let landed = if self.photons.gather == 0 {
                 self.estimate(self.global, surfel, &diffuse)
             } else {
-                distributed::direct(self.lamps, flight, surfel, &lobes, scatter);
+                distributed::direct(self.lights, flight, surfel, &lobes, scatter);
                 self.gather(flight, surfel, &lobes, scatter);
                 self.estimate(self.caustic, surfel, &diffuse)
             };
@@ -134,7 +135,7 @@ impl Gathering<'_> {
     }
 
     /// Rays by the cosine, so that each weighs the albedo over their number.
-    fn gather(&self, flight: &Flight, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
+    fn gather(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let rays = self.photons.gather;
         let weight = 1.0 / f64::from(rays) * (flight.weight * lobes.albedo);
         for ray in 0..u64::from(rays) {
@@ -144,8 +145,8 @@ impl Gathering<'_> {
                 continue;
             }
             let density = Some(towards.dot(surfel.shading).max(0.0));
-            let next = surfel.ray(towards).map(|ray| flight.on(ray, Kind::Gather, weight));
-            scatter.next.extend(next.map(|next| Flight { density, dice, ..next }));
+            let next = surfel.ray(towards).map(|ray| flight.on(ray, RayKind::Gather, weight));
+            scatter.next.extend(next.map(|next| PathRay { density, dice, ..next }));
         }
     }
 

@@ -4,7 +4,7 @@
 //! has a hole where the light is, so that no two faces lie in one plane.
 
 use super::super::{Material, PointLight, Scene, Surface, View};
-use super::parts::{Parts, Place, Stuff, Vec3};
+use super::parts::{MaterialId, Parts, Placement};
 
 /// The box with its two blocks and its light.
 pub fn cornell_box() -> Scene {
@@ -35,15 +35,15 @@ pub fn cornell_box() -> Scene {
 }
 
 /// A point of the published list: x to the left, depth, height in millimetres.
-fn measured([x, height, depth]: Vec3) -> Vec3 {
+fn measured([x, height, depth]: [f64; 3]) -> [f64; 3] {
     [(556.0 - x) / 1000.0, depth / 1000.0, height / 1000.0]
 }
 
-fn wall(parts: &mut Parts, corners: [Vec3; 4], stuff: Stuff) {
-    parts.polygon(Place::ROOM, &corners.map(measured), stuff);
+fn wall(parts: &mut Parts, corners: [[f64; 3]; 4], material: MaterialId) {
+    parts.polygon(Placement::ROOM, &corners.map(measured), material);
 }
 
-fn walls(parts: &mut Parts, white: Stuff, [left, right]: [Stuff; 2], light: Stuff) {
+fn walls(parts: &mut Parts, white: MaterialId, [left, right]: [MaterialId; 2], light: MaterialId) {
     let top = 548.8;
     wall(parts, [[552.8, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 559.2], [549.6, 0.0, 559.2]], white);
     wall(parts, [[549.6, 0.0, 559.2], [0.0, 0.0, 559.2], [0.0, top, 559.2], [556.0, top, 559.2]], white);
@@ -59,13 +59,13 @@ fn walls(parts: &mut Parts, white: Stuff, [left, right]: [Stuff; 2], light: Stuf
 }
 
 /// A block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed below. 12 triangles.
-fn block(parts: &mut Parts, base: [[f64; 2]; 4], height: f64, stuff: Stuff) {
+fn block(parts: &mut Parts, base: [[f64; 2]; 4], height: f64, material: MaterialId) {
     let ring = |height: f64| base.map(|[x, depth]| [x, height, depth]);
     let (low, high) = (ring(0.0), ring(height));
-    wall(parts, high, stuff);
+    wall(parts, high, material);
     for at in 0..4 {
         let next = (at + 1) % 4;
-        wall(parts, [low[at], low[next], high[next], high[at]], stuff);
+        wall(parts, [low[at], low[next], high[next], high[at]], material);
     }
-    wall(parts, [low[3], low[2], low[1], low[0]], stuff);
+    wall(parts, [low[3], low[2], low[1], low[0]], material);
 }

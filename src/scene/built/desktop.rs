@@ -2,10 +2,10 @@
 
 use super::chance::Chance;
 use super::palette::Palette;
-use super::parts::{Parts, Place, Stuff};
+use super::parts::{MaterialId, Parts, Placement};
 
 /// A monitor with a tube, as deep as they were. 60 triangles.
-pub(super) fn monitor(parts: &mut Parts, place: Place, palette: &Palette) {
+pub(super) fn monitor(parts: &mut Parts, place: Placement, palette: &Palette) {
     let (case, screen) = (palette.beige, palette.screen);
     parts.frustum(place, [[-0.13, -0.13, 0.0], [0.13, 0.13, 0.02]], 0.02, [case; 6]);
     parts.block(place, [-0.06, -0.06, 0.02], [0.06, 0.06, 0.06], case);
@@ -20,7 +20,7 @@ pub(super) fn monitor(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A keyboard of 78 keys. 948 triangles.
-pub(super) fn keyboard(parts: &mut Parts, place: Place, palette: &Palette) {
+pub(super) fn keyboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     let board = place.turned(0, 0.012);
     parts.block(board, [-0.22, -0.075, 0.0], [0.22, 0.075, 0.018], palette.beige);
     let mut key = |x: f64, y: f64, width: f64, height: f64| {
@@ -53,7 +53,7 @@ pub(super) fn keyboard(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A mouse. 64 triangles.
-pub(super) fn mouse(parts: &mut Parts, place: Place, palette: &Palette) {
+pub(super) fn mouse(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.frustum(place, [[-0.03, -0.055, 0.0], [0.03, 0.055, 0.03]], 0.009, [palette.beige; 6]);
     for x in [-0.02, 0.002] {
         parts.block(place, [x, 0.012, 0.03], [x + 0.018, 0.044, 0.033], palette.keys);
@@ -63,13 +63,20 @@ pub(super) fn mouse(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A mug with coffee in it. 318 triangles.
-pub(super) fn mug(parts: &mut Parts, place: Place, palette: &Palette) {
+pub(super) fn mug(parts: &mut Parts, place: Placement, palette: &Palette) {
     vessel(parts, place, [0.036, 0.095], 24, palette.china, palette.soil);
     parts.bent_tube(place.to(0.036, 0.0, 0.048), [0.026, 0.005], [-0.25, 0.25], [10, 6], palette.china);
 }
 
 /// A cup of `[radius, height]`, filled below its rim. 7 `sides` + `sides` - 2 triangles.
-fn vessel(parts: &mut Parts, place: Place, [radius, height]: [f64; 2], sides: u32, wall: Stuff, filling: Stuff) {
+fn vessel(
+    parts: &mut Parts,
+    place: Placement,
+    [radius, height]: [f64; 2],
+    sides: u32,
+    wall: MaterialId,
+    filling: MaterialId,
+) {
     let inner = radius - 0.004;
     parts.disc(place, radius, 0.0, sides, false, wall);
     parts.lathe(place, &[[radius, 0.0], [radius, height], [inner, height], [inner, 0.7 * height]], sides, wall);
@@ -77,7 +84,7 @@ fn vessel(parts: &mut Parts, place: Place, [radius, height]: [f64; 2], sides: u3
 }
 
 /// A cup with four pencils. 206 triangles.
-pub(super) fn pencils(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chance) {
+pub(super) fn pencils(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     vessel(parts, place, [0.035, 0.1], 16, palette.metal, palette.black);
     for pencil in 0..4 {
         let lean = place.to(0.0, 0.0, 0.06).turned(2, f64::from(pencil) / 4.0).to(0.012, 0.0, 0.0);
@@ -87,7 +94,7 @@ pub(super) fn pencils(parts: &mut Parts, place: Place, palette: &Palette, chance
 }
 
 /// A telephone. 192 triangles.
-pub(super) fn telephone(parts: &mut Parts, place: Place, palette: &Palette) {
+pub(super) fn telephone(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.frustum(place, [[-0.1, -0.1, 0.0], [0.1, 0.1, 0.05]], 0.012, [palette.black; 6]);
     for key in 0..12 {
         let (x, y) = (0.0 + 0.025 * f64::from(key % 3), -0.07 + 0.025 * f64::from(key / 3));
@@ -100,7 +107,7 @@ pub(super) fn telephone(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A pile of `sheets` stacks of paper, each a little askew. 12 `sheets` triangles.
-pub(super) fn papers(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chance, sheets: u32) {
+pub(super) fn papers(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance, sheets: u32) {
     for sheet in 0..sheets {
         let z = 0.006 * f64::from(sheet);
         let askew = place.facing(chance.between(-14.0, 14.0));

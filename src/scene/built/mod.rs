@@ -31,40 +31,44 @@ pub use white_box::white_box;
 pub const SEED: u64 = 2002;
 
 /// A scene that can be asked for by name.
-struct Entry {
+struct BuiltScene {
     name: &'static str,
     what: &'static str,
     build: fn() -> Scene,
 }
 
-const SCENES: &[Entry] = &[
-    Entry { name: "cornell-box", what: "the Cornell box with its two blocks", build: cornell_box },
-    Entry {
+const SCENES: &[BuiltScene] = &[
+    BuiltScene { name: "cornell-box", what: "the Cornell box with its two blocks", build: cornell_box },
+    BuiltScene {
         name: "cornell-room",
         what: "a Cornell box closed in front, without blocks: the radiosity paper's scene",
         build: || rooms::cornell(rooms::CornellBox { blocks: false, open: false }),
     },
-    Entry {
+    BuiltScene {
         name: "cornell-room-blocks",
         what: "the same with its two blocks",
         build: || rooms::cornell(rooms::CornellBox { blocks: true, open: false }),
     },
-    Entry {
+    BuiltScene {
         name: "office",
         what: "an office with eight desks and much on them: Figure 6 c of the Ray Engine",
         build: || office(SEED),
     },
-    Entry {
+    BuiltScene {
         name: "office-floor",
         what: "one floor of an office building without its ceiling: Figure 6 d and e of the Ray Engine",
         build: || office_floor(SEED),
     },
-    Entry {
+    BuiltScene {
         name: "teapot-room",
         what: "a small room with a metal teapot, a glass sphere and two blocks: Figure 6 a and b of the Ray Engine",
         build: || teapot_room(SEED),
     },
-    Entry { name: "white-box", what: "a closed box that shines inwards everywhere: a white furnace", build: white_box },
+    BuiltScene {
+        name: "white-box",
+        what: "a closed box that shines inwards everywhere: a white furnace",
+        build: white_box,
+    },
 ];
 
 /// The names of all scenes, in alphabetical order.

@@ -18,7 +18,7 @@ use super::chance::Chance;
 use super::desktop::{keyboard, monitor, mouse, mug, papers, pencils, telephone};
 use super::furniture::{basket, bookshelf, chair, desk, desk_lamp, plant, radiator};
 use super::palette::{Palette, lamp};
-use super::parts::{Parts, Place, Stuff};
+use super::parts::{MaterialId, Parts, Placement};
 
 /// The room from 0 to these, in metres.
 const WIDTH: f64 = 9.6;
@@ -38,13 +38,13 @@ pub fn office(seed: u64) -> Scene {
     shell(&mut parts, &palette);
     for left in WINDOWS {
         window(&mut parts, left, &palette);
-        radiator(&mut parts, Place::at(left + 0.9, DEPTH - 0.08, 0.0), &palette, 24);
+        radiator(&mut parts, Placement::at(left + 0.9, DEPTH - 0.08, 0.0), &palette, 24);
     }
-    door(&mut parts, Place::at(0.0, 1.6, 0.0).turned(2, 0.25), &palette);
+    door(&mut parts, Placement::at(0.0, 1.6, 0.0).turned(2, 0.25), &palette);
     workplaces(&mut parts, &palette, &mut chance);
     along_the_walls(&mut parts, &palette, &mut chance);
     for (x, y) in [(2.4, 1.3), (4.8, 1.3), (7.2, 1.3), (2.4, 4.4), (4.8, 4.4), (7.2, 4.4)] {
-        ceiling_light(&mut parts, Place::at(x, y, HEIGHT), &palette);
+        ceiling_light(&mut parts, Placement::at(x, y, HEIGHT), &palette);
     }
     parts.scene(
         views(),
@@ -66,7 +66,7 @@ fn shell(parts: &mut Parts, palette: &Palette) {
     let carpet = parts.paint("carpet", [0.36, 0.37, 0.40]);
     let wall = parts.paint("wall", [0.72, 0.69, 0.60]);
     let (w, d, h) = (WIDTH, DEPTH, HEIGHT);
-    let room = Place::ROOM;
+    let room = Placement::ROOM;
     parts.quad(room, [[0.0, 0.0, 0.0], [w, 0.0, 0.0], [0.0, d, 0.0]], carpet);
     parts.quad(room, [[0.0, d, h], [w, 0.0, 0.0], [0.0, -d, 0.0]], palette.white);
     parts.quad(room, [[w, 0.0, 0.0], [-w, 0.0, 0.0], [0.0, 0.0, h]], wall);
@@ -91,7 +91,7 @@ const SLATS: u32 = 26;
 fn window(parts: &mut Parts, left: f64, palette: &Palette) {
     let [wide, sill, head] = WINDOW;
     let high = head - sill;
-    let place = Place::at(left, DEPTH, sill);
+    let place = Placement::at(left, DEPTH, sill);
     let sky = parts.material(lamp(&format!("sky-{}", if left < 3.0 { "left" } else { "right" }), [7.0, 7.8, 9.0]));
     parts.quad(place, [[0.0, RECESS, 0.0], [wide, 0.0, 0.0], [0.0, 0.0, high]], sky);
     parts.quad(place, [[0.0, 0.0, 0.0], [wide, 0.0, 0.0], [0.0, RECESS, 0.0]], palette.white);
@@ -113,7 +113,7 @@ fn window(parts: &mut Parts, left: f64, palette: &Palette) {
 }
 
 /// A closed door with its frame and a handle, on a wall that looks to -y. 148 triangles.
-fn door(parts: &mut Parts, place: Place, palette: &Palette) {
+fn door(parts: &mut Parts, place: Placement, palette: &Palette) {
     let wall = place.turned(2, 0.5);
     parts.block(wall, [-0.45, 0.002, 0.002], [0.45, 0.04, 2.05], palette.wood);
     for (x, low, high) in [(-0.53, 0.002, 2.13), (0.45, 0.002, 2.13)] {
@@ -144,12 +144,12 @@ fn workplaces(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
         (6.3, 3.92, 180.0),
         (7.92, 3.92, 180.0),
     ] {
-        workplace(parts, Place::at(x, y, 0.0).facing(degrees), palette, chance);
+        workplace(parts, Placement::at(x, y, 0.0).facing(degrees), palette, chance);
     }
 }
 
 /// A desk with all that stands on it, a chair and a basket.
-fn workplace(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chance) {
+fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     desk(parts, place, palette);
     let seat = place.to(chance.between(-0.35, -0.05), chance.between(-0.75, -0.55), 0.0);
     chair(parts, seat.facing(chance.between(-35.0, 35.0)), palette);
@@ -172,17 +172,17 @@ fn workplace(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Ch
 /// Shelves, plants, a clock, a board.
 fn along_the_walls(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
     for y in [0.9, 1.92, 2.94, 3.96] {
-        bookshelf(parts, Place::at(WIDTH - 0.16, y, 0.0).facing(-90.0), palette, chance, [5, 20]);
+        bookshelf(parts, Placement::at(WIDTH - 0.16, y, 0.0).facing(-90.0), palette, chance, [5, 20]);
     }
     for (x, y, leaves) in [(0.5, 6.1, 27), (4.7, 6.2, 21), (9.1, 5.9, 27)] {
-        plant(parts, Place::at(x, y, 0.0), palette, chance, leaves);
+        plant(parts, Placement::at(x, y, 0.0), palette, chance, leaves);
     }
-    board(parts, Place::at(0.0, 4.2, 1.5).facing(90.0), palette);
-    clock(parts, Place::at(4.7, DEPTH, 2.1).turned(0, 0.25), palette);
+    board(parts, Placement::at(0.0, 4.2, 1.5).facing(90.0), palette);
+    clock(parts, Placement::at(4.7, DEPTH, 2.1).turned(0, 0.25), palette);
 }
 
 /// A board of 2 m on a wall that looks to -y, with a tray of markers.
-fn board(parts: &mut Parts, place: Place, palette: &Palette) {
+fn board(parts: &mut Parts, place: Placement, palette: &Palette) {
     let place = place.turned(2, 0.5);
     parts.block(place, [-1.0, 0.002, -0.5], [1.0, 0.02, 0.5], palette.paper);
     parts.block(place, [-1.0, 0.002, -0.56], [1.0, 0.08, -0.53], palette.metal);
@@ -193,7 +193,7 @@ fn board(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A clock whose face looks along its place's z.
-fn clock(parts: &mut Parts, place: Place, palette: &Palette) {
+fn clock(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.cylinder(place, 0.16, [0.002, 0.03], 32, palette.black);
     parts.cylinder(place, 0.145, [0.03, 0.033], 32, palette.paper);
     for hour in 0..12 {
@@ -206,8 +206,9 @@ fn clock(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A shining box below the ceiling, in a frame, with blades below it. 156 triangles.
-fn ceiling_light(parts: &mut Parts, place: Place, palette: &Palette) {
-    let shine: [Stuff; 6] = [palette.white, palette.white, palette.white, palette.white, palette.tube, palette.white];
+fn ceiling_light(parts: &mut Parts, place: Placement, palette: &Palette) {
+    let shine: [MaterialId; 6] =
+        [palette.white, palette.white, palette.white, palette.white, palette.tube, palette.white];
     parts.painted_block(place, [-0.6, -0.15, -0.04], [0.6, 0.15, -0.002], shine);
     for y in [-0.18, 0.15] {
         parts.block(place, [-0.63, y, -0.09], [0.63, y + 0.03, -0.002], palette.metal);

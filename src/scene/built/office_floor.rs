@@ -19,7 +19,7 @@
 use super::super::{PointLight, Scene, View};
 use super::chance::Chance;
 use super::palette::Palette;
-use super::parts::{Parts, Place, Stuff};
+use super::parts::{MaterialId, Parts, Placement};
 
 /// Height of the walls.
 const HEIGHT: f64 = 2.8;
@@ -43,10 +43,10 @@ const WINDOW: [f64; 3] = [2.0, 0.9, 2.2];
 
 /// What floors, walls and doors are made of.
 struct Shell {
-    wall: Stuff,
-    outside: Stuff,
-    door: Stuff,
-    frame: Stuff,
+    wall: MaterialId,
+    outside: MaterialId,
+    door: MaterialId,
+    frame: MaterialId,
 }
 
 /// An opening of a wall.
@@ -95,16 +95,16 @@ fn ground(parts: &mut Parts) {
     let carpet = parts.paint("carpet", [0.38, 0.36, 0.33]);
     let paving = parts.paint("paving", [0.34, 0.33, 0.32]);
     let linoleum = parts.paint("linoleum", [0.50, 0.40, 0.28]);
-    let floor = |parts: &mut Parts, low: [f64; 2], high: [f64; 2], stuff| {
+    let floor = |parts: &mut Parts, low: [f64; 2], high: [f64; 2], material| {
         let [x, y] = [high[0] - low[0], high[1] - low[1]];
-        parts.quad(Place::ROOM, [[low[0], low[1], 0.0], [x, 0.0, 0.0], [0.0, y, 0.0]], stuff);
+        parts.quad(Placement::ROOM, [[low[0], low[1], 0.0], [x, 0.0, 0.0], [0.0, y, 0.0]], material);
     };
     // Frames of four pieces, for the rooms and for the corridor.
-    let around = |parts: &mut Parts, outer: f64, inner: f64, stuff| {
-        floor(parts, [outer, outer], [WIDTH - outer, inner], stuff);
-        floor(parts, [outer, DEPTH - inner], [WIDTH - outer, DEPTH - outer], stuff);
-        floor(parts, [outer, inner], [inner, DEPTH - inner], stuff);
-        floor(parts, [WIDTH - inner, inner], [WIDTH - outer, DEPTH - inner], stuff);
+    let around = |parts: &mut Parts, outer: f64, inner: f64, material| {
+        floor(parts, [outer, outer], [WIDTH - outer, inner], material);
+        floor(parts, [outer, DEPTH - inner], [WIDTH - outer, DEPTH - outer], material);
+        floor(parts, [outer, inner], [inner, DEPTH - inner], material);
+        floor(parts, [WIDTH - inner, inner], [WIDTH - outer, DEPTH - inner], material);
     };
     around(parts, 0.0, ROOM, carpet);
     around(parts, ROOM, ROOM + CORRIDOR, linoleum);
@@ -123,10 +123,17 @@ fn ground(parts: &mut Parts) {
 }
 
 /// A wall along its place's x from 0 to `length`, `thick` to +y, with openings from left to right. Each stretch is a block.
-fn wall(parts: &mut Parts, place: Place, [length, thick]: [f64; 2], openings: &[Opening], shell: &Shell, stuff: Stuff) {
+fn wall(
+    parts: &mut Parts,
+    place: Placement,
+    [length, thick]: [f64; 2],
+    openings: &[Opening],
+    shell: &Shell,
+    material: MaterialId,
+) {
     let mut from = 0.0;
     let stretch = |parts: &mut Parts, x: [f64; 2], z: [f64; 2]| {
-        parts.block(place, [x[0], 0.0, z[0]], [x[1], thick, z[1]], stuff);
+        parts.block(place, [x[0], 0.0, z[0]], [x[1], thick, z[1]], material);
     };
     for &opening in openings {
         match opening {
@@ -152,7 +159,7 @@ fn wall(parts: &mut Parts, place: Place, [length, thick]: [f64; 2], openings: &[
 }
 
 /// Two posts and a lintel of a frame, and a leaf. 48 triangles.
-fn door(parts: &mut Parts, place: Place, open: f64, shell: &Shell) {
+fn door(parts: &mut Parts, place: Placement, open: f64, shell: &Shell) {
     let [wide, high] = DOOR;
     for x in [0.0, wide - 0.04] {
         parts.block(place, [x, -0.1, 0.0], [x + 0.04, 0.1, high - 0.04], shell.frame);
@@ -163,7 +170,7 @@ fn door(parts: &mut Parts, place: Place, open: f64, shell: &Shell) {
 }
 
 /// Two bars across an opening without glass. 24 triangles.
-fn window(parts: &mut Parts, place: Place, shell: &Shell) {
+fn window(parts: &mut Parts, place: Placement, shell: &Shell) {
     let [wide, sill, head] = WINDOW;
     let high = head - sill;
     parts.block(place, [wide / 2.0 - 0.03, -0.04, 0.0], [wide / 2.0 + 0.03, 0.04, high], shell.frame);
@@ -178,10 +185,10 @@ fn outline(parts: &mut Parts, shell: &Shell) {
     let (long, short) = (windows(9, 1.0, 4.0), windows(5, 1.1, 4.48));
     let between = DEPTH - 2.0 * OUTER;
     let outside = shell.outside;
-    wall(parts, Place::at(0.0, 0.0, 0.0), [WIDTH, OUTER], &long, shell, outside);
-    wall(parts, Place::at(0.0, DEPTH - OUTER, 0.0), [WIDTH, OUTER], &long, shell, outside);
-    wall(parts, Place::at(OUTER, OUTER, 0.0).facing(90.0), [between, OUTER], &short, shell, outside);
-    wall(parts, Place::at(WIDTH, OUTER, 0.0).facing(90.0), [between, OUTER], &short, shell, outside);
+    wall(parts, Placement::at(0.0, 0.0, 0.0), [WIDTH, OUTER], &long, shell, outside);
+    wall(parts, Placement::at(0.0, DEPTH - OUTER, 0.0), [WIDTH, OUTER], &long, shell, outside);
+    wall(parts, Placement::at(OUTER, OUTER, 0.0).facing(90.0), [between, OUTER], &short, shell, outside);
+    wall(parts, Placement::at(WIDTH, OUTER, 0.0).facing(90.0), [between, OUTER], &short, shell, outside);
 }
 
 /// How far a door stands open: a third are shut.
@@ -193,7 +200,7 @@ fn ajar(chance: &mut Chance) -> f64 {
 fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
     for degrees in [0.0, 180.0] {
         // Seen from the room's corner of the house; the other row is the same turned round.
-        let house = if degrees == 0.0 { Place::ROOM } else { Place::at(WIDTH, DEPTH, 0.0).facing(180.0) };
+        let house = if degrees == 0.0 { Placement::ROOM } else { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) };
         let doors: Vec<Opening> =
             (0..9).map(|i| Opening::Door { left: 0.6 + 4.0 * f64::from(i), open: ajar(chance) }).collect();
         // The doors open into the rooms, hence the wall is laid from its far end.
@@ -220,7 +227,7 @@ fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
 fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
     let long = DEPTH - 2.0 * ROOM;
     for turned in [false, true] {
-        let house = if turned { Place::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Place::ROOM };
+        let house = if turned { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Placement::ROOM };
         let doors: Vec<Opening> =
             (0..3).map(|i| Opening::Door { left: 1.4 + long / 3.0 * f64::from(i), open: ajar(chance) }).collect();
         wall(parts, house.to(ROOM, ROOM, 0.0).facing(90.0), [long, INNER], &doors, shell, shell.wall);
@@ -240,7 +247,7 @@ fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
     let (x, y) = (ROOM + CORRIDOR, ROOM + CORRIDOR);
     let (long, deep) = (WIDTH - 2.0 * x, DEPTH - 2.0 * y);
     for turned in [false, true] {
-        let house = if turned { Place::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Place::ROOM };
+        let house = if turned { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Placement::ROOM };
         let doors: Vec<Opening> =
             [1.2, 7.6, 11.4, 17.6].map(|left| Opening::Door { left, open: ajar(chance) }).to_vec();
         wall(parts, house.to(x, y, 0.0), [long, INNER], &doors, shell, shell.wall);
@@ -265,7 +272,7 @@ fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
             cupboard(parts, house.to(x + 7.6 + 1.3 * f64::from(shelf), y + 3.2, 0.0), palette);
         }
     }
-    stairs(parts, Place::at(WIDTH / 2.0 - 2.4, DEPTH / 2.0 - 0.3, 0.0), palette);
+    stairs(parts, Placement::at(WIDTH / 2.0 - 2.4, DEPTH / 2.0 - 0.3, 0.0), palette);
 }
 
 /// Lamps over the corridor.
@@ -275,13 +282,13 @@ fn corridor(parts: &mut Parts, palette: &Palette) {
     for lamp in 0..7 {
         let x = middle + (WIDTH - 2.0 * middle) / 6.0 * f64::from(lamp);
         for y in [middle, DEPTH - middle] {
-            parts.painted_block(Place::at(x, y, HEIGHT - 0.1), [-0.6, -0.1, 0.0], [0.6, 0.1, 0.06], shine);
+            parts.painted_block(Placement::at(x, y, HEIGHT - 0.1), [-0.6, -0.1, 0.0], [0.6, 0.1, 0.06], shine);
         }
     }
 }
 
 /// A room of one or two workplaces, with a cupboard or none; the place is the middle of its window's wall, the room lies towards +y.
-fn furnish(parts: &mut Parts, place: Place, [desks, cupboards]: [u32; 2], palette: &Palette, chance: &mut Chance) {
+fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, chance: &mut Chance) {
     let left = place.to(-1.35, 1.5 + chance.between(-0.15, 0.15), 0.0).facing(90.0);
     workplace(parts, left, palette, chance);
     if desks == 2 {
@@ -294,7 +301,7 @@ fn furnish(parts: &mut Parts, place: Place, [desks, cupboards]: [u32; 2], palett
 }
 
 /// A desk, a chair that is used from -y, and a monitor. 144 triangles.
-fn workplace(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chance) {
+fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     parts.block(place, [-0.8, -0.4, 0.7], [0.8, 0.4, 0.74], palette.wood);
     for x in [-0.78, 0.74] {
         parts.block(place, [x, -0.36, 0.0], [x + 0.04, 0.36, 0.7], palette.dark_wood);
@@ -308,7 +315,7 @@ fn workplace(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Ch
 }
 
 /// A chair of four legs. 72 triangles.
-fn chair(parts: &mut Parts, place: Place, palette: &Palette) {
+fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, [-0.22, -0.22, 0.42], [0.22, 0.22, 0.46], palette.cloth);
     parts.block(place, [-0.22, -0.24, 0.55], [0.22, -0.2, 0.9], palette.cloth);
     for (x, y, high) in [(-0.2, -0.22, 0.55), (0.17, -0.22, 0.55), (-0.2, 0.18, 0.42), (0.17, 0.18, 0.42)] {
@@ -323,7 +330,7 @@ fn chair(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// An open cupboard with three boards, its back to +y. 72 triangles.
-fn cupboard(parts: &mut Parts, place: Place, palette: &Palette) {
+fn cupboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     for x in [-0.5, 0.47] {
         parts.block(place, [x, -0.2, 0.0], [x + 0.03, 0.2, 1.8], palette.wood);
     }
@@ -335,7 +342,7 @@ fn cupboard(parts: &mut Parts, place: Place, palette: &Palette) {
 }
 
 /// A long table with six chairs.
-fn meeting(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chance) {
+fn meeting(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     parts.block(place, [-2.0, -0.6, 0.7], [2.0, 0.6, 0.74], palette.dark_wood);
     for x in [-1.6, 1.5] {
         parts.block(place, [x, -0.4, 0.0], [x + 0.1, 0.4, 0.7], palette.metal);
@@ -348,7 +355,7 @@ fn meeting(parts: &mut Parts, place: Place, palette: &Palette, chance: &mut Chan
 }
 
 /// A flight of sixteen steps. 192 triangles.
-fn stairs(parts: &mut Parts, place: Place, palette: &Palette) {
+fn stairs(parts: &mut Parts, place: Placement, palette: &Palette) {
     for step in 0..16 {
         let (x, z) = (0.28 * f64::from(step), 0.17 * f64::from(step));
         parts.block(place, [x, -1.0, z], [x + 0.3, 1.0, z + 0.17], palette.white);

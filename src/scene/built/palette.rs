@@ -1,27 +1,27 @@
 //! What furniture is made of.
 
 use super::super::{Color, Material, Surface};
-use super::parts::{Parts, Stuff};
+use super::parts::{MaterialId, Parts};
 
 /// The materials of an office.
 pub(super) struct Palette {
-    pub(super) wood: Stuff,
-    pub(super) dark_wood: Stuff,
-    pub(super) metal: Stuff,
-    pub(super) black: Stuff,
-    pub(super) beige: Stuff,
-    pub(super) keys: Stuff,
-    pub(super) cloth: Stuff,
-    pub(super) paper: Stuff,
-    pub(super) screen: Stuff,
-    pub(super) china: Stuff,
-    pub(super) clay: Stuff,
-    pub(super) soil: Stuff,
-    pub(super) leaf: Stuff,
-    pub(super) white: Stuff,
-    pub(super) bulb: Stuff,
-    pub(super) tube: Stuff,
-    pub(super) covers: [Stuff; 6],
+    pub(super) wood: MaterialId,
+    pub(super) dark_wood: MaterialId,
+    pub(super) metal: MaterialId,
+    pub(super) black: MaterialId,
+    pub(super) beige: MaterialId,
+    pub(super) keys: MaterialId,
+    pub(super) cloth: MaterialId,
+    pub(super) paper: MaterialId,
+    pub(super) screen: MaterialId,
+    pub(super) china: MaterialId,
+    pub(super) clay: MaterialId,
+    pub(super) soil: MaterialId,
+    pub(super) leaf: MaterialId,
+    pub(super) white: MaterialId,
+    pub(super) bulb: MaterialId,
+    pub(super) tube: MaterialId,
+    pub(super) covers: [MaterialId; 6],
 }
 
 impl Palette {

@@ -16,14 +16,14 @@ const LIGHT: Color = [17.0, 12.0, 4.0];
 
 /// Collects quadrilaterals.
 #[derive(Default)]
-struct Builder {
+struct RoomBuilder {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     materials: Vec<Material>,
     material_of: Vec<u32>,
 }
 
-impl Builder {
+impl RoomBuilder {
     /// Corners counter-clockwise from the front.
     fn quad(&mut self, corners: [[f32; 3]; 4], material: u32) {
         let first = self.positions.len() as u32;
@@ -60,7 +60,7 @@ impl Builder {
 /// The closed unit cube, a material a wall in the order of [`WALLS`].
 #[must_use]
 pub fn cube(materials: [Material; 6]) -> Scene {
-    let mut room = Builder { materials: materials.into(), ..Builder::default() };
+    let mut room = RoomBuilder { materials: materials.into(), ..RoomBuilder::default() };
     room.walls([1.0; 3], [0, 1, 2, 3, 4, 5].map(Some));
     room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
 }
@@ -88,7 +88,7 @@ pub fn cornell(what: CornellBox) -> Scene {
     let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
     let painted =
         [("white", WHITE), ("red", RED), ("green", GREEN)].map(|(name, albedo)| Material::diffuse(name, albedo));
-    let mut room = Builder { materials: painted.into_iter().chain([light]).collect(), ..Builder::default() };
+    let mut room = RoomBuilder { materials: painted.into_iter().chain([light]).collect(), ..RoomBuilder::default() };
     let front = (!what.open).then_some(0);
     room.walls([5.5; 3], [Some(0), None, Some(1), Some(2), front, Some(0)]);
     ceiling_with_light(&mut room);
@@ -104,7 +104,7 @@ pub fn cornell(what: CornellBox) -> Scene {
 }
 
 /// Nine pieces, the middle one shines.
-fn ceiling_with_light(room: &mut Builder) {
+fn ceiling_with_light(room: &mut RoomBuilder) {
     let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
     for j in 0..3 {
         for i in 0..3 {
@@ -115,7 +115,7 @@ fn ceiling_with_light(room: &mut Builder) {
 }
 
 /// Four sides and a top on a quadrilateral of the floor, whose corners run clockwise from above.
-fn block(room: &mut Builder, floor: [[f32; 2]; 4], height: f32) {
+fn block(room: &mut RoomBuilder, floor: [[f32; 2]; 4], height: f32) {
     let at = |[x, y]: [f32; 2], z: f32| [x, y, z];
     for i in 0..4 {
         let (a, b) = (floor[i], floor[(i + 1) % 4]);

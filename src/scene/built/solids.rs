@@ -1,27 +1,27 @@
 //! Closed pieces: blocks, cylinders, spheres, vessels, bent tubes.
 
-use super::parts::{Parts, Place, Stuff, Vec3};
+use super::parts::{MaterialId, Parts, Placement};
 use crate::elementary::on_circle;
 
 /// Corners of a profile sharper than this (cosine of the angle between neighbours) stay sharp.
 const CREASE: f64 = 0.6;
 
 /// The faces of a block: looking along -x, +x, -y, +y, -z, +z.
-pub(super) type Faces = [Stuff; 6];
+pub(super) type Faces = [MaterialId; 6];
 
 impl Parts {
     /// A block between two corners. 12 triangles.
-    pub(super) fn block(&mut self, place: Place, low: Vec3, high: Vec3, stuff: Stuff) {
-        self.painted_block(place, low, high, [stuff; 6]);
+    pub(super) fn block(&mut self, place: Placement, low: [f64; 3], high: [f64; 3], material: MaterialId) {
+        self.painted_block(place, low, high, [material; 6]);
     }
 
     /// A block with a material a face. 12 triangles.
-    pub(super) fn painted_block(&mut self, place: Place, low: Vec3, high: Vec3, faces: Faces) {
+    pub(super) fn painted_block(&mut self, place: Placement, low: [f64; 3], high: [f64; 3], faces: Faces) {
         self.frustum(place, [low, high], 0.0, faces);
     }
 
     /// A block whose upper face is drawn in by `inset` on all four sides. 12 triangles.
-    pub(super) fn frustum(&mut self, place: Place, [low, high]: [Vec3; 2], inset: f64, faces: Faces) {
+    pub(super) fn frustum(&mut self, place: Placement, [low, high]: [[f64; 3]; 2], inset: f64, faces: Faces) {
         let corner = |index: usize| {
             let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
             let draw = if index & 4 == 0 { 0.0 } else { inset };
@@ -30,31 +30,46 @@ impl Parts {
         };
         // Bits of the corner's number: x, y, z; each face counter-clockwise from outside.
         let rings = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        for (ring, stuff) in rings.into_iter().zip(faces) {
-            self.polygon(place, &ring.map(corner), stuff);
+        for (ring, material) in rings.into_iter().zip(faces) {
+            self.polygon(place, &ring.map(corner), material);
         }
     }
 
     /// An upright cylinder of `sides` sides, closed by two polygons. 4 `sides` - 4 triangles.
-    pub(super) fn cylinder(&mut self, place: Place, radius: f64, [low, high]: [f64; 2], sides: u32, stuff: Stuff) {
-        self.lathe(place, &[[radius, low], [radius, high]], sides, stuff);
-        self.disc(place, radius, low, sides, false, stuff);
-        self.disc(place, radius, high, sides, true, stuff);
+    pub(super) fn cylinder(
+        &mut self,
+        place: Placement,
+        radius: f64,
+        [low, high]: [f64; 2],
+        sides: u32,
+        material: MaterialId,
+    ) {
+        self.lathe(place, &[[radius, low], [radius, high]], sides, material);
+        self.disc(place, radius, low, sides, false, material);
+        self.disc(place, radius, high, sides, true, material);
     }
 
     /// A flat polygon that looks up or down. `sides` - 2 triangles.
-    pub(super) fn disc(&mut self, place: Place, radius: f64, height: f64, sides: u32, up: bool, stuff: Stuff) {
+    pub(super) fn disc(
+        &mut self,
+        place: Placement,
+        radius: f64,
+        height: f64,
+        sides: u32,
+        up: bool,
+        material: MaterialId,
+    ) {
         let corner = |index: u32| {
             let [x, y] = on_circle(f64::from(index) / f64::from(sides));
             [radius * x, radius * y, height]
         };
-        let ring: Vec<Vec3> =
+        let ring: Vec<[f64; 3]> =
             if up { (0..sides).map(corner).collect() } else { (0..sides).rev().map(corner).collect() };
-        self.polygon(place, &ring, stuff);
+        self.polygon(place, &ring, material);
     }
 
     /// A sphere of `bands` bands between its poles. 2 `sides` (`bands` - 1) triangles.
-    pub(super) fn sphere(&mut self, place: Place, radius: f64, sides: u32, bands: u32, stuff: Stuff) {
+    pub(super) fn sphere(&mut self, place: Placement, radius: f64, sides: u32, bands: u32, material: MaterialId) {
         let profile: Vec<[f64; 2]> = (0..=bands)
             .map(|band| {
                 let [z, r] = on_circle(0.5 * f64::from(bands - band) / f64::from(bands));
@@ -62,13 +77,13 @@ impl Parts {
             })
             .collect();
         let normals = profile.iter().map(|&at| [at; 2]).collect();
-        self.revolve(place, &profile, normals, sides, stuff);
+        self.revolve(place, &profile, normals, sides, material);
     }
 
     /// A surface of revolution around z. The profile is a line of (radius, height) with the outside to its right: upwards on the outside,
     /// downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides` where an end lies on the axis. Gentle
     /// corners of the profile are smoothed.
-    pub(super) fn lathe(&mut self, place: Place, profile: &[[f64; 2]], sides: u32, stuff: Stuff) {
+    pub(super) fn lathe(&mut self, place: Placement, profile: &[[f64; 2]], sides: u32, material: MaterialId) {
         let stretches: Vec<[f64; 2]> = profile.windows(2).map(|ends| outward(ends[0], ends[1])).collect();
         let smooth = |one: [f64; 2], other: [f64; 2]| {
             let gentle = one[0] * other[0] + one[1] * other[1] > CREASE;
@@ -83,11 +98,18 @@ impl Parts {
                 [level(smooth(before, after)), level(smooth(after, before))]
             })
             .collect();
-        self.revolve(place, profile, normals, sides, stuff);
+        self.revolve(place, profile, normals, sides, material);
     }
 
     /// A profile turned around z; `normals` (radius, height) at each of its points, as the end of one stretch and the start of the next.
-    fn revolve(&mut self, place: Place, profile: &[[f64; 2]], normals: Vec<[[f64; 2]; 2]>, sides: u32, stuff: Stuff) {
+    fn revolve(
+        &mut self,
+        place: Placement,
+        profile: &[[f64; 2]],
+        normals: Vec<[[f64; 2]; 2]>,
+        sides: u32,
+        material: MaterialId,
+    ) {
         for (at, ends) in profile.windows(2).enumerate() {
             let normals = [normals[at][1], normals[at + 1][0]];
             for side in 0..sides {
@@ -98,10 +120,10 @@ impl Parts {
                 };
                 let [a, b, c, d] = [corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)];
                 if ends[0][0] != 0.0 {
-                    self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), stuff);
+                    self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), material);
                 }
                 if ends[1][0] != 0.0 {
-                    self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), stuff);
+                    self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), material);
                 }
             }
         }
@@ -111,11 +133,11 @@ impl Parts {
     /// Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
     pub(super) fn bent_tube(
         &mut self,
-        place: Place,
+        place: Placement,
         [bend, radius]: [f64; 2],
         [from, to]: [f64; 2],
         [steps, sides]: [u32; 2],
-        stuff: Stuff,
+        material: MaterialId,
     ) {
         let corner = |step: u32, side: u32| {
             let [along, up] = on_circle(from + (to - from) * f64::from(step) / f64::from(steps));
@@ -129,13 +151,13 @@ impl Parts {
                 let [a, b, c, d] = [(0, 0), (0, 1), (1, 1), (1, 0)]
                     .map(|(i, j)| corner(step + i, side + j))
                     .map(|(at, normal)| (place.point(at), place.direction(normal)));
-                self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), stuff);
-                self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), stuff);
+                self.triangle([a.0, b.0, c.0], Some([a.1, b.1, c.1]), material);
+                self.triangle([a.0, c.0, d.0], Some([a.1, c.1, d.1]), material);
             }
         }
         let end = |step: u32| (0..sides).map(move |side| corner(step, side).0);
-        self.polygon(place, &end(0).rev().collect::<Vec<_>>(), stuff);
-        self.polygon(place, &end(steps).collect::<Vec<_>>(), stuff);
+        self.polygon(place, &end(0).rev().collect::<Vec<_>>(), material);
+        self.polygon(place, &end(steps).collect::<Vec<_>>(), material);
     }
 }
 

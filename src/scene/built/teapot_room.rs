@@ -11,10 +11,13 @@
 //! | four walls | 8 |
 //! | a mirror block, a glossy block, a picture on the wall | 36 |
 
+use glam::DVec3;
+
 use super::super::{Material, PointLight, Scene, Surface, View};
-use super::parts::{Parts, Place, Stuff, Vec3, cross, sub};
+use super::parts::{MaterialId, Parts, Placement};
 use crate::geom::random::Keyed;
-use crate::geom::teapot::{Part, part_of_patch, tessellate};
+use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
+use crate::geom::vector::wide;
 
 /// Quads along a patch side.
 const RATE: u32 = 6;
@@ -49,7 +52,7 @@ fn walls(parts: &mut Parts) {
     let green = parts.paint("green", [0.12, 0.42, 0.10]);
     let light_tile = parts.paint("light-tile", [0.68, 0.64, 0.56]);
     let dark_tile = parts.paint("dark-tile", [0.22, 0.20, 0.19]);
-    let room = Place::ROOM;
+    let room = Placement::ROOM;
     parts.tiles(room, [[-w, -d, 0.0], [2.0 * w, 0.0, 0.0], [0.0, 2.0 * d, 0.0]], [4, 5], |i, j| {
         if (i + j) % 2 == 0 { light_tile } else { dark_tile }
     });
@@ -71,8 +74,8 @@ pub(super) fn ceiling(
     [low, high]: [[f64; 2]; 2],
     hole: [[f64; 2]; 2],
     height: f64,
-    around: Stuff,
-    within: Stuff,
+    around: MaterialId,
+    within: MaterialId,
 ) {
     let ring = |[low, high]: [[f64; 2]; 2]| {
         [[low[0], low[1]], [low[0], high[1]], [high[0], high[1]], [high[0], low[1]]].map(|[x, y]| [x, y, height])
@@ -80,9 +83,9 @@ pub(super) fn ceiling(
     let (outer, inner) = (ring([low, high]), ring(hole));
     for at in 0..4 {
         let next = (at + 1) % 4;
-        parts.polygon(Place::ROOM, &[outer[at], outer[next], inner[next], inner[at]], around);
+        parts.polygon(Placement::ROOM, &[outer[at], outer[next], inner[next], inner[at]], around);
     }
-    parts.polygon(Place::ROOM, &inner, within);
+    parts.polygon(Placement::ROOM, &inner, within);
 }
 
 fn things(parts: &mut Parts, random: Keyed) {
@@ -110,35 +113,34 @@ fn things(parts: &mut Parts, random: Keyed) {
     });
     let stone = parts.paint("stone", [0.62, 0.60, 0.56]);
     let picture = parts.paint("picture", [0.75, 0.52, 0.12]);
-    parts.cylinder(Place::at(0.0, 0.12, 0.0), 0.225, [0.0, 0.15], 20, stone);
-    teapot(parts, Place::at(-0.01, 0.12, 0.15).facing(-14.0), 0.092, copper);
-    let block = Place::at(-0.34 + 0.01 * wobble(0), 0.47, 0.0).facing(22.0 + 4.0 * wobble(1));
+    parts.cylinder(Placement::at(0.0, 0.12, 0.0), 0.225, [0.0, 0.15], 20, stone);
+    teapot(parts, Placement::at(-0.01, 0.12, 0.15).facing(-14.0), 0.092, copper);
+    let block = Placement::at(-0.34 + 0.01 * wobble(0), 0.47, 0.0).facing(22.0 + 4.0 * wobble(1));
     parts.block(block, [-0.13, -0.13, 0.0], [0.13, 0.13, 0.66], mirror);
-    let block = Place::at(-0.37, -0.1 + 0.01 * wobble(2), 0.0).facing(-24.0 + 6.0 * wobble(3));
+    let block = Placement::at(-0.37, -0.1 + 0.01 * wobble(2), 0.0).facing(-24.0 + 6.0 * wobble(3));
     parts.block(block, [-0.08, -0.08, 0.0], [0.08, 0.08, 0.16], lacquer);
-    parts.sphere(Place::at(0.37 + 0.01 * wobble(4), -0.06, 0.125), 0.125, 16, 8, glass);
-    parts.block(Place::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
+    parts.sphere(Placement::at(0.37 + 0.01 * wobble(4), -0.06, 0.125), 0.125, 16, 8, glass);
+    parts.block(Placement::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
 }
 
 /// The teapot standing at a place, with smooth normals: each corner has the mean of its part's triangles there, by area.
-fn teapot(parts: &mut Parts, place: Place, scale: f64, stuff: Stuff) {
+fn teapot(parts: &mut Parts, place: Placement, scale: f64, material: MaterialId) {
     let teapot = tessellate(RATE).expect("a rate in range");
-    let corners: Vec<[Vec3; 3]> = teapot.mesh.iter_corners().map(|c| c.map(|at| at.map(f64::from))).collect();
+    let corners: Vec<[DVec3; 3]> = teapot.mesh.iter_corners().map(|corners| corners.map(wide)).collect();
     let part = |triangle: usize| match part_of_patch(u32::from(teapot.patch_of[triangle])) {
         // Joined without a crease.
-        Part::Bottom => Part::Body,
+        TeapotPart::Bottom => TeapotPart::Body,
         other => other,
     };
-    let mut sums = std::collections::BTreeMap::<(u32, Part), Vec3>::new();
+    let mut sums = std::collections::BTreeMap::<(u32, TeapotPart), DVec3>::new();
     for (triangle, ([a, b, c], indices)) in corners.iter().zip(teapot.mesh.triangles()).enumerate() {
-        let normal = cross(sub(*b, *a), sub(*c, *a));
+        let normal = (*b - *a).cross(*c - *a);
         for &index in indices {
-            let sum = sums.entry((index, part(triangle))).or_default();
-            *sum = [0, 1, 2].map(|axis| sum[axis] + normal[axis]);
+            *sums.entry((index, part(triangle))).or_default() += normal;
         }
     }
     for (triangle, (at, indices)) in corners.iter().zip(teapot.mesh.triangles()).enumerate() {
         let normals = indices.map(|index| place.direction(sums[&(index, part(triangle))]));
-        parts.triangle(at.map(|at| place.point(at.map(|value| value * scale))), Some(normals), stuff);
+        parts.triangle(at.map(|at| place.point(at * scale)), Some(normals), material);
     }
 }

@@ -1,7 +1,7 @@
 //! A closed box of grey walls that all shine: 12 triangles. Inside it the radiance is emission / (1 - albedo) everywhere.
 
 use super::super::{Material, Scene, Surface, View};
-use super::parts::{Parts, Place};
+use super::parts::{Parts, Placement};
 
 /// A box from 0 to 1 whose walls look inwards, with an emission and albedo of a half: the radiance is 1 in every direction.
 pub fn white_box() -> Scene {
@@ -16,7 +16,7 @@ pub fn white_box() -> Scene {
         [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
     ] {
-        parts.quad(Place::ROOM, [corner, across, along], wall);
+        parts.quad(Placement::ROOM, [corner, across, along], wall);
     }
     let view = View {
         name: "front".into(),

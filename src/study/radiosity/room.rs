@@ -6,8 +6,7 @@ use super::{Parameters, StudyError, Watch};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{Hemicube, RowSums, VisibilityParameters};
 use crate::radiosity::{FormFactors, Patches};
-use crate::ray_engine::HostTracer;
-use crate::ray_engine::octree::OctreeParameters;
+use crate::tracer::HostTracer;
 
 /// Where form factors come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +48,7 @@ pub(super) fn find(patches: &Patches, parameters: &Parameters, watch: &mut Watch
     let mut factors = match wishes.from {
         Factors::Unoccluded => FormFactors::unoccluded(patches)?,
         Factors::Rays(how) => {
-            let mut tracer = HostTracer::new(patches.mesh(), OctreeParameters::default(), Sides::Both);
+            let mut tracer = HostTracer::new(patches.mesh(), Sides::Both);
             FormFactors::with_visibility(patches, &mut tracer, how, &mut done)?
         }
         Factors::Hemicube { resolution } => {

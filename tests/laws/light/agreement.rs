@@ -1,7 +1,7 @@
 //! Renderers that estimate the same integral agree, pixel by pixel, within what chance allows.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{Picture, Settings, distributed, path};
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
 use crossbar::scene::{Scene, Surface};
 
 use super::{host, of, room, room_camera, settings, white};
@@ -10,11 +10,11 @@ use super::{host, of, room, room_camera, settings, white};
 /// picture of 16 x 16 fails once in 2,000 seeds.
 const PIXEL_FAR: f64 = 5.0;
 
-fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> Picture {
+fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
     of_size(16, scene, settings, direct)
 }
 
-fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> Picture {
+fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
     let picture = path::render(scene, &room_camera(size, size), settings, direct, &mut host(scene), &mut |_| {});
     picture.expect("a picture")
 }
@@ -25,7 +25,7 @@ const FEW: u32 = 4;
 const MANY: u32 = 96 * 16;
 
 /// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2), wider for long tails.
-fn agree(a: &Picture, b: &Picture) {
+fn agree(a: &RenderedPicture, b: &RenderedPicture) {
     let (mut squares, mut count, mut sum, mut spread) = (0.0, 0.0, 0.0, 0.0);
     for pixel in 0..a.color.len() {
         for channel in 0..3 {

@@ -1,17 +1,17 @@
 //! The same picture, to the bit, for every number of threads, size of bundles and caster.
 
-use crossbar::geom::Caster;
 use crossbar::geom::exact::Sides;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::renderer::photon::Photons;
-use crossbar::renderer::{Lens, Picture, Settings, distributed, eye, path, photon, whitted};
+use crossbar::renderer::{Lens, RenderedPicture, Settings, distributed, eye, path, photon, whitted};
 use crossbar::scene::{Camera, PointLight, Scene, Surface};
+use crossbar::tracer::Caster;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::{host, of, room, room_camera, settings};
 
-type Render = fn(&Scene, &Camera, &Settings, &mut dyn Caster) -> Picture;
+type Render = fn(&Scene, &Camera, &Settings, &mut dyn Caster) -> RenderedPicture;
 
 const RENDERERS: [(&str, Render); 5] = [
     ("eye", |scene, camera, settings, caster| {
@@ -43,7 +43,7 @@ fn usual() -> Settings {
 }
 
 /// All of a picture that may not change; the number of bundles may.
-fn essence(mut picture: Picture) -> Picture {
+fn essence(mut picture: RenderedPicture) -> RenderedPicture {
     picture.counts.bundles = 0;
     picture
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crossbar::geom::vector::wide;
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{Picture, Settings, distributed, path};
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
 use crossbar::scene::Scene;
 use glam::DVec3;
 
@@ -37,7 +37,7 @@ fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
     (builder.scene(), factor)
 }
 
-fn pictures(scene: &Scene, samples: u32) -> Vec<Picture> {
+fn pictures(scene: &Scene, samples: u32) -> Vec<RenderedPicture> {
     let camera = needle([-2.0, 0.1, 0.3], [0.0; 3]);
     let settings = Settings { samples, depth: 1, ..settings() };
     let path =

@@ -1,12 +1,12 @@
 //! White furnaces: where everything shines alike, nothing can be seen, and the sum of all paths is known.
 
 use crossbar::renderer::path::Direct;
-use crossbar::renderer::{Picture, Settings, distributed, path, whitted};
+use crossbar::renderer::{RenderedPicture, Settings, distributed, path, whitted};
 use crossbar::scene::{Camera, Material, Scene, Surface};
 
 use super::{Builder, FAR, host, near, needle, of, settings, white, within_chance};
 
-fn trace(scene: &Scene, camera: &Camera, settings: &Settings, direct: Direct) -> Picture {
+fn trace(scene: &Scene, camera: &Camera, settings: &Settings, direct: Direct) -> RenderedPicture {
     let picture = path::render(scene, camera, settings, direct, &mut host(scene), &mut |_| {}).expect("a picture");
     assert_eq!(picture.not_finite, 0);
     picture

@@ -10,10 +10,9 @@ mod whitted;
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::renderer::{Picture, Settings};
+use crossbar::renderer::{RenderedPicture, Settings};
 use crossbar::scene::{Camera, Color, Material, Scene, Surface};
+use crossbar::tracer::HostTracer;
 
 /// Squares and triangles with a material each, put together.
 #[derive(Default)]
@@ -75,7 +74,7 @@ fn of(surface: Surface) -> Material {
 }
 
 fn host(scene: &Scene) -> HostTracer {
-    HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both)
+    HostTracer::new(scene.mesh(), Sides::Both)
 }
 
 /// A camera of one pixel, a needle's eye wide.
@@ -116,7 +115,7 @@ fn room_camera(width: u32, height: u32) -> Camera {
 const FAR: f64 = 4.5;
 
 /// Holds one pixel against what is expected of it.
-fn within_chance(picture: &Picture, pixel: usize, expected: [f64; 3]) {
+fn within_chance(picture: &RenderedPicture, pixel: usize, expected: [f64; 3]) {
     let variances = picture.variance[pixel];
     for ((found, variance), expected) in picture.color[pixel].into_iter().zip(variances).zip(expected) {
         let spread = variance.sqrt();
@@ -134,7 +133,7 @@ fn boxes_face_the_way_they_say() {
         builder.boxed([0.0; 3], [1.0; 3], inwards, &white(0.5));
         let scene = builder.scene();
         assert_eq!(scene.mesh().len(), 12);
-        let fronts = HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Front);
+        let fronts = HostTracer::new(scene.mesh(), Sides::Front);
         let ray = Ray::new(from, [0.1, 0.05, if inwards { 1.0 } else { -1.0 }]).expect("a ray");
         assert!(fronts.nearest(&ray).0.is_some());
     }

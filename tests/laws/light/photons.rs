@@ -2,13 +2,13 @@
 
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::{self, Photons};
-use crossbar::renderer::{Picture, Settings, path};
+use crossbar::renderer::{RenderedPicture, Settings, path};
 use crossbar::scene::{Material, Scene, Surface};
 
 use super::{host, of, room, room_camera, settings, white};
 
 /// The mean of a picture and its variance, the lamp's own pixels left out.
-fn mean(picture: &Picture, scene: &Scene) -> [[f64; 2]; 3] {
+fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
     let (mut sums, mut count) = ([[0.0; 2]; 3], 0.0);
     for pixel in 0..picture.color.len() {
         if picture.first[pixel].is_some_and(|hit| !scene.material(hit.triangle).emits()) {

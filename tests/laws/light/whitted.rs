@@ -11,7 +11,7 @@ fn glass() -> Surface {
     Surface::Glass { index: 1.5, transmittance: [1.0; 3] }
 }
 
-fn render(scene: &Scene, camera: &Camera, settings: &Settings) -> crossbar::renderer::Picture {
+fn render(scene: &Scene, camera: &Camera, settings: &Settings) -> crossbar::renderer::RenderedPicture {
     let picture = whitted::render(scene, camera, settings, &mut host(scene), &mut |_| {}).expect("a picture");
     assert_eq!(picture.not_finite, 0);
     picture

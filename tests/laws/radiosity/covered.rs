@@ -63,7 +63,7 @@ fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
 /// The radiosity around a point by paths: one pixel, looked at from just above.
 fn radiosity_by_paths(
     scene: &Scene,
-    caster: &mut dyn crossbar::geom::Caster,
+    caster: &mut dyn crossbar::tracer::Caster,
     at: [DVec3; 2],
     samples: u32,
 ) -> [f64; 3] {

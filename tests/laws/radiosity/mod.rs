@@ -19,9 +19,8 @@ use crossbar::geom::random::Keyed;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
-use crossbar::ray_engine::HostTracer;
-use crossbar::ray_engine::octree::OctreeParameters;
 use crossbar::scene::Scene;
+use crossbar::tracer::HostTracer;
 
 /// The Cornell box without blocks, its factors made to close.
 fn cornell(patches: usize) -> System {
@@ -32,7 +31,7 @@ fn cornell(patches: usize) -> System {
 }
 
 fn tracer(scene: &Scene) -> HostTracer {
-    HostTracer::new(scene.mesh(), OctreeParameters::default(), Sides::Both)
+    HostTracer::new(scene.mesh(), Sides::Both)
 }
 
 /// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal, and a right side.

@@ -7,9 +7,10 @@
 //! least half of what coarse magnitudes allow.
 
 use crossbar::geom::exact::Sides;
+use crossbar::geom::vector::wide;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::RayBatch;
-use crossbar::ray_engine::reference::{Vec3, cross, dot, sub};
+use glam::{DVec3, Vec3Swizzles};
 use refsim::device::{Rules, TexdepthDenominator};
 use refsim::num::Kind;
 
@@ -57,10 +58,10 @@ pub(crate) struct Bounds {
 
 /// Exact values for a ray whose direction is in range, but for the rounding of f64.
 struct Exact {
-    edges: [Vec3; 3],
-    offsets: [Vec3; 2],
-    d: Vec3,
-    n: Vec3,
+    edges: [DVec3; 3],
+    offsets: [DVec3; 2],
+    d: DVec3,
+    n: DVec3,
     /// u, v and w.
     inside: [f64; 3],
     n_d: f64,
@@ -78,22 +79,23 @@ struct Errors {
     depth: f64,
 }
 
-fn largest(v: Vec3) -> f64 {
-    v.into_iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+fn largest(v: DVec3) -> f64 {
+    v.abs().max_element()
 }
 
-fn sum(v: Vec3) -> f64 {
-    v[0].abs() + v[1].abs() + v[2].abs()
+fn sum(v: DVec3) -> f64 {
+    v.abs().element_sum()
 }
 
 /// The sum of the magnitudes of an inner product's terms.
-fn inner(a: Vec3, b: Vec3) -> f64 {
-    (a[0] * b[0]).abs() + (a[1] * b[1]).abs() + (a[2] * b[2]).abs()
+fn inner(a: DVec3, b: DVec3) -> f64 {
+    a.abs().dot(b.abs())
 }
 
 /// The magnitudes of a cross product's terms.
-fn mixed(a: Vec3, b: Vec3) -> Vec3 {
-    [[1, 2], [2, 0], [0, 1]].map(|[j, k]: [usize; 2]| (a[j] * b[k]).abs() + (a[k] * b[j]).abs())
+fn mixed(a: DVec3, b: DVec3) -> DVec3 {
+    let (a, b) = (a.abs(), b.abs());
+    a.yzx() * b.zxy() + a.zxy() * b.yzx()
 }
 
 /// The largest power of two not above a positive number.
@@ -102,26 +104,26 @@ fn power_below(x: f64) -> f64 {
 }
 
 /// A direction in range, and the power that brought it there.
-fn in_range(ray: &Ray) -> (Vec3, f64) {
-    let d = ray.direction().map(f64::from);
+fn in_range(ray: &Ray) -> (DVec3, f64) {
+    let d = wide(ray.direction());
     let power = 0.5 / power_below(largest(d));
-    (d.map(|x| x * power), power)
+    (d * power, power)
 }
 
 impl Exact {
-    fn new(o: Vec3, d: Vec3, corners: [Vec3; 3]) -> Self {
+    fn new(o: DVec3, d: DVec3, corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
-        let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-        let (ao, bo, n) = (sub(o, a), sub(o, b), cross(ab, ac));
-        let (aod, bod) = (cross(ao, d), cross(bo, d));
-        let inside = [dot(ac, aod), -dot(ab, aod), -dot(bc, bod)];
-        Self { edges: [ac, ab, bc], offsets: [ao, bo], d, n, inside, n_d: dot(n, d), n_ao: dot(n, ao) }
+        let (ab, ac, bc) = (b - a, c - a, c - b);
+        let (ao, bo, n) = (o - a, o - b, ab.cross(ac));
+        let (aod, bod) = (ao.cross(d), bo.cross(d));
+        let inside = [ac.dot(aod), -ab.dot(aod), -bc.dot(bod)];
+        Self { edges: [ac, ab, bc], offsets: [ao, bo], d, n, inside, n_d: n.dot(d), n_ao: n.dot(ao) }
     }
 }
 
 impl Bounds {
     pub(crate) fn new(rules: &Rules, mesh: &Mesh, rays: &RayBatch) -> Self {
-        let bounds = mesh.bounds().expect("triangles").map(|p| p.map(f64::from));
+        let bounds = mesh.bounds().expect("triangles").map(wide);
         let mut out = Self {
             format: rules.format.kind,
             min1: rules.texdepth_denominator == TexdepthDenominator::Min1,
@@ -132,12 +134,12 @@ impl Bounds {
             t: 0.0,
         };
         for ray in rays.rays() {
-            let o = ray.origin().map(f64::from);
-            let far = [0, 1, 2].map(|i| (o[i] - bounds[0][i]).abs().max((o[i] - bounds[1][i]).abs()));
+            let o = wide(ray.origin());
+            let far = (o - bounds[0]).abs().max((o - bounds[1]).abs());
             let (d, _) = in_range(ray);
             out.origin = out.origin.max(largest(o));
             out.offset = out.offset.max(largest(far));
-            out.t = out.t.max((dot(far, far) / dot(d, d)).sqrt());
+            out.t = out.t.max((far.dot(far) / d.dot(d)).sqrt());
         }
         out
     }
@@ -173,7 +175,7 @@ impl Bounds {
 
     fn judge(&self, ray: &Ray, corners: [[f32; 3]; 3], sides: Sides) -> Judgement {
         let (d, power) = in_range(ray);
-        let (o, corners) = (ray.origin().map(f64::from), corners.map(|p| p.map(f64::from)));
+        let (o, corners) = (wide(ray.origin()), corners.map(wide));
         let exact = Exact::new(o, d, corners);
         let errors = match self.format {
             Kind::Fixed { int_bits, frac_bits } => {
@@ -251,7 +253,7 @@ impl Bounds {
         let k = power_below((0.5 * end / sums.into_iter().fold(0.0, f64::max)).min(1.0));
         let stored = step + SINGLE * k * edge;
         let stored_normal = step + SINGLE * k * edge * edge;
-        let along = |e: Vec3| k * scale * sum(e) * aod + 3.0 * stored * (2.0 * offset + aod) + 6.0 * step;
+        let along = |e: DVec3| k * scale * sum(e) * aod + 3.0 * stored * (2.0 * offset + aod) + 6.0 * step;
         let n = k * scale * scale * sum(exact.n);
         let n_d = n * texel + 3.1 * stored_normal + 6.0 * step;
         let n_ao = if self.one_origin {
@@ -277,7 +279,7 @@ impl Bounds {
         }
     }
 
-    fn float(&self, exact: &Exact, (o, [a, b, _]): (Vec3, [Vec3; 3]), exp_bits: u8, man_bits: u8) -> Errors {
+    fn float(&self, exact: &Exact, (o, [a, b, _]): (DVec3, [DVec3; 3]), exp_bits: u8, man_bits: u8) -> Errors {
         let share = power_of_two(-i32::from(man_bits));
         let bias = (1 << (exp_bits - 1)) - 1;
         // Below the smallest normal number errors are no shares; half the smallest scale is on the safe side.
@@ -293,20 +295,18 @@ impl Bounds {
             .max(edge / scale);
         let area = if exp_bits < 8 { (0.5 / normal).min(0.25 * end / sums) } else { scale * scale };
         let lost = 16.0 * tiny / area;
-        let point =
-            |p: Vec3| [0, 1, 2].map(|i| share * (o[i].abs() + p[i].abs() + (o[i] - p[i]).abs()) + 4.0 * tiny / scale);
-        let along = |e: Vec3, p: Vec3, offset: Vec3| {
+        let point = |p: DVec3| share * (o.abs() + p.abs() + (o - p).abs()) + 4.0 * tiny / scale;
+        let along = |e: DVec3, p: DVec3, offset: DVec3| {
             let (error, terms) = (point(p), mixed(offset, exact.d));
             let moved = mixed(error, exact.d);
-            let errors = [0, 1, 2].map(|i| moved[i] + 6.0 * share * terms[i] + 4.0 * tiny / scale);
-            let all = [0, 1, 2].map(|i| terms[i] + errors[i]);
-            inner(e, errors) + 10.0 * share * inner(e, all) + lost
+            let errors = moved + 6.0 * share * terms + 4.0 * tiny / scale;
+            inner(e, errors) + 10.0 * share * inner(e, terms + errors) + lost
         };
         let [ao, bo] = exact.offsets;
-        let stored = exact.n.map(|x| share * x.abs() + SINGLE * edge * edge);
+        let stored = share * exact.n.abs() + SINGLE * edge * edge;
         let n_d = inner(stored, exact.d) + 8.0 * share * inner(exact.n, exact.d) + lost;
         let moved = point(a);
-        let offsets = [0, 1, 2].map(|i| ao[i].abs() + moved[i]);
+        let offsets = ao.abs() + moved;
         let n_ao = inner(stored, offsets)
             + inner(exact.n, moved)
             + 8.0 * share * inner(exact.n, offsets)

@@ -15,8 +15,9 @@ use bounds::{Bounds, First};
 use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::OctreeParameters;
-use crossbar::ray_engine::{Crossbar, HostTracer, RayBatch, VertexCrossbar};
+use crossbar::ray_engine::{Crossbar, RayBatch, VertexCrossbar};
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::OctreeParameters;
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -146,8 +147,7 @@ fn the_unit_of_length_is_no_matter_on_the_host_in_the_engine_and_in_the_vertex_u
     (0..scenes() / 2).into_par_iter().for_each(|number| {
         let Scene { mesh, rays, sides } = Scene::of_size(number, 0);
         type Find<'a> = &'a dyn Fn(&Mesh, &[Ray]) -> Vec<Option<Hit>>;
-        let host =
-            |mesh: &Mesh, rays: &[Ray]| HostTracer::new(mesh, OctreeParameters::default(), sides).nearest_all(rays).0;
+        let host = |mesh: &Mesh, rays: &[Ray]| HostTracer::new(mesh, sides).nearest_all(rays).0;
         let engine = |device: &str, mesh: &Mesh, rays: &[Ray]| {
             let octree = OctreeParameters { most_triangles: 4, most_depth: 4 };
             let parameters =

@@ -2,7 +2,7 @@
 
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
-use crossbar::oracle::{Disagreement, Kind};
+use crossbar::oracle::{Disagreement, DisagreementKind};
 
 /// What rounding did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -165,7 +165,8 @@ pub(crate) fn of(mesh: &Mesh, ray: &Ray, sides: Sides, wrong: &Disagreement) -> 
     };
     let first = wrong.expected.as_ref().map(|truth| truth.triangles[0]);
     let found = wrong.found.map(|Hit { triangle, .. }| triangle);
-    let missed = first.filter(|&first| wrong.kind != Kind::TOff && !meets(ray, corners(first), sides, scale));
+    let missed =
+        first.filter(|&first| wrong.kind != DisagreementKind::TOff && !meets(ray, corners(first), sides, scale));
     if let Some(first) = missed {
         return limits(first).unwrap_or_else(|| single(first).turned(sides));
     }

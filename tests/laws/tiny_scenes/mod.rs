@@ -13,11 +13,12 @@ use std::fmt::Write as _;
 
 use cause::Cause;
 use crossbar::geom::{Hit, Mesh, Ray};
-use crossbar::oracle::{Disagreement, Kind, Oracle, Tolerance};
+use crossbar::oracle::{Disagreement, DisagreementKind, Oracle, Tolerance};
+use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
-use crossbar::ray_engine::octree::{GpuCells, OctreeParameters};
 use crossbar::ray_engine::ray_tree::RayTreeParameters;
-use crossbar::ray_engine::{Crossbar, HostTracer};
+use crossbar::tracer::HostTracer;
+use crossbar::tracer::octree::{GpuCells, OctreeParameters};
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -47,7 +48,7 @@ struct Yardstick {
 impl Yardstick {
     fn new(number: u64) -> Self {
         let scene = Scene::new(number);
-        let tracer = HostTracer::new(&scene.mesh, OCTREES[0], scene.sides);
+        let tracer = HostTracer::with_octree(&scene.mesh, OCTREES[0], scene.sides);
         let hits: Vec<_> = scene.rays.iter().map(|ray| tracer.nearest_of_all(ray)).collect();
         let oracle = Oracle::new(&scene.mesh, scene.sides, TOLERANCE);
         let report = oracle.judge(&scene.rays, &hits).expect("one answer a ray");
@@ -68,8 +69,8 @@ impl Yardstick {
             let ray = &self.scene.rays[place];
             let told = || format!("scene {number}, {name}, ray {place}: {ray:?}: {all_pairs:?} became {path:?}");
             let wrong = self.wrong.get(&place).unwrap_or_else(|| panic!("{}, but fp32 was right", told()));
-            let astray = wrong.kind == Kind::TOff && wrong.t_ulps.is_none_or(|ulps| ulps > ASTRAY);
-            let wrong_triangle = !matches!(wrong.kind, Kind::Leak | Kind::TOff);
+            let astray = wrong.kind == DisagreementKind::TOff && wrong.t_ulps.is_none_or(|ulps| ulps > ASTRAY);
+            let wrong_triangle = !matches!(wrong.kind, DisagreementKind::Leak | DisagreementKind::TOff);
             assert!(astray || wrong_triangle, "{}, but fp32 was right but for {:?} ULPs", told(), wrong.t_ulps);
             if let Some(hit) = path {
                 assert_eq!(bits(&self.alone(ray, hit.triangle)), Some((0, hit.t.to_bits())), "{}: not granted", told());
@@ -83,7 +84,7 @@ impl Yardstick {
         let corners = self.scene.mesh.corners(triangle)?;
         let positions = corners.into_iter().chain(self.scene.mesh.bounds()?).collect();
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [3; 3], [4; 3]]).ok()?;
-        HostTracer::new(&mesh, OCTREES[0], self.scene.sides).nearest_of_all(ray)
+        HostTracer::with_octree(&mesh, OCTREES[0], self.scene.sides).nearest_of_all(ray)
     }
 }
 
@@ -99,7 +100,7 @@ fn the_octree_finds_what_all_pairs_find() {
         let scene = &yardstick.scene;
         let mut differing = 0;
         for (at, parameters) in OCTREES.into_iter().enumerate() {
-            let tracer = HostTracer::new(&scene.mesh, parameters, scene.sides);
+            let tracer = HostTracer::with_octree(&scene.mesh, parameters, scene.sides);
             let (hits, _) = tracer.nearest_all(&scene.rays);
             differing += yardstick.hold(&format!("octree {at}"), number, &hits);
             let cells = GpuCells::mark(tracer.octree(), 1..=3);
@@ -143,7 +144,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
 }
 
 /// Counts by kind, then by cause.
-type Counts = BTreeMap<(Kind, Cause), usize>;
+type Counts = BTreeMap<(DisagreementKind, Cause), usize>;
 
 /// The table of the page: how often fp32 is wrong, in which way, and by which rounding.
 fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
@@ -152,7 +153,7 @@ fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
         write!(out, " {} |", format!("{cause:?}").to_lowercase()).expect("text");
     }
     out += "\n|---|---|---|---|---|---|---|\n";
-    for kind in Kind::ALL {
+    for kind in DisagreementKind::ALL {
         let row: Vec<usize> =
             Cause::ALL.iter().map(|&cause| counts.get(&(kind, cause)).copied().unwrap_or(0)).collect();
         if row.iter().any(|&count| count > 0) {

@@ -12,9 +12,8 @@ use super::super::ReproduceError;
 use super::super::pipeline::failed;
 use super::workload::Workload;
 use crate::geom::exact::Sides;
-use crate::ray_engine;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crate::ray_engine::octree::OctreeParameters;
+use crate::tracer::octree::OctreeParameters;
 
 /// The card that computes: fp32, as the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
@@ -57,7 +56,7 @@ pub(super) struct HostOnly {
 
 impl HostOnly {
     /// What a host tracer counted.
-    pub(super) fn of(cost: &ray_engine::HostCounts) -> Self {
+    pub(super) fn of(cost: &crate::tracer::HostCounts) -> Self {
         let counts = HostCounts::default()
             .with(Operation::OctreeCell, cost.traversal.cells)
             .with(Operation::RayTriangleTest, cost.tests);

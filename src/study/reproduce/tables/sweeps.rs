@@ -10,7 +10,7 @@ use super::super::{ReproduceError, Setting, Sweep};
 use super::commands as stated;
 use super::engine_run::{Commands, OCTREE, Run, rays_per_s};
 use super::teapot::TeapotRoom;
-use crate::ray_engine::octree::OctreeParameters;
+use crate::tracer::octree::OctreeParameters;
 
 /// Halves of the guessed costs of commands: once, one and a half times, twice, three times.
 const HALVES: [u64; 4] = [2, 3, 4, 6];

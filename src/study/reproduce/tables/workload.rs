@@ -4,11 +4,12 @@ use super::super::ReproduceError;
 use super::super::pipeline::failed;
 use super::engine_run::{HostOnly, OCTREE, TIMES};
 use crate::geom::exact::Sides;
-use crate::geom::{CastError, Caster, Hit, Mesh, Ray};
-use crate::ray_engine::octree::OctreeParameters;
-use crate::ray_engine::{HostCounts, HostTracer};
+use crate::geom::{Hit, Mesh, Ray};
 use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
+use crate::tracer::octree::OctreeParameters;
+use crate::tracer::{CastError, Caster};
+use crate::tracer::{HostCounts, HostTracer};
 
 /// Which renderer asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +48,7 @@ pub(super) struct Workload {
 impl Workload {
     /// What a host does for the same rays with another octree.
     pub(super) fn alone_with(&self, octree: OctreeParameters) -> HostOnly {
-        let tracer = HostTracer::new(&self.mesh, octree, Sides::Both);
+        let tracer = HostTracer::with_octree(&self.mesh, octree, Sides::Both);
         let mut cost = HostCounts::default();
         for bundle in &self.bundles {
             cost += tracer.nearest_all(bundle).1;
@@ -83,7 +84,7 @@ impl Job {
         };
         let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
         let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
-        let tracer = HostTracer::new(scene.mesh(), OCTREE, Sides::Both);
+        let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
         let mut recording = Recording { tracer, bundles: Vec::new(), cost: HostCounts::default() };
         self.render(&scene, &camera, &mut recording).map_err(|e| fail(&e))?;
         Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })

@@ -7,8 +7,10 @@
 //!
 //! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
 
+use glam::DVec3;
+
 use super::traverse::{earliest, is_out_of_sight, latest, middle, root_planes};
-use super::{Flow, MOST_DEPTH, Node, Octree, TraversalCounts};
+use super::{Flow, MAX_DEPTH, Octree, OctreeNode, TraversalCounts};
 use crate::geom::Ray;
 
 /// A leaf without triangles.
@@ -19,7 +21,7 @@ const LEAF: u32 = 1 << 31;
 /// The words of an octree's cells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Compact {
-    corner: [f64; 3],
+    corner: DVec3,
     size: f64,
     margin: f64,
     root: u32,
@@ -28,7 +30,7 @@ pub(crate) struct Compact {
 
 /// A cut cell on the way.
 #[derive(Clone, Copy, Default)]
-struct Frame {
+struct WaitingCell {
     /// Where the ray meets the cell's upper planes.
     high: Keys,
     /// And its middle planes.
@@ -43,7 +45,7 @@ struct Frame {
 
 /// Room for cells that wait on the way of a ray. What is in it before does not matter: one serves many rays.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Waiting([Frame; MOST_DEPTH as usize + 1]);
+pub(crate) struct Waiting([WaitingCell; MAX_DEPTH as usize + 1]);
 
 /// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them: comparing
 /// and choosing is then the business of the integer units, in which it takes a clock.
@@ -56,17 +58,19 @@ impl Compact {
         let mut cut = 0;
         for (place, node) in places.iter_mut().zip(&octree.nodes) {
             *place = match node {
-                Node::Inner(_) => {
+                OctreeNode::Inner(_) => {
                     cut += 1;
                     cut - 1
                 }
-                Node::Leaf(_, 0) => EMPTY,
-                Node::Leaf(first, count) => LEAF | leaf(&octree.triangles[*first as usize..(*first + *count) as usize]),
+                OctreeNode::Leaf(_, 0) => EMPTY,
+                OctreeNode::Leaf(first, count) => {
+                    LEAF | leaf(&octree.triangles[*first as usize..(*first + *count) as usize])
+                }
             };
         }
         let children = octree.nodes.iter().filter_map(|node| match node {
-            Node::Inner(first) => Some(std::array::from_fn(|i| places[*first as usize + i])),
-            Node::Leaf(..) => None,
+            OctreeNode::Inner(first) => Some(std::array::from_fn(|i| places[*first as usize + i])),
+            OctreeNode::Leaf(..) => None,
         });
         let Octree { corner, size, margin, .. } = *octree;
         Self { corner, size, margin, root: places[0], children: children.collect() }
@@ -103,7 +107,7 @@ impl Compact {
         let mut depth = 0;
         // Where the ray is.
         let mut now = key(if enter > 0.0 { enter } else { 0.0 });
-        let (mut frame, mut far) = Frame::enter(self.root, high.map(key), span, 0, now);
+        let (mut frame, mut far) = WaitingCell::enter(self.root, high.map(key), span, 0, now);
         loop {
             let (exit, axis) = first(far);
             let word = self.children[frame.children as usize][((frame.child ^ mirror) & 7) as usize];
@@ -115,7 +119,7 @@ impl Compact {
                     waiting[depth] = frame;
                     depth += 1;
                 }
-                (frame, far) = Frame::enter(word, far, span, frame.level + 1, now);
+                (frame, far) = WaitingCell::enter(word, far, span, frame.level + 1, now);
                 continue;
             }
             counts.leaves += 1;
@@ -148,7 +152,7 @@ impl Compact {
     }
 }
 
-impl Frame {
+impl WaitingCell {
     /// A cell that the ray is in at `now`, and where it leaves the slabs of the child that it is in.
     #[inline(always)]
     fn enter(children: u32, high: Keys, span: [f64; 3], level: u32, now: i64) -> (Self, Keys) {
@@ -191,12 +195,12 @@ mod tests {
     use super::*;
     use crate::geom::random::Keyed;
     use crate::geom::teapot::teapot;
-    use crate::ray_engine::octree::OctreeParameters;
+    use crate::tracer::octree::OctreeParameters;
 
     /// From anywhere within and around the teapot to anywhere; on a grid that holds the planes of cells and both zeros.
     fn rays(octree: &Octree, count: u64) -> Vec<Ray> {
         let random = Keyed::new(17);
-        let middle = octree.corner.map(|x| x + octree.size / 2.0);
+        let middle = octree.corner + octree.size / 2.0;
         let ray = |i: u64| {
             let grid = |sample, k| (16.0 * random.unit(i, sample, k)).floor() - 8.0;
             let number = |sample, k| match i % 3 {

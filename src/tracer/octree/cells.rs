@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::{Node, Octree};
+use super::{Octree, OctreeNode};
 
 /// A cell of an octree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -75,7 +75,7 @@ impl GpuCells {
             self.count += 1;
             return;
         }
-        if let Node::Inner(first) = octree.nodes[node as usize] {
+        if let OctreeNode::Inner(first) = octree.nodes[node as usize] {
             for child in first..first + 8 {
                 self.visit(octree, child, range);
             }
@@ -86,7 +86,7 @@ impl GpuCells {
 /// The triangles of all leaves below a node, some of them more than once.
 fn gather(octree: &Octree, node: u32, into: &mut Vec<u32>) {
     match octree.nodes[node as usize] {
-        Node::Leaf(..) => into.extend_from_slice(octree.list(node)),
-        Node::Inner(first) => (first..first + 8).for_each(|child| gather(octree, child, into)),
+        OctreeNode::Leaf(..) => into.extend_from_slice(octree.list(node)),
+        OctreeNode::Inner(first) => (first..first + 8).for_each(|child| gather(octree, child, into)),
     }
 }

@@ -1,32 +1,34 @@
-//! The host's own ray-triangle test: `float.psa` and `seven_vectors.vsa` in f32, operation by operation.
+//! The ray-triangle test in f32: what the Ray Engine's `float.psa` and `seven_vectors.vsa` compute, operation by operation.
 //!
 //! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the
 //! result; so the host computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the
 //! scene brought to the same scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation
-//! here is one IEEE operation with its own rounding: Rust never fuses them.
+//! here is one IEEE operation with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products
+//! run from the left, as `dp3` of the fp32 profiles.
 
-use super::rays::normalise_range;
+use glam::Vec3;
+
+use super::scale::normalize_range;
 use crate::geom::exact::Sides;
+use crate::geom::vector::wide;
 use crate::geom::{Mesh, Ray};
-
-type Vector = [f32; 3];
 
 /// A triangle as the vertex program hands it on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostTriangle {
-    a: Vector,
-    b: Vector,
-    n: Vector,
-    ab: Vector,
-    ac: Vector,
-    bc: Vector,
+    a: Vec3,
+    b: Vec3,
+    n: Vec3,
+    ab: Vec3,
+    ac: Vec3,
+    bc: Vec3,
 }
 
 /// A ray as the textures hold it: its direction brought into range by a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostRay {
-    pub(super) origin: Vector,
-    pub(super) direction: Vector,
+    pub(crate) origin: Vec3,
+    pub(crate) direction: Vec3,
     /// What a t in scaled units along `direction` is multiplied by for the ray's own direction; a power of two.
     pub(crate) power: f64,
 }
@@ -38,9 +40,9 @@ impl HostTriangle {
     }
 
     #[inline(always)]
-    pub(super) fn new([a, b, c]: [Vector; 3]) -> Self {
-        let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
-        Self { a, b, n: cross(ab, ac), ab, ac, bc }
+    pub(crate) fn new([a, b, c]: [Vec3; 3]) -> Self {
+        let (ab, ac, bc) = (b - a, c - a, c - b);
+        Self { a, b, n: ab.cross(ac), ab, ac, bc }
     }
 
     /// The t of a hit along the ray's direction in range: not behind the origin, inside or on the edges, and from the front
@@ -55,12 +57,12 @@ impl HostTriangle {
 
     /// t, and whether there is a hit there. Without branches: packets run it on lanes.
     #[inline(always)]
-    pub(super) fn test<const BOTH: bool>(&self, ray: &HostRay) -> (f32, bool) {
-        let (ao, bo) = (sub(ray.origin, self.a), sub(ray.origin, self.b)); // (1), (2)
-        let n_dot_d = dot(self.n, ray.direction);
-        let t = dot(self.n, ao) * -n_dot_d.recip(); // (3)
-        let (aod, bod) = (cross(ao, ray.direction), cross(bo, ray.direction)); // (4), (5)
-        let inside = [dot(self.ac, aod), dot(neg(self.ab), aod), dot(neg(self.bc), bod)]; // (6), (7), (8)
+    pub(crate) fn test<const BOTH: bool>(&self, ray: &HostRay) -> (f32, bool) {
+        let (ao, bo) = (ray.origin - self.a, ray.origin - self.b); // (1), (2)
+        let n_dot_d = self.n.dot(ray.direction);
+        let t = self.n.dot(ao) * -n_dot_d.recip(); // (3)
+        let (aod, bod) = (ao.cross(ray.direction), bo.cross(ray.direction)); // (4), (5)
+        let inside = [self.ac.dot(aod), (-self.ab).dot(aod), (-self.bc).dot(bod)]; // (6), (7), (8)
         let (faces, inside) = if BOTH {
             (n_dot_d != 0.0, inside.map(|x| if n_dot_d >= 0.0 { -x } else { x }))
         } else {
@@ -74,40 +76,18 @@ impl HostTriangle {
 impl HostRay {
     /// A ray among triangles at a scale.
     pub(crate) fn new(ray: &Ray, scale: f64) -> Self {
-        let (direction, power) = normalise_range(ray.direction());
-        Self { origin: scaled(ray.origin(), scale), direction: direction.map(|x| x as f32), power: power / scale }
+        let (direction, power) = normalize_range(ray.direction());
+        Self { origin: scaled(ray.origin(), scale), direction: direction.as_vec3(), power: power / scale }
     }
 }
 
 /// A point times a power of two: exact unless it leaves the range of single precision.
 #[inline(always)]
-pub(super) fn scaled(p: Vector, scale: f64) -> Vector {
-    p.map(|x| (f64::from(x) * scale) as f32)
+pub(crate) fn scaled(p: [f32; 3], scale: f64) -> Vec3 {
+    (wide(p) * scale).as_vec3()
 }
 
-/// Three of them.
-pub(super) fn scaled_corners(corners: [Vector; 3], scale: f64) -> [Vector; 3] {
+/// [`scaled`] for the corners of a triangle.
+pub(crate) fn scaled_corners(corners: [[f32; 3]; 3], scale: f64) -> [Vec3; 3] {
     corners.map(|p| scaled(p, scale))
-}
-
-#[inline(always)]
-pub(super) fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-pub(super) fn neg(a: Vector) -> Vector {
-    a.map(|x| -x)
-}
-
-/// Sums from the left, as `dp3` of the fp32 profiles.
-#[inline(always)]
-pub(super) fn dot(a: Vector, b: Vector) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// The first product is rounded, then the second, then their difference, as `mul` and `mad`, or `crs`, of the fp32 profiles.
-#[inline(always)]
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::Hit;
-use super::host_packet::Packets;
-use super::host_test::{HostRay, HostTriangle};
+use super::cast::{CastError, Caster};
 use super::octree::{Compact, Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit, Waiting};
-use super::units::host_scale;
+use super::packet::Packets;
+use super::scale::mesh_scale;
+use super::triangle_test::{HostRay, HostTriangle};
 use crate::geom::exact::Sides;
-use crate::geom::{CastError, Caster, Mesh, Ray};
+use crate::geom::{Hit, Mesh, Ray};
 use refsim::exec::batch::SimdLevel;
 
 /// A ray goes on a little beyond its best hit, in shares of t: an fp32 t is no better than that, and the next cell may hold a
@@ -74,9 +74,14 @@ pub struct HostTracer {
 }
 
 impl HostTracer {
-    /// A mesh with its octree.
-    pub fn new(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
-        let scale = host_scale(mesh);
+    /// A mesh with an octree of the tuned parameters.
+    pub fn new(mesh: &Mesh, sides: Sides) -> Self {
+        Self::with_octree(mesh, OctreeParameters::default(), sides)
+    }
+
+    /// A mesh with an octree of these parameters, which change the time, never a hit.
+    pub fn with_octree(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
+        let scale = mesh_scale(mesh);
         let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh, scale));
         let mut packets = Packets::default();
         let compact = Compact::new(&octree, |leaf| packets.add(mesh, scale, leaf));
@@ -108,7 +113,7 @@ impl HostTracer {
     /// Whether anything is hit before `t_max`, in multiples of the ray's direction: whether the t of the first hit is
     /// smaller, unless rounding alone made it so (the triangle lies in cells beyond `t_max`, as in exact arithmetic).
     /// Cheaper, since any hit will do.
-    pub fn occluded(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
+    pub fn occluded_before(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
         let mut occluded = [false];
         let counts = self.occluded_each(std::slice::from_ref(ray), t_max, &mut occluded);
         (occluded[0], counts)
@@ -211,7 +216,7 @@ impl HostTracer {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }
 
-    /// [`Self::occluded`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose directions end at a light.
+    /// [`Self::occluded_before`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose directions end at a light.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }
@@ -244,5 +249,9 @@ fn all<T: Clone + Default + Send>(
 impl Caster for HostTracer {
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
         Ok(self.nearest_all(rays).0)
+    }
+
+    fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
+        Ok(self.occluded_all(rays, 1.0).0)
     }
 }

@@ -1,8 +1,11 @@
 //! Cutting space in eight.
 
+use glam::DVec3;
+
 use super::overlap::touches;
-use super::{MOST_DEPTH, Node, Octree, OctreeParameters};
+use super::{MAX_DEPTH, Octree, OctreeNode, OctreeParameters};
 use crate::geom::Mesh;
+use crate::geom::vector::wide;
 
 /// Growth of a cell for its list, in sides of the root and in magnitudes of coordinates: some units in the last place of fp32.
 const MARGIN: f64 = 5e-7;
@@ -12,52 +15,51 @@ const ROOM: f64 = 1e-3;
 const VAIN_LEVELS: u32 = 3;
 
 /// Triangles as the builder sees them.
-struct Builder {
-    corners: Vec<[[f64; 3]; 3]>,
+struct OctreeBuilder {
+    corners: Vec<[DVec3; 3]>,
     parameters: OctreeParameters,
     margin: f64,
     octree: Octree,
 }
 
 pub(super) fn build(mesh: &Mesh, parameters: OctreeParameters) -> Octree {
-    let [low, high] = mesh.bounds().unwrap_or_default().map(|p| p.map(f64::from));
-    let widest = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
-    let magnitude = low.iter().chain(&high).fold(0.0f64, |m, x| m.max(x.abs()));
+    let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
+    let widest = (high - low).max_element();
+    let magnitude = low.abs().max(high.abs()).max_element();
     // A root of no size cannot be cut: a mesh in one point gets some room.
     let size = (widest * (1.0 + ROOM) + magnitude * ROOM * ROOM).max(f64::from(f32::MIN_POSITIVE));
-    let corner = [0, 1, 2].map(|i| (low[i] + high[i]) / 2.0 - size / 2.0);
+    let corner = (low + high) / 2.0 - size / 2.0;
     let margin = MARGIN * (size + magnitude);
-    let octree = Octree { corner, size, margin, nodes: vec![Node::Leaf(0, 0)], triangles: Vec::new(), depth: 0 };
-    let corners =
-        (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|c| c.map(|p| p.map(f64::from))).collect();
-    let mut builder = Builder { corners, parameters, margin, octree };
+    let octree = Octree { corner, size, margin, nodes: vec![OctreeNode::Leaf(0, 0)], triangles: Vec::new(), depth: 0 };
+    let corners = (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|corners| corners.map(wide)).collect();
+    let mut builder = OctreeBuilder { corners, parameters, margin, octree };
     let everything = (0..builder.corners.len() as u32).collect();
-    let middle = corner.map(|x| x + size / 2.0);
+    let middle = corner + size / 2.0;
     builder.fill(0, middle, size / 2.0, everything, 0, 0);
     builder.octree
 }
 
-impl Builder {
+impl OctreeBuilder {
     /// Makes `node` a leaf of these triangles, or cuts it. `vain` counts the levels above at which cutting gained nothing.
-    fn fill(&mut self, node: usize, middle: [f64; 3], half: f64, inside: Vec<u32>, depth: u32, vain: u32) {
-        let deepest = self.parameters.most_depth.min(MOST_DEPTH);
+    fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, vain: u32) {
+        let deepest = self.parameters.most_depth.min(MAX_DEPTH);
         self.octree.depth = self.octree.depth.max(depth);
         // Cells of the margin's own size tell triangles apart no better than their parents.
         let small = half < 4.0 * self.margin;
         if inside.len() <= self.parameters.most_triangles || depth >= deepest || vain >= VAIN_LEVELS || small {
             let first = self.octree.triangles.len() as u32;
-            self.octree.nodes[node] = Node::Leaf(first, inside.len() as u32);
+            self.octree.nodes[node] = OctreeNode::Leaf(first, inside.len() as u32);
             self.octree.triangles.extend(inside);
             return;
         }
         let first = self.octree.nodes.len();
-        self.octree.nodes[node] = Node::Inner(first as u32);
-        self.octree.nodes.extend([Node::Leaf(0, 0); 8]);
+        self.octree.nodes[node] = OctreeNode::Inner(first as u32);
+        self.octree.nodes.extend([OctreeNode::Leaf(0, 0); 8]);
         for child in 0..8 {
             let quarter = half / 2.0;
             let side = |bit: usize| if child >> bit & 1 == 1 { quarter } else { -quarter };
-            let middle = [middle[0] + side(2), middle[1] + side(1), middle[2] + side(0)];
-            let grown = [quarter + self.margin; 3];
+            let middle = middle + DVec3::new(side(2), side(1), side(0));
+            let grown = DVec3::splat(quarter + self.margin);
             let touching = |id: &u32| touches(&self.from(*id, middle), grown);
             let list: Vec<u32> = inside.iter().copied().filter(touching).collect();
             let vain = if list.len() == inside.len() { vain + 1 } else { 0 };
@@ -66,7 +68,7 @@ impl Builder {
     }
 
     /// A triangle's corners from a point.
-    fn from(&self, id: u32, point: [f64; 3]) -> [[f64; 3]; 3] {
-        self.corners[id as usize].map(|c| [c[0] - point[0], c[1] - point[1], c[2] - point[2]])
+    fn from(&self, id: u32, point: DVec3) -> [DVec3; 3] {
+        self.corners[id as usize].map(|corner| corner - point)
     }
 }

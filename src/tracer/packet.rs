@@ -1,6 +1,8 @@
-//! Triangles eight at a time: the test of `host_test.rs` on lanes, for the vector units of the host.
+//! Triangles eight at a time: the test of `triangle_test.rs` on lanes, for the vector units of the host.
 
-use super::host_test::{HostRay, HostTriangle, scaled_corners};
+use super::triangle_test::{HostRay, HostTriangle, scaled_corners};
+use glam::Vec3;
+
 use super::host_tracer::Best;
 use crate::geom::Mesh;
 
@@ -8,16 +10,17 @@ use crate::geom::Mesh;
 const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
-type Vectors = [Lanes; 3];
+/// A corner per lane, by component.
+type Corners = [Lanes; 3];
 
 /// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits. Edges and normal
 /// are computed again each time: that costs less than to fetch them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 struct Packet {
-    a: Vectors,
-    b: Vectors,
-    c: Vectors,
+    a: Corners,
+    b: Corners,
+    c: Corners,
     triangles: [u32; LANES],
     /// How many lanes hold a triangle.
     filled: u32,
@@ -75,7 +78,7 @@ impl Packet {
     fn test<const BOTH: bool>(&self, ray: &HostRay, best: &mut Best) {
         let (mut t, mut hit, mut any) = ([0.0; LANES], [0u32; LANES], 0);
         for i in 0..LANES {
-            let at = |v: &Vectors| [v[0][i], v[1][i], v[2][i]];
+            let at = |corner: &Corners| Vec3::new(corner[0][i], corner[1][i], corner[2][i]);
             let lane = HostTriangle::new([at(&self.a), at(&self.b), at(&self.c)]);
             let (parameter, is_hit) = lane.test::<BOTH>(ray);
             t[i] = parameter;

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::super::obj::{Pass, single};
+use super::super::obj::ObjReader;
 use super::{SceneObjError, parse_mtl};
+use crate::geom::Mesh;
+use crate::geom::vector::{narrow, unit, wide};
 use crate::scene::{Material, Scene};
 
 /// What a face is made of that names no material.
@@ -15,22 +17,12 @@ const GREY: f32 = 0.5;
 /// How far the square of a normal's length may lie from 1 before it is scaled.
 const SLACK: f64 = 1e-4;
 
-/// One face: how many triangles it gives, of which material, with which normals.
-struct Face {
-    line: usize,
-    /// Place in the list of names; none before the first `usemtl`.
-    material: Option<usize>,
-    /// The normals' numbers as written and counted from 1, a corner each; none if the face is flat.
-    normals: Vec<(i64, usize)>,
-    corners: usize,
-}
-
 /// A scene's lines so far.
-pub(super) struct ScenePass<'a> {
+pub(super) struct SceneReader<'a> {
     name: &'a Path,
-    geometry: Pass<'a>,
-    normals: Vec<[f32; 3]>,
-    faces: Vec<Face>,
+    geometry: ObjReader<'a>,
+    /// Of each face the index of its name in `used`; none before the first `usemtl`.
+    material_of: Vec<Option<usize>>,
     libraries: Vec<PathBuf>,
     materials: Vec<Material>,
     /// Names that `usemtl` has named, in order.
@@ -39,13 +31,12 @@ pub(super) struct ScenePass<'a> {
     current: Option<usize>,
 }
 
-impl<'a> ScenePass<'a> {
+impl<'a> SceneReader<'a> {
     pub(super) fn new(name: &'a Path) -> Self {
         Self {
             name,
-            geometry: Pass::new(name),
-            normals: Vec::new(),
-            faces: Vec::new(),
+            geometry: ObjReader::new(name),
+            material_of: Vec::new(),
             libraries: Vec::new(),
             materials: Vec::new(),
             used: Vec::new(),
@@ -63,45 +54,20 @@ impl<'a> ScenePass<'a> {
     ) -> Result<(), SceneObjError> {
         self.geometry.line(line, words, text)?;
         match words.split_first() {
-            Some((&b"vn", numbers)) => self.normal(line, text, numbers),
-            Some((&b"f", corners)) => self.face(line, text, corners),
+            Some((&b"f", _)) => self.face(line, text),
             Some((&b"usemtl", _)) => self.material(line, &text[6..]),
             Some((&b"mtllib", _)) => self.library(line, &text[6..], library),
             _ => Ok(()),
         }
     }
 
-    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), SceneObjError> {
-        let &[x, y, z] = numbers else {
-            return Err(self.geometry.syntax(line, "a normal `vn x y z`", text).into());
-        };
-        let mut normal = [0.0; 3];
-        for (value, word) in normal.iter_mut().zip([x, y, z]) {
-            *value = single(word).map_err(|fault| self.geometry.syntax(line, fault.expected(), word))?;
-        }
-        self.normals.push(of_length_one(normal));
-        Ok(())
-    }
-
-    fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), SceneObjError> {
-        // The geometry's pass has checked the corners; only the third number matters here.
-        let numbers: Vec<i64> = corners.iter().filter_map(|corner| normal_index(corner)).collect();
-        if !numbers.is_empty() && numbers.len() != corners.len() {
+    fn face(&mut self, line: usize, text: &[u8]) -> Result<(), SceneObjError> {
+        let corners = self.geometry.last_face();
+        let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
+        if with_normals != 0 && with_normals != corners.len() {
             return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text).into());
         }
-        let seen = self.normals.len();
-        let mut normals = Vec::with_capacity(numbers.len());
-        for index in numbers {
-            let place = match index {
-                1.. => usize::try_from(index).ok(),
-                _ => usize::try_from(index.unsigned_abs()).ok().and_then(|back| (seen + 1).checked_sub(back)),
-            };
-            let Some(place) = place.filter(|&place| index != 0 && place > 0) else {
-                return Err(SceneObjError::Normal { path: self.name.into(), line, index, normals: seen });
-            };
-            normals.push((index, place));
-        }
-        self.faces.push(Face { line, material: self.current, normals, corners: corners.len() });
+        self.material_of.push(self.current);
         Ok(())
     }
 
@@ -146,8 +112,9 @@ impl<'a> ScenePass<'a> {
 
     /// The whole scene, once everything has been read.
     pub(super) fn scene(self) -> Result<Scene, SceneObjError> {
-        let Self { name, geometry, normals: list, faces, mut materials, used, .. } = self;
-        let mesh = geometry.mesh()?;
+        let Self { name, mut geometry, material_of: faces, mut materials, used, .. } = self;
+        let mesh = geometry.mesh(false)?;
+        let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
         let mut place_of = BTreeMap::<String, u32>::new();
         for (place, material) in (0..).zip(&materials) {
             // Of two libraries the first counts.
@@ -160,15 +127,11 @@ impl<'a> ScenePass<'a> {
             })
         };
         let (mut material_of, mut normals) = (Vec::with_capacity(mesh.len()), Vec::with_capacity(mesh.len()));
-        for face in &faces {
-            let material = of(face.material.map_or(DEFAULT, |place| &used[place]));
-            let mut corners = Vec::with_capacity(face.normals.len());
-            for &(index, place) in &face.normals {
-                let beyond =
-                    || SceneObjError::Normal { path: name.into(), line: face.line, index, normals: list.len() };
-                corners.push(*list.get(place - 1).ok_or_else(beyond)?);
-            }
-            for corner in 1..face.corners - 1 {
+        for (face, place) in geometry.faces().zip(faces) {
+            let material = of(place.map_or(DEFAULT, |place| &used[place]));
+            let corners: Vec<[f32; 3]> =
+                face.iter().filter_map(|corner| list.get(corner[2].wrapping_sub(1))).copied().collect();
+            for corner in 1..face.len() - 1 {
                 material_of.push(material);
                 let fan = [0, corner, corner + 1].map(|at| corners.get(at).copied().unwrap_or_default());
                 // A corner without direction leaves the triangle flat.
@@ -180,21 +143,22 @@ impl<'a> ScenePass<'a> {
     }
 }
 
-/// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is zero.
-fn of_length_one(normal: [f32; 3]) -> [f32; 3] {
-    let wide = normal.map(f64::from);
-    let square = wide[0] * wide[0] + wide[1] * wide[1] + wide[2] * wide[2];
-    if square == 0.0 {
-        return [0.0; 3];
-    }
-    if (square - 1.0).abs() <= SLACK {
-        return normal;
-    }
-    let length = square.sqrt();
-    wide.map(|value| (value / length) as f32)
+/// The scene of a mesh that names no material, with the normals of its vertices.
+pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, SceneObjError> {
+    let normals = mesh.normals().map_or_else(Vec::new, |normals| {
+        let corner = |&index: &u32| of_length_one(normals[index as usize]);
+        let flat_where_unknown = |fan: [[f32; 3]; 3]| if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan };
+        mesh.triangles().iter().map(|triangle| flat_where_unknown(triangle.each_ref().map(corner))).collect()
+    });
+    let material_of = vec![0; mesh.len()];
+    Scene::new(mesh, vec![Material::diffuse(DEFAULT, [GREY; 3])], material_of, normals)
+        .map_err(|reason| SceneObjError::Scene { path: name.into(), reason })
 }
 
-/// The normal's index of a corner `v//vn` or `v/vt/vn`.
-fn normal_index(corner: &[u8]) -> Option<i64> {
-    std::str::from_utf8(corner).ok()?.split('/').nth(2)?.parse().ok()
+/// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is zero.
+fn of_length_one(normal: [f32; 3]) -> [f32; 3] {
+    if (wide(normal).length_squared() - 1.0).abs() <= SLACK {
+        return normal;
+    }
+    unit(wide(normal)).map_or([0.0; 3], narrow)
 }

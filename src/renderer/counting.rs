@@ -2,11 +2,12 @@
 
 use std::ops::AddAssign;
 
-use crate::geom::{CastError, Caster, Hit, Ray};
+use crate::geom::{Hit, Ray};
+use crate::tracer::{CastError, Caster};
 
 /// What a ray is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum RayKind {
     /// From the eye through a pixel.
     Eye,
     /// To a light: is anything between?
@@ -46,7 +47,7 @@ impl RayCounts {
         self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
     }
 
-    /// Counts of each kind, by name, in the order of [`Kind`].
+    /// Counts of each kind, by name, in the order of [`RayKind`].
     pub fn kinds(&self) -> [(&'static str, u64); 6] {
         [
             ("eye", self.eye),
@@ -58,14 +59,14 @@ impl RayCounts {
         ]
     }
 
-    pub(super) fn count(&mut self, kind: Kind, rays: u64) {
+    pub(super) fn count(&mut self, kind: RayKind, rays: u64) {
         *match kind {
-            Kind::Eye => &mut self.eye,
-            Kind::Shadow => &mut self.shadow,
-            Kind::Reflection => &mut self.reflection,
-            Kind::Refraction => &mut self.refraction,
-            Kind::Gather => &mut self.gather,
-            Kind::Photon => &mut self.photon,
+            RayKind::Eye => &mut self.eye,
+            RayKind::Shadow => &mut self.shadow,
+            RayKind::Reflection => &mut self.reflection,
+            RayKind::Refraction => &mut self.refraction,
+            RayKind::Gather => &mut self.gather,
+            RayKind::Photon => &mut self.photon,
         } += rays;
     }
 }
@@ -84,7 +85,7 @@ impl AddAssign for RayCounts {
 
 /// How far the work is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
+pub struct RenderProgress {
     /// What is being made: `photons` or `samples`.
     pub what: &'static str,
     /// Samples or photons done.
@@ -96,25 +97,25 @@ pub struct Progress {
 }
 
 /// Who wants to know: called after every bundle.
-pub type Watch<'a> = dyn FnMut(Progress) + 'a;
+pub type WatchProgress<'a> = dyn FnMut(RenderProgress) + 'a;
 
 /// A caster that counts.
-pub(super) struct Tracer<'a> {
+pub(super) struct CountingCaster<'a> {
     caster: &'a mut dyn Caster,
-    watch: &'a mut Watch<'a>,
+    watch: &'a mut WatchProgress<'a>,
     pub(super) counts: RayCounts,
-    progress: Progress,
+    progress: RenderProgress,
 }
 
-impl<'a> Tracer<'a> {
-    pub(super) fn new(caster: &'a mut dyn Caster, watch: &'a mut Watch<'a>) -> Self {
-        let progress = Progress { what: "samples", done: 0, total: 0, rays: 0 };
+impl<'a> CountingCaster<'a> {
+    pub(super) fn new(caster: &'a mut dyn Caster, watch: &'a mut WatchProgress<'a>) -> Self {
+        let progress = RenderProgress { what: "samples", done: 0, total: 0, rays: 0 };
         Self { caster, watch, counts: RayCounts::default(), progress }
     }
 
     /// A new piece of work begins.
     pub(super) fn begin(&mut self, what: &'static str, total: u64) {
-        self.progress = Progress { what, done: 0, total, rays: self.counts.rays() };
+        self.progress = RenderProgress { what, done: 0, total, rays: self.counts.rays() };
     }
 
     /// A part of it is done.
@@ -124,7 +125,25 @@ impl<'a> Tracer<'a> {
     }
 
     /// First hits of a bundle; `kind` says what the ray of an index is for.
-    pub(super) fn cast(&mut self, rays: &[Ray], kind: impl Fn(usize) -> Kind) -> Result<Vec<Option<Hit>>, CastError> {
+    pub(super) fn cast(
+        &mut self,
+        rays: &[Ray],
+        kind: impl Fn(usize) -> RayKind,
+    ) -> Result<Vec<Option<Hit>>, CastError> {
+        self.bundle(rays, kind, |caster| caster.cast(rays))
+    }
+
+    /// Whether each shadow ray of a bundle meets anything before t = 1.
+    pub(super) fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
+        self.bundle(rays, |_| RayKind::Shadow, |caster| caster.occluded(rays))
+    }
+
+    fn bundle<T>(
+        &mut self,
+        rays: &[Ray],
+        kind: impl Fn(usize) -> RayKind,
+        answer: impl FnOnce(&mut dyn Caster) -> Result<Vec<T>, CastError>,
+    ) -> Result<Vec<T>, CastError> {
         if rays.is_empty() {
             return Ok(Vec::new());
         }
@@ -132,9 +151,9 @@ impl<'a> Tracer<'a> {
             self.counts.count(kind(index), 1);
         }
         self.counts.bundles += 1;
-        let hits = self.caster.cast(rays)?;
+        let answers = answer(self.caster)?;
         self.progress.rays = self.counts.rays();
         (self.watch)(self.progress);
-        Ok(hits)
+        Ok(answers)
     }
 }

@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
+
 use super::cells::{CellId, GpuCells};
-use super::{Node, Octree};
+use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 
 /// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the middle
@@ -131,14 +133,14 @@ impl Octree {
 
 /// Whether a ray starts too far from an octree's corner for one with this margin.
 #[inline(always)]
-pub(super) fn is_out_of_sight(corner: [f64; 3], margin: f64, ray: &Ray) -> bool {
+pub(super) fn is_out_of_sight(corner: DVec3, margin: f64, ray: &Ray) -> bool {
     let far = |axis: usize| (f64::from(ray.origin()[axis]) - corner[axis]).abs() > margin * SIGHT;
     far(0) | far(1) | far(2)
 }
 
 /// Where the ray, turned so that it rises, meets the planes of a cube, and which bits of a child's number the turning flips.
 #[inline(always)]
-pub(super) fn root_planes(corner: [f64; 3], size: f64, ray: &Ray) -> (Planes, u32) {
+pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) {
     let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
     for axis in 0..3 {
         let (mut origin, mut speed) = (f64::from(ray.origin()[axis]), f64::from(ray.direction()[axis]));
@@ -181,7 +183,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
             return flow((self.visit)(&visit(triangles, true)));
         }
         match self.octree.nodes[node as usize] {
-            Node::Leaf(_, count) => {
+            OctreeNode::Leaf(_, count) => {
                 self.counts.leaves += 1;
                 if count == 0 {
                     ControlFlow::Continue(())
@@ -189,7 +191,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
                     flow((self.visit)(&visit(self.octree.list(node), false)))
                 }
             }
-            Node::Inner(first) => self.children(first, level, [low, high]),
+            OctreeNode::Inner(first) => self.children(first, level, [low, high]),
         }
     }
 

@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::sampling::{Table, cosine, sphere, triangle};
-use super::surfel::{Place, Surfel};
+use super::sampling::{DiscreteDistribution, cosine, sphere, triangle};
+use super::surfel::Surfel;
 use super::vector::mean;
 use super::wave::Dice;
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::scene::Scene;
+use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
 /// What may shine on a point, not knowing what is between.
@@ -23,28 +24,28 @@ pub(super) struct Arriving {
     pub(super) density: f64,
 }
 
-/// Light that leaves a lamp.
+/// Light that leaves a light.
 pub(super) struct Leaving {
     /// Where it starts and where it goes.
     pub(super) ray: Ray,
-    /// Flux over the density of the choice: the mean over all choices is the flux of all lamps.
+    /// Flux over the density of the choice: the mean over all choices is the flux of all lights.
     pub(super) power: DVec3,
 }
 
 /// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters that they stand for; a renderer that
 /// used both would light everything twice.
-pub(super) struct Lamps<'a> {
+pub(super) struct Lights<'a> {
     scene: &'a Scene,
     rounding: f64,
     emitters: Vec<u32>,
     /// By power.
-    table: Table,
+    table: DiscreteDistribution,
     /// Density over area with which points of each emitter are chosen.
     densities: Vec<f64>,
     points: Vec<(DVec3, DVec3)>,
 }
 
-impl<'a> Lamps<'a> {
+impl<'a> Lights<'a> {
     /// The points alone.
     pub(super) fn points_of(scene: &'a Scene, rounding: f64) -> Self {
         Self::new(scene, rounding, Vec::new())
@@ -58,13 +59,9 @@ impl<'a> Lamps<'a> {
     }
 
     fn new(scene: &'a Scene, rounding: f64, emitters: Vec<u32>) -> Self {
-        let area = |id: u32| {
-            let [a, b, c] = scene.mesh().corners(id).unwrap_or([[0.0; 3]; 3]).map(wide);
-            (b - a).cross(c - a).length() / 2.0
-        };
-        let areas: Vec<f64> = emitters.iter().map(|&id| area(id)).collect();
+        let areas: Vec<f64> = emitters.iter().map(|&id| scene.mesh().area(id)).collect();
         let power = |(&id, area): (&u32, &f64)| area * mean(wide(scene.material(id).emission));
-        let table = Table::new(emitters.iter().zip(&areas).map(power));
+        let table = DiscreteDistribution::new(emitters.iter().zip(&areas).map(power));
         let density = |(entry, &area): (usize, &f64)| if area > 0.0 { table.chance(entry) / area } else { 0.0 };
         let densities = areas.iter().enumerate().map(density).collect();
         let points = scene.point_lights.iter().map(|light| (wide(light.position), wide(light.intensity))).collect();
@@ -76,14 +73,14 @@ impl<'a> Lamps<'a> {
         self.points.len()
     }
 
-    /// Light that leaves a lamp: from an emitter by the cosine to its front, from a point in all directions. Takes six numbers in [0, 1).
+    /// Light that leaves a light: from an emitter by the cosine to its front, from a point in all directions. Takes six numbers in [0, 1).
     pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<Leaving> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
             let ray = Ray::new(place.lifted(towards, 0.0), narrow(towards)).ok()?;
             return Some(Leaving { ray, power: PI / density * radiance });
         }
-        let table = Table::new(self.points.iter().map(|point| mean(point.1)));
+        let table = DiscreteDistribution::new(self.points.iter().map(|point| mean(point.1)));
         let (light, chance) = table.draw(number(0))?;
         let (position, intensity) = self.points[light];
         let ray = Ray::new(narrow(position), narrow(sphere([number(3), number(4)]))).ok()?;
@@ -96,10 +93,10 @@ impl<'a> Lamps<'a> {
     }
 
     /// A place on an emitter, by three numbers in [0, 1): where, its radiance, and the density over area.
-    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(Place, DVec3, f64)> {
+    pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(SurfacePoint, DVec3, f64)> {
         let (entry, _) = self.table.draw(which)?;
         let id = self.emitters[entry];
-        let place = Place::new(self.scene, id, triangle(u), self.rounding)?;
+        let place = SurfacePoint::new(self.scene.mesh(), id, triangle(u), self.rounding)?;
         let radiance = wide(self.scene.material(id).emission);
         Some((place, radiance, self.densities[entry]))
     }
@@ -119,7 +116,7 @@ impl<'a> Lamps<'a> {
         Some(Arriving { ray, towards, light: 1.0 / density * radiance, density })
     }
 
-    /// The density over solid angle with which [`Lamps::area`] would have chosen the place of an emitter that a ray found.
+    /// The density over solid angle with which [`Lights::area`] would have chosen the place of an emitter that a ray found.
     pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
         let way = found.place.at - from;

@@ -17,6 +17,8 @@ pub use cells::{CellId, GpuCells};
 pub(super) use compact::{Compact, Waiting};
 pub use traverse::{Flow, TraversalCounts, Visit};
 
+use glam::DVec3;
+
 use crate::geom::Mesh;
 
 /// When a cell is cut in eight.
@@ -28,23 +30,20 @@ pub struct OctreeParameters {
     pub most_depth: u32,
 }
 
-impl OctreeParameters {
-    /// For rays that the host traces alone, which tests eight triangles at a time: fewer cells, and less memory to wait for.
-    pub const HOST: Self = Self { most_triangles: 16, most_depth: 10 };
-}
-
 impl Default for OctreeParameters {
+    /// Tuned for [`HostTracer`](super::HostTracer), which tests eight triangles at a time: 16 triangles make fewer cells
+    /// than 8, and less memory to wait for.
     fn default() -> Self {
-        Self { most_triangles: 8, most_depth: 10 }
+        Self { most_triangles: 16, most_depth: 10 }
     }
 }
 
 /// The deepest cell there can be.
-pub const MOST_DEPTH: u32 = 20;
+pub const MAX_DEPTH: u32 = 20;
 
 /// A node: eight children that stand together, or a list of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Node {
+enum OctreeNode {
     /// The first of the eight. Child number: bit 2 is set for the upper half in x, bit 1 in y, bit 0 in z.
     Inner(u32),
     /// Where its triangles begin in the list, and how many there are.
@@ -55,11 +54,11 @@ enum Node {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Octree {
     /// Lower corner of the root, a cube.
-    corner: [f64; 3],
+    corner: DVec3,
     /// Side of the root.
     size: f64,
     margin: f64,
-    nodes: Vec<Node>,
+    nodes: Vec<OctreeNode>,
     triangles: Vec<u32>,
     depth: u32,
 }
@@ -97,8 +96,8 @@ impl Octree {
         let mut out = OctreeCounts { depth: self.depth, entries: self.triangles.len(), ..OctreeCounts::default() };
         for node in &self.nodes {
             match node {
-                Node::Inner(_) => out.inner += 1,
-                Node::Leaf(_, count) => {
+                OctreeNode::Inner(_) => out.inner += 1,
+                OctreeNode::Leaf(_, count) => {
                     out.leaves += 1;
                     out.empty_leaves += usize::from(*count == 0);
                     out.fullest = out.fullest.max(*count as usize);
@@ -111,7 +110,7 @@ impl Octree {
     /// The triangles of a node's own list, in rising order; empty for a cell that is cut.
     fn list(&self, node: u32) -> &[u32] {
         match self.nodes.get(node as usize) {
-            Some(Node::Leaf(first, count)) => &self.triangles[*first as usize..(*first + *count) as usize],
+            Some(OctreeNode::Leaf(first, count)) => &self.triangles[*first as usize..(*first + *count) as usize],
             _ => &[],
         }
     }

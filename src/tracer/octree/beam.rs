@@ -4,10 +4,12 @@
 //! bounded. Each bound is a plane with all rays on one side of it: `p_u - most * p_k` never exceeds the largest value that it has at an
 //! origin. A cell on the other side of one of them is met by no ray.
 
-use super::cells::GpuCells;
-use super::{Node, Octree};
+use glam::DVec3;
+
+use super::cells::{CellId, GpuCells};
+use super::{Octree, OctreeNode};
 use crate::geom::Ray;
-use crate::ray_engine::octree::CellId;
+use crate::geom::vector::wide;
 
 /// By how much traversal can be off, in shares of what lies between a ray's origin and the octree: many roundings of f64.
 const ROUNDING: f64 = 1e-13;
@@ -15,7 +17,7 @@ const ROUNDING: f64 = 1e-13;
 /// A plane that has all rays on its lower side: the points at which `normal . p <= most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Plane {
-    normal: [f64; 3],
+    normal: DVec3,
     most: f64,
 }
 
@@ -42,35 +44,35 @@ impl Beam {
         let axis = common_axis(rays)?;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let sign = if rays[0].direction()[axis] < 0.0 { -1.0 } else { 1.0 };
-        let mut normals = vec![unit(axis, -sign)];
+        let mut normals = vec![-sign * DVec3::AXES[axis]];
         for across in [u, v] {
             let slopes = rays.iter().map(|ray| {
-                let d = ray.direction().map(f64::from);
+                let d = wide(ray.direction());
                 d[across] / d[axis].abs()
             });
             let (least, most) = slopes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
             for (side, slope) in [(1.0, most), (-1.0, -least)] {
-                let mut normal = unit(across, side);
+                let mut normal = side * DVec3::AXES[across];
                 normal[axis] = -slope * sign;
                 normals.push(normal);
                 // All rays fall, or rise, across it too.
                 if slope <= 0.0 {
-                    normals.push(unit(across, side));
+                    normals.push(side * DVec3::AXES[across]);
                 }
             }
         }
-        let origins = || rays.iter().map(|ray| ray.origin().map(f64::from));
-        let most = |normal: &[f64; 3]| origins().map(|o| dot(*normal, o)).fold(f64::NEG_INFINITY, f64::max);
+        let origins = || rays.iter().map(|ray| wide(ray.origin()));
+        let most = |normal: &DVec3| origins().map(|o| normal.dot(o)).fold(f64::NEG_INFINITY, f64::max);
         let planes = normals.iter().map(|normal| Plane { normal: *normal, most: most(normal) }).collect();
-        let reach = origins().flatten().fold(0.0, |reach: f64, x| reach.max(x.abs()));
+        let reach = origins().fold(0.0, |reach: f64, o| reach.max(o.abs().max_element()));
         Some(Self { planes, reach })
     }
 
     /// Whether a box grown by `margin` may be met: given by its middle and its half side.
-    fn meets(&self, middle: [f64; 3], half: f64, margin: f64) -> bool {
+    fn meets(&self, middle: DVec3, half: f64, margin: f64) -> bool {
         self.planes.iter().all(|plane| {
-            let across: f64 = plane.normal.iter().map(|x| x.abs()).sum();
-            dot(plane.normal, middle) - (half + margin) * across <= plane.most
+            let across = plane.normal.abs().element_sum();
+            plane.normal.dot(middle) - (half + margin) * across <= plane.most
         })
     }
 }
@@ -79,11 +81,16 @@ impl Octree {
     /// The first cell with triangles that a ray of the beam may meet, or all of them; GPU cells count whole. Never leaves one out that
     /// [`Octree::traverse`] would visit for a ray of the beam.
     pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> Reached {
-        let middle = self.corner.map(|x| x + self.size / 2.0);
-        let extent =
-            self.corner.iter().fold(beam.reach + self.size, |most, x| most.max(beam.reach + self.size + x.abs()));
-        let mut search =
-            Search { octree: self, gpu, beam, margin: self.margin + ROUNDING * extent, all, found: Reached::default() };
+        let middle = self.corner + self.size / 2.0;
+        let extent = beam.reach + self.size + self.corner.abs().max_element();
+        let mut search = BeamSearch {
+            octree: self,
+            gpu,
+            beam,
+            margin: self.margin + ROUNDING * extent,
+            all,
+            found: Reached::default(),
+        };
         search.enter(0, middle, self.size / 2.0);
         search.found
     }
@@ -94,7 +101,7 @@ impl Octree {
     }
 }
 
-struct Search<'a> {
+struct BeamSearch<'a> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,
     beam: &'a Beam,
@@ -103,8 +110,8 @@ struct Search<'a> {
     found: Reached,
 }
 
-impl Search<'_> {
-    fn enter(&mut self, node: u32, middle: [f64; 3], half: f64) {
+impl BeamSearch<'_> {
+    fn enter(&mut self, node: u32, middle: DVec3, half: f64) {
         if !self.all && !self.found.cells.is_empty() {
             return;
         }
@@ -115,16 +122,16 @@ impl Search<'_> {
         let cell = CellId(node);
         let whole = self.gpu.is_some_and(|gpu| gpu.triangles(cell).is_some());
         match self.octree.nodes[node as usize] {
-            Node::Leaf(_, 0) if !whole => {}
-            Node::Inner(first) if !whole => {
+            OctreeNode::Leaf(_, 0) if !whole => {}
+            OctreeNode::Inner(first) if !whole => {
                 let quarter = half / 2.0;
                 for child in 0..8 {
                     let side = |bit: u32| if child >> bit & 1 == 1 { quarter } else { -quarter };
-                    let at = [middle[0] + side(2), middle[1] + side(1), middle[2] + side(0)];
+                    let at = middle + DVec3::new(side(2), side(1), side(0));
                     self.enter(first + child, at, quarter);
                 }
             }
-            Node::Leaf(..) | Node::Inner(_) => self.found.cells.push(cell),
+            OctreeNode::Leaf(..) | OctreeNode::Inner(_) => self.found.cells.push(cell),
         }
     }
 }
@@ -140,14 +147,4 @@ fn common_axis(rays: &[Ray]) -> Option<usize> {
         longest(d) == axis && (d[axis] < 0.0) == (first[axis] < 0.0)
     };
     rays.iter().all(same).then_some(axis)
-}
-
-fn unit(axis: usize, length: f64) -> [f64; 3] {
-    let mut out = [0.0; 3];
-    out[axis] = length;
-    out
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

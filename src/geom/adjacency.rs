@@ -1,0 +1,147 @@
+//! Which triangles meet at each edge of a mesh.
+
+use super::Mesh;
+
+/// An edge with the triangles on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Edge {
+    /// Its two vertices, the smaller index first.
+    pub vertices: [u32; 2],
+    /// The triangles that have it, in rising order: one on a boundary, two inside a surface.
+    pub triangles: Vec<u32>,
+}
+
+impl Edge {
+    /// Whether a single triangle has it.
+    #[must_use]
+    pub fn is_boundary(&self) -> bool {
+        self.triangles.len() == 1
+    }
+
+    /// Whether at most two triangles have it.
+    #[must_use]
+    pub fn is_manifold(&self) -> bool {
+        self.triangles.len() <= 2
+    }
+}
+
+/// The edges of a mesh, and the edges of each triangle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Adjacency {
+    edges: Vec<Edge>,
+    /// Per triangle the edges from its first, second and third corner; none from a vertex to itself.
+    edges_of: Vec<[Option<u32>; 3]>,
+}
+
+impl Adjacency {
+    /// All edges in rising order of their vertices. A triangle's edge from a vertex to itself is left out.
+    #[must_use]
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// The edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; none from a
+    /// vertex to itself, nor of a triangle that does not exist.
+    #[must_use]
+    pub fn edges_of(&self, triangle: u32) -> [Option<u32>; 3] {
+        self.edges_of.get(triangle as usize).copied().unwrap_or_default()
+    }
+
+    /// The other triangles on the edges of a triangle, edge by edge.
+    pub fn neighbors(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        let edges = self.edges_of(triangle).into_iter().flatten();
+        let on_edge = edges.flat_map(|edge| self.edges[edge as usize].triangles.iter().copied());
+        on_edge.filter(move |&other| other != triangle)
+    }
+}
+
+impl Mesh {
+    /// Which triangles meet at each edge. Vertices are told apart by index; see [`Mesh::welded`].
+    #[must_use]
+    pub fn adjacency(&self) -> Adjacency {
+        let mut sides: Vec<([u32; 2], u32, usize)> = Vec::with_capacity(self.len() * 3);
+        for (id, &[a, b, c]) in (0_u32..).zip(self.triangles()) {
+            for (side, [from, to]) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+                if from != to {
+                    sides.push(([from.min(to), from.max(to)], id, side));
+                }
+            }
+        }
+        sides.sort_unstable();
+        let mut edges: Vec<Edge> = Vec::with_capacity(sides.len() / 2);
+        let mut edges_of = vec![[None; 3]; self.len()];
+        for (vertices, id, side) in sides {
+            match edges.last_mut() {
+                Some(edge) if edge.vertices == vertices => {
+                    if edge.triangles.last() != Some(&id) {
+                        edge.triangles.push(id);
+                    }
+                }
+                _ => edges.push(Edge { vertices, triangles: vec![id] }),
+            }
+            edges_of[id as usize][side] = Some(edges.len() as u32 - 1);
+        }
+        Adjacency { edges, edges_of }
+    }
+
+    /// The edges of [`Mesh::adjacency`].
+    #[must_use]
+    pub fn edges(&self) -> Vec<Edge> {
+        self.adjacency().edges
+    }
+
+    /// Number of edges that only one triangle has: 0 for a closed surface.
+    #[must_use]
+    pub fn boundary_edge_count(&self) -> usize {
+        self.edges().iter().filter(|edge| edge.is_boundary()).count()
+    }
+
+    /// Number of edges through which more than one triangle runs the same way: 0 where the surface is oriented
+    /// consistently and no edge has three triangles.
+    #[must_use]
+    pub fn orientation_conflicts(&self) -> usize {
+        let mut directed: Vec<[u32; 2]> = Vec::with_capacity(self.len() * 3);
+        for &[a, b, c] in self.triangles() {
+            directed.extend([[a, b], [b, c], [c, a]]);
+        }
+        directed.sort_unstable();
+        directed.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(triangles: Vec<[u32; 3]>) -> Mesh {
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Mesh::new(positions, triangles).expect("a mesh")
+    }
+
+    #[test]
+    fn a_square_has_four_boundary_edges() {
+        let mesh = mesh(vec![[0, 1, 2], [0, 2, 3]]);
+        assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (4, 0));
+        let adjacency = mesh.adjacency();
+        let shared: Vec<_> = adjacency.edges().iter().filter(|edge| !edge.is_boundary()).collect();
+        assert_eq!(shared, [&Edge { vertices: [0, 2], triangles: vec![0, 1] }]);
+        assert_eq!(adjacency.edges_of(0)[2], adjacency.edges_of(1)[0], "the diagonal");
+        assert_eq!(adjacency.neighbors(0).collect::<Vec<_>>(), [1]);
+        assert_eq!(adjacency.neighbors(7).count(), 0, "no such triangle");
+    }
+
+    #[test]
+    fn two_triangles_the_same_way_round_conflict() {
+        let mesh = mesh(vec![[0, 1, 2], [0, 1, 3]]);
+        assert_eq!(mesh.orientation_conflicts(), 1);
+    }
+
+    #[test]
+    fn three_triangles_on_an_edge_are_no_manifold_and_a_point_has_no_edge() {
+        let fins = mesh(vec![[0, 1, 2], [1, 0, 3], [0, 1, 4], [3, 3, 3], [2, 3, 2]]).adjacency();
+        let crowded: Vec<_> = fins.edges().iter().filter(|edge| !edge.is_manifold()).collect();
+        assert_eq!(crowded, [&Edge { vertices: [0, 1], triangles: vec![0, 1, 2] }]);
+        assert_eq!(fins.edges_of(3), [None; 3]);
+        assert_eq!(fins.neighbors(4).count(), 0, "its two sides are one edge");
+    }
+}

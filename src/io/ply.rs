@@ -1,0 +1,390 @@
+//! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
+//!
+//! Used are the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
+//! (`vertex_indices` or `vertex_index`); all others are passed over. A face of more than three corners becomes a fan around
+//! its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ files.
+//!
+//! The file is read element by element, so that an error names the line or the element, and no memory is taken on the
+//! word of a count in the header.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use ply_rs_bw::parser::{Parser, Reader};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
+use thiserror::Error;
+
+use super::obj::MAX_BYTES;
+use super::{quoted, read_limited};
+use crate::geom::{Mesh, MeshError};
+
+/// Why a file is no mesh. Lines count from 1.
+#[derive(Debug, Error, miette::Diagnostic)]
+pub enum PlyError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the model {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file is longer than [`MAX_BYTES`].
+    #[error("{}: expected a model of at most {MAX_BYTES} bytes, found more", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line of the header or of ASCII data is not what belongs there.
+    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// The line.
+        line: usize,
+        /// What belongs there.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// An element of binary data is not what the header says.
+    #[error("{}: {element} {index} (counted from 0): expected {expected}, found {found}", path.display())]
+    Element {
+        /// The file.
+        path: PathBuf,
+        /// The element's name.
+        element: String,
+        /// Which of its kind.
+        index: usize,
+        /// What belongs there.
+        expected: String,
+        /// What stands there.
+        found: &'static str,
+    },
+    /// The header does not declare a mesh.
+    #[error("{}: expected {expected}, found none", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        expected: &'static str,
+    },
+    /// The parts do not make a mesh.
+    #[error("{}: {reason}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: MeshError,
+    },
+}
+
+/// Names of the numbers of a vertex that are used.
+const NUMBERS: [&[&str]; 8] =
+    [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
+/// Names of the list of a face that is used.
+const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Reads a mesh from a file.
+///
+/// # Errors
+/// [`PlyError`], with the path, and the line or element where there is one.
+pub fn load_ply(path: &Path) -> Result<Mesh, PlyError> {
+    let read = read_limited(path, MAX_BYTES).map_err(|source| PlyError::Read { path: path.into(), source })?;
+    let bytes = read.ok_or_else(|| PlyError::TooLong { path: path.into() })?;
+    parse_ply(&bytes, path)
+}
+
+/// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic.
+///
+/// # Errors
+/// [`PlyError`], with the line or element where there is one.
+pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, PlyError> {
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(PlyError::TooLong { path: name.into() });
+    }
+    let (header, lines, data) = header(bytes, name)?;
+    let has = |element: &str, property: &[&str]| {
+        header.elements.get(element).is_some_and(|e| property.iter().any(|&name| e.properties.contains_key(name)))
+    };
+    if !NUMBERS[..3].iter().all(|names| has("vertex", names)) {
+        let expected = "an element `vertex` with the properties `x`, `y` and `z`";
+        return Err(PlyError::Missing { path: name.into(), expected });
+    }
+    if !has("face", &INDICES) {
+        let expected = "an element `face` with a list `vertex_indices` or `vertex_index`";
+        return Err(PlyError::Missing { path: name.into(), expected });
+    }
+    let mut mesh = MeshReader::default();
+    let mut data = Data { name, encoding: header.encoding, line: lines, rest: data };
+    for element in header.elements.values() {
+        for index in 0..element.count {
+            let (record, at) = data.next(element, index)?;
+            match element.name.as_str() {
+                "vertex" => mesh.vertices.push(record.numbers),
+                "face" => mesh.face(&record.indices).map_err(|found| at.error("three corners or more", found))?,
+                _ => {}
+            }
+        }
+    }
+    let attributes = [&NUMBERS[3..6], &NUMBERS[6..8]].map(|names| names.iter().all(|names| has("vertex", names)));
+    mesh.finish(attributes, name)
+}
+
+/// The header, how many lines it has, and the data behind it.
+fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]), PlyError> {
+    let syntax = |line: usize, expected: &str, found: String| PlyError::Syntax {
+        path: name.into(),
+        line,
+        expected: expected.to_owned(),
+        found,
+    };
+    let (mut lines, mut length, mut text) = (0, 0, "");
+    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+        (lines, length) = (lines + 1, length + line.len());
+        let line = line.trim_ascii();
+        if lines == 1 && line != b"ply" {
+            return Err(syntax(1, "the word `ply`", quoted(line)));
+        }
+        // Comments may be in any encoding; what is used is ASCII.
+        text = std::str::from_utf8(line).unwrap_or("comment");
+        if text == "end_header" {
+            break;
+        }
+    }
+    if text != "end_header" {
+        return Err(syntax(lines.max(1), "`end_header` at the end of the header", "the end of the file".to_owned()));
+    }
+    let (head, data) = bytes.split_at(length);
+    let head = String::from_utf8_lossy(head);
+    let header = Parser::<Record>::new().read_header(&mut Reader::new(head.as_bytes())).map_err(|error| {
+        let Some(line) = error.line() else {
+            let expected = "`format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`";
+            return syntax(2, expected, "no such line".to_owned());
+        };
+        let text = head.lines().nth(line - 1).unwrap_or_default();
+        syntax(line, "`format`, `element NAME COUNT`, `property TYPE NAME` or `comment`", quoted(text.as_bytes()))
+    })?;
+    if let Some(empty) = header.elements.values().find(|element| element.properties.is_empty() && element.count > 0) {
+        let expected = format!("properties of the element `{}`", empty.name.escape_debug());
+        return Err(syntax(lines, &expected, "none".to_owned()));
+    }
+    Ok((header, lines, data))
+}
+
+/// The elements of a file, one after the other.
+struct Data<'a> {
+    name: &'a Path,
+    encoding: Encoding,
+    /// Lines read so far.
+    line: usize,
+    rest: &'a [u8],
+}
+
+/// Where an element stands, for messages.
+struct ElementPlace<'a> {
+    name: &'a Path,
+    element: &'a str,
+    index: usize,
+    /// The line and what it says, in ASCII data.
+    line: Option<(usize, String)>,
+}
+
+impl ElementPlace<'_> {
+    fn error(self, expected: impl Into<String>, found: &'static str) -> PlyError {
+        let (path, expected) = (self.name.into(), expected.into());
+        match self.line {
+            Some((line, found)) => PlyError::Syntax { path, line, expected, found },
+            None => PlyError::Element { path, element: visible(self.element), index: self.index, expected, found },
+        }
+    }
+}
+
+impl<'a> Data<'a> {
+    /// The next element, which is the one of this index of its kind.
+    fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), PlyError>
+    where
+        'a: 'b,
+    {
+        let parser = Parser::<Record>::new();
+        let mut at = ElementPlace { name: self.name, element: &element.name, index, line: None };
+        let read = match self.encoding {
+            Encoding::Ascii => {
+                let Some(line) = self.next_line() else {
+                    at.line = Some((self.line, "the end of the file".to_owned()));
+                    return Err(at.error(expected(element), ""));
+                };
+                at.line = Some((self.line, quoted(line)));
+                match std::str::from_utf8(line) {
+                    Ok(line) => parser.read_ascii_element(line, element).ok(),
+                    Err(_) => None,
+                }
+            }
+            Encoding::BinaryLittleEndian => parser.read_little_endian_element(&mut self.rest, element).ok(),
+            Encoding::BinaryBigEndian => parser.read_big_endian_element(&mut self.rest, element).ok(),
+        };
+        match read {
+            Some(record) => Ok((record, at)),
+            None => {
+                let found = if self.rest.is_empty() { "the end of the file" } else { "other values" };
+                Err(at.error(expected(element), found))
+            }
+        }
+    }
+
+    /// The next line that is not empty.
+    fn next_line(&mut self) -> Option<&'a [u8]> {
+        while !self.rest.is_empty() {
+            let end = self.rest.iter().position(|&byte| byte == b'\n').unwrap_or(self.rest.len());
+            let line = self.rest[..end].trim_ascii();
+            self.rest = self.rest.get(end + 1..).unwrap_or_default();
+            self.line += 1;
+            if !line.is_empty() {
+                return Some(line);
+            }
+        }
+        None
+    }
+}
+
+/// What belongs where an element stands.
+fn expected(element: &ElementDef) -> String {
+    let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
+    let more = if element.properties.len() > names.len() { " ..." } else { "" };
+    format!("a `{}` of `{}{more}`", visible(&element.name), visible(&names.join(" ")))
+}
+
+/// A name of the header as messages show it.
+fn visible(name: &str) -> String {
+    name.chars().take(80).collect::<String>().escape_debug().to_string()
+}
+
+/// The used properties of an element.
+#[derive(Default)]
+struct Record {
+    numbers: [f32; NUMBERS.len()],
+    indices: Vec<u32>,
+}
+
+impl PropertyAccess for Record {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if let Some(place) = NUMBERS.iter().position(|names| names.contains(&name)) {
+            // In elements other than vertices such a name may be of anything.
+            property.to_f32_lossy().inspect(|&number| self.numbers[place] = number);
+        } else if INDICES.contains(&name) {
+            let Some(indices) = property.to_u32_list() else { return PropertyAccessResult::UnsupportedType };
+            self.indices = indices;
+        } else {
+            return PropertyAccessResult::Ignored;
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+/// The vertices and triangles so far.
+#[derive(Default)]
+struct MeshReader {
+    vertices: Vec<[f32; NUMBERS.len()]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl MeshReader {
+    fn face(&mut self, corners: &[u32]) -> Result<(), &'static str> {
+        let [first, rest @ ..] = corners else { return Err("none") };
+        if rest.len() < 2 {
+            return Err("fewer");
+        }
+        self.triangles.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+        Ok(())
+    }
+
+    fn finish(self, [normals, texcoords]: [bool; 2], name: &Path) -> Result<Mesh, PlyError> {
+        if self.triangles.is_empty() {
+            return Err(PlyError::Missing { path: name.into(), expected: "at least one face" });
+        }
+        let of = |mesh: Mesh| {
+            let three =
+                |first: usize| self.vertices.iter().map(move |v| [v[first], v[first + 1], v[first + 2]]).collect();
+            let mesh = if normals { mesh.with_normals(three(3))? } else { mesh };
+            let pairs = || self.vertices.iter().map(|v| [v[6], v[7]]).collect();
+            if texcoords { mesh.with_texcoords(pairs()) } else { Ok(mesh) }
+        };
+        let positions = self.vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
+        let mesh = Mesh::new(positions, self.triangles.clone()).and_then(of);
+        mesh.map_err(|reason| PlyError::Mesh { path: name.into(), reason })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        parse_ply(text.as_bytes(), Path::new("m.ply")).unwrap_err().to_string()
+    }
+
+    const HEADER: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                          element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+    #[test]
+    fn polygons_become_fans_and_other_elements_are_passed_over() {
+        let text = "ply\nformat ascii 1.0\ncomment caf\u{e9}\nelement vertex 4\nproperty double x\nproperty float32 y\n\
+                    property int z\nproperty uchar red\nproperty float s\nproperty float t\nelement material 1\n\
+                    property list uchar float x\nelement face 2\nproperty list uint8 uint vertex_index\nend_header\n\
+                    0 0 0 255 0 0\n1 0 0 0 1 0\n\n1 1 0 7 1 1\n0 1 0 8 0 1\n2 0.5 0.25\n4 0 1 2 3\n3 3 2 1\n";
+        let mesh = parse_ply(text.as_bytes(), Path::new("m.ply")).expect("a mesh");
+        assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [3, 2, 1]]);
+        assert_eq!(mesh.positions()[2], [1.0, 1.0, 0.0]);
+        assert_eq!((mesh.normals(), mesh.texcoords().map(|uv| uv[3])), (None, Some([0.0, 1.0])));
+    }
+
+    #[test]
+    fn errors_say_where_and_what() {
+        assert_eq!(message("solid x\n"), "m.ply:1: expected the word `ply`, found `solid x`");
+        assert_eq!(
+            message("ply\nx"),
+            "m.ply:2: expected `end_header` at the end of the header, found the end of the file"
+        );
+        let header = "`format`, `element NAME COUNT`, `property TYPE NAME` or `comment`";
+        assert_eq!(
+            message("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"),
+            format!("m.ply:3: expected {header}, found `element vertex -1`")
+        );
+        let formats = "`format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`";
+        assert_eq!(message("ply\nend_header\n"), format!("m.ply:2: expected {formats}, found no such line"));
+        let no_vertex = "m.ply: expected an element `vertex` with the properties `x`, `y` and `z`, found none";
+        assert_eq!(message("ply\nformat ascii 1.0\nend_header\n"), no_vertex);
+        assert_eq!(
+            message(&format!("{HEADER}0 0 0\n1 0 0\n0 1 0\n2 0 1\n")),
+            "m.ply:13: expected three corners or more, found `2 0 1`"
+        );
+        assert_eq!(
+            message(&format!("{HEADER}0 0 0\n1 zero 0\n")),
+            "m.ply:11: expected a `vertex` of `x y z`, found `1 zero 0`"
+        );
+        assert_eq!(
+            message(&format!("{HEADER}0 0 0\n1 0 0\n")),
+            "m.ply:11: expected a `vertex` of `x y z`, found the end of the file"
+        );
+        let beyond = message(&format!("{HEADER}0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"));
+        assert_eq!(beyond, "m.ply: triangle 0 uses vertex 3, expected an index below 3 (counted from 0)");
+        let missing = Path::new("/no/such/file.ply");
+        assert_eq!(load_ply(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.ply");
+    }
+
+    #[test]
+    fn counts_of_the_header_take_no_memory() {
+        let all = u64::MAX;
+        let huge = HEADER.replace("vertex 3", &format!("vertex {all}")).replace("ascii", "binary_little_endian");
+        assert_eq!(
+            message(&huge),
+            "m.ply: vertex 0 (counted from 0): expected a `vertex` of `x y z`, found the end of the file"
+        );
+        let empty = HEADER.replace("element face", &format!("element nothing {all}\nelement face"));
+        assert_eq!(message(&empty), "m.ply:10: expected properties of the element `nothing`, found none");
+    }
+}

@@ -1,0 +1,109 @@
+//! How far off a surface rays start and end, so that none hits the triangle that it leaves or the one that it goes to.
+//!
+//! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves by,
+//! at both ends of a segment. The distance depends on what is known of the point:
+//!
+//! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to the
+//!   test of that triangle;
+//! - it lies *near* triangles, as a point of a patch whose four corners are flat only up to f32 does:
+//!   [`scene_clearance`], a fixed fraction of the scene.
+
+use glam::DVec3;
+
+use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::{Mesh, Ray};
+
+/// Unit roundoff of single precision.
+pub const SINGLE: f64 = 1.0 / 16_777_216.0;
+/// Triangles thinner than this count as this thin: there the bound on the plane test stops growing.
+const MIN_SINE: f64 = 1.0 / 256.0;
+/// Fraction of a scene's diagonal.
+const SCENE: f64 = 1.0 / 65_536.0;
+
+/// The clearance of points near the surfaces of a scene with this diagonal: farther than f32 corners and the test's
+/// rounding can be off, nearer than anything that one would model.
+#[must_use]
+pub fn scene_clearance(diagonal: f64) -> f64 {
+    SCENE * diagonal
+}
+
+/// A point of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The point.
+    pub at: DVec3,
+    /// The triangle's unit normal, on the side from which the corners run counter-clockwise.
+    pub normal: DVec3,
+    /// Longest of the sides ab and ac.
+    size: f64,
+    /// `|ab| |ac| / |ab x ac|`: 1 over the sine of the angle at a.
+    thinness: f64,
+    /// The caster's unit roundoff.
+    rounding: f64,
+}
+
+impl SurfacePoint {
+    /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not exist.
+    /// `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
+    #[must_use]
+    pub fn new(mesh: &Mesh, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
+        Self::of(mesh.corners(triangle)?.map(wide), weights, rounding)
+    }
+
+    /// The same for the corners of a triangle.
+    #[must_use]
+    pub fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
+        let (ab, ac) = (b - a, c - a);
+        let across = ab.cross(ac);
+        let normal = unit(across)?;
+        let (ab, ac) = (ab.length(), ac.length());
+        let at = weights.x * a + weights.y * b + weights.z * c;
+        let sine = (across.length() / (ab * ac)).max(MIN_SINE);
+        Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })
+    }
+
+    /// How far off the triangle a ray must start so that its test misses it, for points up to `reach` from the origin.
+    ///
+    /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most
+    /// u (|x| + |y| + |z|), of which twice is taken. The test finds the side from n . ao. One rounding per component of ao,
+    /// ab and ac, and three of the cross product and four of the dot product, make at most (1 + 2 + 2 + 4) u of the sum of
+    /// magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at most the
+    /// triangle's size plus `reach`.
+    #[must_use]
+    pub fn clearance(&self, reach: f64) -> f64 {
+        self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
+    }
+
+    /// The point lifted off the triangle to the side of `towards`, clear of the test of rays that start there or, with a
+    /// `reach`, that end there.
+    #[must_use]
+    pub fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
+        let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };
+        narrow(self.at + side * self.clearance(reach) * self.normal)
+    }
+
+    /// The ray to a point of another triangle, clear of both: it meets something before t = 1 if and only if something
+    /// lies between. `None` if f32 has no direction for it.
+    #[must_use]
+    pub fn ray_to(&self, other: &Self) -> Option<Ray> {
+        let way = other.at - self.at;
+        let start = self.lifted(way, 0.0);
+        let end = other.lifted(-way, way.length());
+        Ray::new(start, narrow(wide(end) - wide(start))).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clearance_is_a_few_units_in_the_last_place() {
+        let corners = [[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]].map(DVec3::from);
+        let point = SurfacePoint::of(corners, DVec3::splat(1.0 / 3.0), SINGLE).expect("a triangle with an area");
+        let clearance = point.clearance(0.0);
+        assert!(clearance > 0.0 && clearance < 1e-5, "{clearance}");
+        let lifted = wide(point.lifted(point.normal, 0.0));
+        assert!((lifted - point.at).dot(point.normal) > clearance / 2.0, "rounding does not eat it up");
+    }
+}

@@ -1,0 +1,128 @@
+//! PLY files: every encoding gives the same mesh, and no bytes make the reader panic.
+
+use std::path::Path;
+
+use crossbar::geom::Mesh;
+use crossbar::io::{PlyError, load_mesh, load_obj, parse_ply};
+use proptest::prelude::*;
+
+use crate::mutation::mutated;
+
+const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
+
+const HEADER: &str = "comment a folded quadrilateral and a triangle\nobj_info none\nelement vertex 5\nproperty float x\n\
+                      property double y\nproperty short z\nproperty float nx\nproperty float ny\nproperty float nz\n\
+                      property uchar red\nproperty float u\nproperty float v\nelement edge 1\nproperty int vertex1\n\
+                      property list ushort double weights\nelement face 2\nproperty uchar flags\n\
+                      property list uint8 int32 vertex_indices\nend_header\n";
+
+const VERTICES: [[f32; 3]; 5] =
+    [[0.0, 0.0, 0.0], [1.5, 0.0, 1.0], [1.0, 1e-3, 0.0], [-0.25, 1.0, -2.0], [0.5, 7.0, 3.0]];
+
+/// Numbers in an encoding.
+struct Encoder {
+    encoding: &'static str,
+    bytes: Vec<u8>,
+}
+
+impl Encoder {
+    fn put<const N: usize>(&mut self, value: impl ToString, big_endian: [u8; N]) {
+        match self.encoding {
+            "ascii" => self.bytes.extend(format!("{} ", value.to_string()).bytes()),
+            "binary_big_endian" => self.bytes.extend(big_endian),
+            _ => self.bytes.extend(big_endian.iter().rev()),
+        }
+    }
+
+    fn end(&mut self) {
+        if self.encoding == "ascii" {
+            self.bytes.push(b'\n');
+        }
+    }
+}
+
+fn encoded(encoding: &'static str) -> Vec<u8> {
+    let mut out = Encoder { encoding, bytes: format!("ply\nformat {encoding} 1.0\n{HEADER}").into_bytes() };
+    let float = |out: &mut Encoder, value: f32| out.put(value, value.to_be_bytes());
+    for (red, [x, y, z]) in (0_u8..).zip(VERTICES) {
+        float(&mut out, x);
+        out.put(f64::from(y), f64::from(y).to_be_bytes());
+        out.put(z as i16, (z as i16).to_be_bytes());
+        [0.0, 0.6, 0.8].into_iter().for_each(|value| float(&mut out, value));
+        out.put(red, [red]);
+        [x, 0.5].into_iter().for_each(|value| float(&mut out, value));
+        out.end();
+    }
+    out.put(7, 7_i32.to_be_bytes());
+    out.put(2, 2_u16.to_be_bytes());
+    [0.5_f64, -3.25].into_iter().for_each(|value| out.put(value, value.to_be_bytes()));
+    out.end();
+    for face in [&[0_i32, 1, 2, 3][..], &[4, 2, 1]] {
+        out.put(1, [1]);
+        out.put(face.len(), [face.len() as u8]);
+        face.iter().for_each(|index| out.put(index, index.to_be_bytes()));
+        out.end();
+    }
+    out.bytes
+}
+
+fn parse(bytes: &[u8]) -> Result<Mesh, PlyError> {
+    parse_ply(bytes, Path::new("m.ply"))
+}
+
+#[test]
+fn every_encoding_gives_the_same_mesh() {
+    for encoding in ENCODINGS {
+        let mesh = parse(&encoded(encoding)).expect(encoding);
+        assert_eq!(mesh.positions(), VERTICES, "{encoding}");
+        assert_eq!(mesh.triangles(), [[0, 1, 2], [0, 2, 3], [4, 2, 1]], "{encoding}");
+        assert_eq!(mesh.normals().map(|normals| normals[4]), Some([0.0, 0.6, 0.8]), "{encoding}");
+        assert_eq!(mesh.texcoords().map(|uv| uv[1]), Some([1.5, 0.5]), "{encoding}");
+    }
+}
+
+#[test]
+fn a_file_cut_short_anywhere_is_refused() {
+    for encoding in ENCODINGS {
+        let bytes = encoded(encoding);
+        for end in 0..bytes.len() - 3 {
+            assert!(parse(&bytes[..end]).is_err(), "{encoding}: {end} of {} bytes", bytes.len());
+        }
+    }
+}
+
+#[test]
+fn the_fixture_is_the_square() {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
+    let ply = load_mesh(&models.join("square.ply")).expect("a mesh");
+    let obj = load_obj(&models.join("square.obj")).expect("a mesh");
+    assert!(ply.iter_corners().eq(obj.iter_corners()));
+    assert_eq!(ply.normals(), Some(&[[0.0, 0.0, 1.0]; 4][..]));
+    assert_eq!(ply.texcoords().map(|uv| uv[2]), Some([ply.positions()[2][0], ply.positions()[2][1]]));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn mutated_files_do_no_harm(
+        bytes in prop::sample::select(&ENCODINGS[..]).prop_flat_map(|encoding| mutated(encoded(encoding), 1..12)),
+    ) {
+        if let Ok(mesh) = parse(&bytes) {
+            prop_assert!(mesh.len() <= bytes.len());
+        }
+    }
+
+    #[test]
+    fn arbitrary_data_behind_a_header_does_no_harm(
+        encoding in prop::sample::select(&ENCODINGS[..]),
+        counts in any::<[u64; 2]>(),
+        data in prop::collection::vec(any::<u8>(), 0..300),
+    ) {
+        let [vertices, faces] = counts.map(|count| count >> (count % 64));
+        let header = HEADER.replace("vertex 5", &format!("vertex {vertices}")).replace("face 2", &format!("face {faces}"));
+        let mut bytes = format!("ply\nformat {encoding} 1.0\n{header}").into_bytes();
+        bytes.extend(data);
+        let _ = parse(&bytes);
+    }
+}
