@@ -9,7 +9,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::card::Texels;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::packing::Packing;
@@ -27,7 +27,7 @@ const SIZES: [usize; 3] = [512, 1954, 4096];
 
 /// Form factors whose rows sum to 1, no two alike.
 fn factors(size: usize) -> Matrix {
-    let random = Keyed::new(size as u64);
+    let random = CounterRng::new(size as u64);
     let mut matrix = Matrix::zeros([size; 2]).expect("a matrix");
     for i in 0..size {
         let row = matrix.row_mut(i);
@@ -95,7 +95,7 @@ fn products(criterion: &mut Criterion) {
     group.sample_size(20).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
     for size in SIZES {
         let ours = factors(size);
-        let random = Keyed::new(7);
+        let random = CounterRng::new(7);
         let vector: Vec<f64> = (0..size).map(|i| random.unit(i as u64, 0, 0)).collect();
         let theirs = DMatrix::from_fn(size, size, |i, j| ours.row(i)[j]);
         let column = DVector::from_column_slice(&vector);

@@ -166,6 +166,7 @@ fn surface(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
     use refsim::texture::{TargetRounding, TexelFormat};
 
     fn image(format: TexelFormat, values: [f32; 4]) -> Image {
@@ -182,7 +183,7 @@ mod tests {
         let largest = found.largest.expect("a difference");
         assert_eq!((largest.pixel, largest.values.name.as_str(), largest.values.ulps), ([1, 0], "red", Some(1.0)));
         assert_eq!((largest.values.left_bits.as_str(), largest.values.right_bits.as_str()), ("0xff", "0xfe"));
-        assert!((largest.difference - 1.0 / 255.0).abs() < 1e-12);
+        assert_abs_diff_eq!(largest.difference, 1.0 / 255.0, epsilon = 1e-12);
     }
 
     #[test]

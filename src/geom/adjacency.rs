@@ -40,8 +40,8 @@ impl Adjacency {
         &self.edges
     }
 
-    /// The edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; none from a
-    /// vertex to itself, nor of a triangle that does not exist.
+    /// The edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; none from
+    /// a vertex to itself, nor of a triangle that does not exist.
     #[must_use]
     pub fn edges_of(&self, triangle: u32) -> [Option<u32>; 3] {
         self.edges_of.get(triangle as usize).copied().unwrap_or_default()

@@ -1,9 +1,12 @@
 //! Rays aimed where neighbours meet: at shared edges and at vertices.
 //!
-//! The target is a point of the edge (in f64), the direction `target - eye` rounded to f32: so a ray passes an edge within
-//! the rounding of f32, on one side or the other, and only exact arithmetic can say which.
+//! The target is a point of the edge (in f64), the direction `target - eye` rounded to f32: so a ray passes an edge
+//! within the rounding of f32, on one side or the other, and only exact arithmetic can say which.
 
-use super::random::Keyed;
+use glam::DVec3;
+
+use super::random::CounterRng;
+use super::vector::{narrow, wide};
 use super::{Mesh, Ray};
 
 /// A ray, and what it is aimed at.
@@ -19,17 +22,17 @@ pub struct Aimed {
 /// seed gives the same rays. An edge so near the eye, or so far, that the direction vanishes or overflows is left out.
 #[must_use]
 pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> Vec<Aimed> {
-    let stream = Keyed::new(seed);
+    let stream = CounterRng::new(seed);
     let mut rays = Vec::new();
     for (target, edge) in (0_u32..).zip(mesh.edges()) {
         if edge.triangles.len() < 2 {
             continue;
         }
-        let [from, to] = edge.vertices.map(|vertex| mesh.positions()[vertex as usize].map(f64::from));
+        let [from, to] = edge.vertices.map(|vertex| wide(mesh.positions()[vertex as usize]));
         for sample in 0..per_edge {
             // Half a step off, so that neither end is met.
             let at = stream.unit(u64::from(target), u64::from(sample), 0) + 0.5 / 16_777_216.0;
-            let point = [0, 1, 2].map(|axis| from[axis] + at * (to[axis] - from[axis]));
+            let point = from + at * (to - from);
             rays.extend(aim(eye, point).map(|ray| Aimed { ray, target }));
         }
     }
@@ -44,20 +47,18 @@ pub fn aimed_at_vertices(mesh: &Mesh, eye: [f32; 3]) -> Vec<Aimed> {
         used[index as usize] = true;
     }
     let vertices = (0_u32..).zip(mesh.positions()).zip(used).filter(|&(_, used)| used);
-    vertices
-        .filter_map(|((target, &position), _)| Some(Aimed { ray: aim(eye, position.map(f64::from))?, target }))
-        .collect()
+    vertices.filter_map(|((target, &position), _)| Some(Aimed { ray: aim(eye, wide(position))?, target })).collect()
 }
 
 /// The ray from an eye towards a point, if f32 has a direction for it.
-fn aim(eye: [f32; 3], point: [f64; 3]) -> Option<Ray> {
-    let direction = [0, 1, 2].map(|axis| (point[axis] - f64::from(eye[axis])) as f32);
-    Ray::new(eye, direction).ok()
+fn aim(eye: [f32; 3], point: DVec3) -> Option<Ray> {
+    Ray::new(eye, narrow(point - wide(eye))).ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
 
     #[test]
     fn only_shared_edges_are_aimed_at() {
@@ -70,7 +71,7 @@ mod tests {
         for aimed in &rays {
             let [x, y, z] = aimed.ray.direction();
             assert_eq!(z, -2.0);
-            assert!(((x + 0.25) - (y + 0.5)).abs() < 1e-6, "on the diagonal: {x} {y}");
+            assert!(abs_diff_eq!(x + 0.25, y + 0.5, epsilon = 1e-6), "on the diagonal: {x} {y}");
         }
         let corners = aimed_at_vertices(&mesh, [1.0, 0.0, 0.0]);
         assert_eq!(corners.len(), 3, "the eye's own vertex has no direction");

@@ -111,6 +111,7 @@ mod tests {
     use super::*;
     use crate::geom::Ray;
     use crate::geom::exact::{self, Sides};
+    use approx::assert_abs_diff_eq;
 
     /// Two triangles that share an edge in z = 0, one that touches a corner, one far off.
     fn scene() -> Mesh {
@@ -162,10 +163,10 @@ mod tests {
     fn the_error_of_t_is_exact() {
         let t = ExactT::new(BigUint::from(1_u8), BigUint::from(3_u8)).expect("a fraction");
         let found = t_error(&t, 0.333_333_34);
-        assert!((found.absolute - (f64::from(0.333_333_34_f32) - 1.0 / 3.0)).abs() < 1e-16, "{found:?}");
-        assert!((found.relative / found.absolute - 3.0).abs() < 1e-12);
+        assert_abs_diff_eq!(found.absolute, f64::from(0.333_333_34_f32) - 1.0 / 3.0, epsilon = 1e-16);
+        assert_abs_diff_eq!(found.relative / found.absolute, 3.0, epsilon = 1e-12);
         assert_eq!(t_error(&t, f32::NAN).absolute, f64::INFINITY);
-        assert!((t_error(&t, -1.0).absolute - 4.0 / 3.0).abs() < 1e-15);
+        assert_abs_diff_eq!(t_error(&t, -1.0).absolute, 4.0 / 3.0, epsilon = 1e-15);
         let zero = ExactT::new(BigUint::from(0_u8), BigUint::from(3_u8)).expect("a fraction");
         assert_eq!(t_error(&zero, 0.0), TError { absolute: 0.0, relative: 0.0 });
         assert_eq!(t_error(&zero, 1.0), TError { absolute: 1.0, relative: f64::INFINITY });

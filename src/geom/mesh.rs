@@ -80,8 +80,8 @@ pub enum Contact {
 }
 
 impl Mesh {
-    /// A mesh of positions and corner indices (counted from 0). Triangles keep their order: a triangle's place is its id.
-    /// Degenerate triangles are accepted (nothing ever hits them); count them with [`Mesh::degenerate_count`].
+    /// A mesh of positions and corner indices (counted from 0). Triangles keep their order: a triangle's place is its
+    /// id. Degenerate triangles are accepted (nothing ever hits them); count them with [`Mesh::degenerate_count`].
     ///
     /// # Errors
     /// [`MeshError`] names the first index out of range, or the first coordinate that is not finite.

@@ -7,7 +7,7 @@
 //! - [`classify`]: a renderer's answer held against that truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
 //! - [`vector`]: what glam's vectors lack;
-//! - [`random`]: random numbers keyed by what they are for, never by the order in which they are drawn.
+//! - [`random`]: a counter-based random number generator.
 
 pub mod adjacency;
 pub mod aimed;

@@ -1,20 +1,20 @@
-//! Random numbers that depend on what they are for, never on who draws them or when.
+//! A counter-based random number generator: numbers depend on what they are for, never on the order of drawing.
 
-/// A stream of random numbers named by a seed: each number is a function of (seed, index, sample, dimension) alone, so
+/// A counter-based random number generator: each number is a function of (seed, index, sample, dimension) alone, so
 /// threads may draw them in any order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Keyed {
+pub struct CounterRng {
     seed: u64,
 }
 
-impl Keyed {
+impl CounterRng {
     /// The stream of a seed.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self { seed }
     }
 
-    /// 64 bits for one sample of one thing.
+    /// 64 random bits.
     #[must_use]
     pub const fn bits(self, index: u64, sample: u64, dimension: u64) -> u64 {
         let mut state = scramble(self.seed ^ 0x6a09_e667_f3bc_c908);
@@ -43,15 +43,16 @@ const fn scramble(word: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn numbers_are_fixed_and_spread() {
-        let stream = Keyed::new(1);
-        assert_eq!(stream.bits(3, 4, 5), Keyed::new(1).bits(3, 4, 5));
+        let stream = CounterRng::new(1);
+        assert_eq!(stream.bits(3, 4, 5), CounterRng::new(1).bits(3, 4, 5));
         assert_ne!(stream.bits(3, 4, 5), stream.bits(4, 3, 5));
         assert_ne!(stream.bits(3, 4, 5), stream.bits(3, 5, 4));
         let mean = (0..4096).map(|index| stream.unit(index, 0, 0)).sum::<f64>() / 4096.0;
-        assert!((mean - 0.5).abs() < 0.02, "mean {mean}");
+        assert_abs_diff_eq!(mean, 0.5, epsilon = 0.02);
         let mut halves = [0; 2];
         for sample in 0..4096 {
             halves[usize::from(stream.unit(7, sample, 1) < 0.5)] += 1;

@@ -2,8 +2,8 @@
 //!
 //! **Arithmetic.** The control points are whole numbers of 1/100000 and the parameters are i/N, so every point of the
 //! grid is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches that share a border
-//! therefore give bit-identical points on it, from whichever side they are evaluated, and welding by bit identity closes
-//! the seams: no epsilon, and no evaluation order to agree on.
+//! therefore give bit-identical points on it, from whichever side they are evaluated, and welding by bit identity
+//! closes the seams: no epsilon, and no evaluation order to agree on.
 //!
 //! **What is watertight.** For N >= 2 every edge belongs to exactly two triangles that run through it in opposite
 //! directions, except 16 N boundary edges: the rims that the published surface itself leaves open.
@@ -84,7 +84,7 @@ pub struct Teapot {
     pub patch_of: Vec<u8>,
 }
 
-/// The teapot's mesh with `rate` x `rate` quads a patch, two triangles each.
+/// The teapot's mesh with `rate` x `rate` quads per patch, two triangles each.
 ///
 /// # Errors
 /// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
@@ -138,7 +138,8 @@ fn bernstein(step: u32, rate: u32) -> [i128; 4] {
     [far * far * far, 3 * near * far * far, 3 * near * near * far, near * near * near]
 }
 
-/// A point of a patch: the exact fraction `sum(weights * control points) / scale`, each coordinate rounded to nearest once.
+/// A point of a patch: the exact fraction `sum(weights * control points) / scale`, each coordinate rounded to nearest
+/// once.
 fn point(control: &[u16; 16], row: &[i128; 4], column: &[i128; 4], scale: &BigUint) -> [f32; 3] {
     let mut sum = [0_i128; 3];
     for (index, &number) in control.iter().enumerate() {

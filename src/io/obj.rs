@@ -1,14 +1,15 @@
 //! Wavefront OBJ.
 //!
-//! A first pass checks every line that is used, so that an error can name the line and nothing reaches tobj that it is not
-//! made for; tobj then turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects,
+//! A first pass checks every line that is used, so that an error can name the line and nothing reaches tobj that it is
+//! not made for; tobj then turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects,
 //! materials, colors, lines and points are passed over, so that the whole file is one mesh. A face of more than three
-//! corners becomes a fan around its first corner. Triangle ids are the order of the file, from 0. Vertices are numbered by
-//! first use; those that no face uses are dropped. Degenerate triangles are kept, since they hold a place in that order;
-//! nothing ever hits them.
+//! corners becomes a fan around its first corner. Triangle ids are the order of the file, from 0. Vertices are numbered
+//! by first use; those that no face uses are dropped. Degenerate triangles are kept, since they hold a place in that
+//! order; nothing ever hits them.
 //!
 //! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
-//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are dropped.
+//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are
+//! dropped.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -372,8 +373,8 @@ impl<'a> ObjReader<'a> {
         &self.normals
     }
 
-    /// The mesh of the checked lines, once it is known how many vertices there are; with texture coordinates and normals
-    /// if all corners have them, or of positions alone.
+    /// The mesh of the checked lines, once it is known how many vertices there are; with texture coordinates and
+    /// normals if all corners have them, or of positions alone.
     pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ObjError> {
         for &(line, what, index) in &self.forward {
             let count = self.count(what);

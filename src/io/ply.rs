@@ -1,8 +1,9 @@
 //! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
 //!
 //! Used are the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
-//! (`vertex_indices` or `vertex_index`); all others are passed over. A face of more than three corners becomes a fan around
-//! its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ files.
+//! (`vertex_indices` or `vertex_index`); all others are passed over. A face of more than three corners becomes a fan
+//! around its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ
+//! files.
 //!
 //! The file is read element by element, so that an error names the line or the element, and no memory is taken on the
 //! word of a count in the header.

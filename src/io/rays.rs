@@ -1,10 +1,11 @@
 //! Rays and hits as comma-separated tables.
 //!
-//! Rays: the header `ox,oy,oz,dx,dy,dz`, then a ray a line. Numbers are rounded to the nearest f32; directions are not renormalised.
-//! Refused are numbers that are not finite, or overflow f32, and a direction of zero.
+//! Rays: the header `ox,oy,oz,dx,dy,dz`, then a ray a line. Numbers are rounded to the nearest f32; directions are not
+//! renormalised. Refused are numbers that are not finite, or overflow f32, and a direction of zero.
 //!
-//! Hits: the header `ray,triangle,t`, then a line a ray in the order of the rays. `triangle` counts from 0 in the order of the mesh
-//! file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the same f32.
+//! Hits: the header `ray,triangle,t`, then a line per ray in the order of the rays. `triangle` counts from 0 in the
+//! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
+//! same f32.
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -168,7 +169,7 @@ pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes one line a ray: its number from 0, the triangle or -1, and t or `inf`.
+/// Writes one line per ray: its number from 0, the triangle or -1, and t or `inf`.
 ///
 /// # Errors
 /// Those of the writer.

@@ -15,7 +15,8 @@
 //! intensity = [10.0, 10.0, 9.0]
 //! ```
 //!
-//! The mesh is an OBJ beside the scene file, read by [`super::scene_obj`]. An OBJ alone is a scene without views and point lights.
+//! The mesh is an OBJ beside the scene file, read by [`super::scene_obj`]. An OBJ alone is a scene without views and
+//! point lights.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

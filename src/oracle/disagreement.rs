@@ -15,7 +15,8 @@ pub enum DisagreementKind {
     NoSuchTriangle,
     /// No hit where there is a surface: a hole.
     Leak,
-    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is seen.
+    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is
+    /// seen.
     LeakThrough,
     /// A hit where the ray meets nothing.
     FalseHit,
@@ -104,8 +105,8 @@ pub struct Disagreement {
     /// What was found, if anything.
     #[serde(serialize_with = "found")]
     pub found: Option<Hit>,
-    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one side has
-    /// a t, or one is not finite.
+    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one
+    /// side has a t, or one is not finite.
     pub t_ulps: Option<u64>,
     /// Where the ray truly meets the triangle that was found, if it does, from either side; in JSON the nearest double.
     #[serde(serialize_with = "nearest_double_if_any")]
@@ -141,7 +142,8 @@ impl Disagreement {
         Ray::new(self.origin, self.direction)
     }
 
-    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the ray.
+    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the
+    /// ray.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
     }

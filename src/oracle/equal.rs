@@ -98,8 +98,8 @@ pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
     compare(asked, [left, right], apart, numbers)
 }
 
-/// Whether two lists of numbers are at most `most` steps of f32 apart, each from its partner. +0 and -0 are no step apart, NaN is
-/// none from NaN; an infinity, or NaN, is too far from everything else.
+/// Whether two lists of numbers are at most `most` steps of f32 apart, each from its partner. +0 and -0 are no step
+/// apart, NaN is none from NaN; an infinity, or NaN, is too far from everything else.
 ///
 /// # Errors
 /// [`Unequal`] says where first, and where most.

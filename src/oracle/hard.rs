@@ -1,7 +1,10 @@
 //! Rays on which intersectors differ.
 
+use glam::DVec3;
+
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
+use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 
 /// What makes a ray hard.
@@ -35,11 +38,12 @@ pub struct HardRay {
     pub aim: Aim,
 }
 
-/// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an empty mesh has none.
+/// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an
+/// empty mesh has none.
 #[must_use]
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };
-    let dice = Keyed::new(seed);
+    let dice = CounterRng::new(seed);
     let mut rays = Vec::new();
     for (key, aim) in (0..).zip(Aim::ALL) {
         let found: Vec<Ray> = match aim {
@@ -82,46 +86,45 @@ fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
 
 /// Where a mesh is, and how large.
 struct MeshExtent {
-    middle: [f64; 3],
+    middle: DVec3,
     size: f64,
 }
 
 impl MeshExtent {
     fn of(mesh: &Mesh) -> Option<Self> {
-        let [low, high] = mesh.bounds()?.map(|corner| corner.map(f64::from));
-        let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-        let middle = [0, 1, 2].map(|axis| (low[axis] + high[axis]) / 2.0);
-        Some(Self { middle, size: if size > 0.0 { size } else { 1.0 } })
+        let [low, high] = mesh.bounds()?.map(wide);
+        let size = (high - low).max_element();
+        Some(Self { middle: (low + high) / 2.0, size: if size > 0.0 { size } else { 1.0 } })
     }
 
     /// A point about `sizes` sizes of the mesh from its middle, kept within f32.
-    fn eye(&self, dice: Keyed, index: u64, sizes: f64) -> [f32; 3] {
+    fn eye(&self, dice: CounterRng, index: u64, sizes: f64) -> [f32; 3] {
         let side = |axis: usize| {
             let step = 2.0 * dice.unit(index, 0, axis as u64) - 1.0;
             // Never near the middle on the axis that the eye's number names.
             if axis == index as usize % 3 { 1.0f64.copysign(step) } else { step }
         };
-        [0, 1, 2].map(|axis| in_f32(self.middle[axis] + sizes * self.size * side(axis)))
+        in_f32(self.middle + sizes * self.size * DVec3::from([0, 1, 2].map(side)))
     }
 }
 
-/// The nearest f32 that is finite.
-fn in_f32(x: f64) -> f32 {
-    x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+/// The nearest finite f32 coordinates.
+fn in_f32(point: DVec3) -> [f32; 3] {
+    narrow(point.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())))
 }
 
 /// A triangle, and a point of it.
 struct AimedTriangle {
-    corners: [[f64; 3]; 3],
+    corners: [DVec3; 3],
     point: [f32; 3],
 }
 
 impl AimedTriangle {
     /// A triangle by dice, with one of its corners, or a point inside it.
-    fn choose(mesh: &Mesh, dice: Keyed, key: u64, index: u64) -> Option<Self> {
+    fn choose(mesh: &Mesh, dice: CounterRng, key: u64, index: u64) -> Option<Self> {
         let id = dice.bits(index, key, 100) % mesh.len().max(1) as u64;
         let exact = mesh.corners(id as u32)?;
-        let corners = exact.map(|corner| corner.map(f64::from));
+        let corners = exact.map(wide);
         let kind = dice.bits(index, key, 101) % 4;
         if let Some(&point) = exact.get(kind as usize) {
             return Some(Self { corners, point });
@@ -131,7 +134,7 @@ impl AimedTriangle {
             (u, v) = (1.0 - u, 1.0 - v);
         }
         let [a, b, c] = corners;
-        let point = [0, 1, 2].map(|axis| in_f32(a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis])));
+        let point = in_f32(a + u * (b - a) + v * (c - a));
         Some(Self { corners, point })
     }
 
@@ -142,22 +145,21 @@ impl AimedTriangle {
         let (way, mut direction) = (sign(0), [0.0, sign(1) * 0.0, sign(2) * 0.0]);
         direction[0] = way;
         direction.rotate_right(axis);
-        let mut origin = self.point;
-        origin[axis] = in_f32(f64::from(origin[axis]) - 2.0 * place.size * f64::from(way));
-        Ray::new(origin, direction).ok()
+        let mut origin = wide(self.point);
+        origin[axis] -= 2.0 * place.size * f64::from(way);
+        Ray::new(in_f32(origin), direction).ok()
     }
 
     /// From outside the triangle, beyond the corner a, towards the side bc.
-    fn plane_ray(&self, dice: Keyed, index: u64) -> Option<Ray> {
+    fn plane_ray(&self, dice: CounterRng, index: u64) -> Option<Ray> {
         let [a, b, c] = self.corners;
         // Every other ray along an edge.
         let share = if index.is_multiple_of(2) { 0.0 } else { dice.unit(index, 0, 104) };
-        let along = [0, 1, 2].map(|axis| b[axis] + share * (c[axis] - b[axis]) - a[axis]);
-        let origin = [0, 1, 2].map(|axis| in_f32(a[axis] - along[axis]));
-        Ray::new(origin, along.map(in_f32)).ok()
+        let along = b + share * (c - b) - a;
+        Ray::new(in_f32(a - along), in_f32(along)).ok()
     }
 
-    fn surface_ray(&self, dice: Keyed, index: u64) -> Option<Ray> {
+    fn surface_ray(&self, dice: CounterRng, index: u64) -> Option<Ray> {
         let direction = [0, 1, 2].map(|axis| (2.0 * dice.unit(index, 1, axis) - 1.0) as f32);
         Ray::new(self.point, direction).ok()
     }

@@ -1,10 +1,11 @@
-//! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic out.
+//! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic
+//! out.
 //!
 //! An [`Oracle`] decides first hits on the f32 figures as given ([`crate::geom::exact`]) and sorts each answer that
-//! departs from them into a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the right triangle, a t too far off. Ties are
-//! judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right. [`hard_rays`] makes the rays on
-//! which intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
-//! `assert_` give it back as a [`Result`].
+//! departs from them into a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the right triangle, a t
+//! too far off. Ties are judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right.
+//! [`hard_rays`] makes the rays on which intersectors differ. The `assert_*` functions panic where they are called,
+//! with the report; the functions without `assert_` give it back as a [`Result`].
 //!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};

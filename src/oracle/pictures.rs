@@ -43,8 +43,8 @@ impl Sample for f32 {
     }
 }
 
-/// Whether two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from its partner
-/// (0: equal; of f32, steps are ULPs).
+/// Whether two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from its
+/// partner (0: equal; of f32, steps are ULPs).
 ///
 /// # Errors
 /// [`Unequal`] says at which column and row first, and where most.

@@ -119,6 +119,7 @@ pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     const HALF: Accumulator = Accumulator {
         mantissa: 10,
@@ -145,7 +146,7 @@ mod tests {
         let truncated = Accumulator { rounding: Rounding::TowardZero, ..HALF };
         let lost = truncated.row(1.0, &terms);
         // The sum is between 1 and 2.
-        assert!((lost / (-800.0 / 2048.0) - 1.0).abs() < 0.2, "{lost}");
+        assert_abs_diff_eq!(lost / (-800.0 / 2048.0), 1.0, epsilon = 0.2);
         let four = Accumulator { packing: Packing::Luminance, ..truncated };
         assert!(four.row(1.0, &terms).abs() < 0.2 * lost.abs());
     }

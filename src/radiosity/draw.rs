@@ -130,6 +130,7 @@ pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
 
     #[test]
     fn a_camera_projects_as_it_casts() {
@@ -139,7 +140,11 @@ mod tests {
         let outline = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0], [0.0, 20.0]].map(|[x, y]| through(x, y));
         for (corner, want) in outline.iter().zip([[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]) {
             let [x, y, w] = projection.clip(*corner);
-            assert!((x / w - want[0]).abs() < 1e-12 && (y / w - want[1]).abs() < 1e-12 && (w - 3.0).abs() < 1e-12);
+            assert!(
+                abs_diff_eq!(x / w, want[0], epsilon = 1e-12)
+                    && abs_diff_eq!(y / w, want[1], epsilon = 1e-12)
+                    && abs_diff_eq!(w, 3.0, epsilon = 1e-12)
+            );
         }
         assert_eq!(projection.clip(through(20.0, 10.0)).map(|c| (c * 1e9).round()), [0.0, 0.0, 3e9]);
     }

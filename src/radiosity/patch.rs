@@ -122,6 +122,7 @@ fn centroid(corners: &[DVec3], normal: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
 
     #[test]
     fn a_trapezoid_has_its_area_and_centre() {
@@ -129,7 +130,10 @@ mod tests {
         let patch = Patch::new(&outline, 0, 0).expect("a patch");
         assert_eq!((patch.area(), patch.normal()), (9.0, DVec3::Z));
         let [x, y, z] = patch.center().into();
-        assert!((x - 2.0).abs() < 1e-15 && (y - 4.0 / 3.0).abs() < 1e-15 && z == 1.0, "{x} {y} {z}");
+        assert!(
+            abs_diff_eq!(x, 2.0, epsilon = 1e-15) && abs_diff_eq!(y, 4.0 / 3.0, epsilon = 1e-15) && z == 1.0,
+            "{x} {y} {z}"
+        );
         let middle = patch.at(0.5, 0.5);
         assert_eq!((middle.at, middle.density), (DVec3::new(2.0, 1.5, 1.0), 9.0));
         assert_eq!(patch.at(1.0, 1.0).at, outline[2]);

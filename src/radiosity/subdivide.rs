@@ -134,6 +134,7 @@ fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
 
     const SQUARE: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
 
@@ -165,7 +166,11 @@ mod tests {
             let mut patches = Vec::new();
             face.cut(7, steps, &mut patches).expect("patches");
             let sum: f64 = patches.iter().map(Patch::area).sum();
-            assert!(patches.len() == count && (sum - area).abs() < 1e-14, "{} patches, {sum}", patches.len());
+            assert!(
+                patches.len() == count && abs_diff_eq!(sum, area, epsilon = 1e-14),
+                "{} patches, {sum}",
+                patches.len()
+            );
             assert!(patches.iter().all(|p| p.normal() == DVec3::Z && (p.face, p.material) == (7, 3)));
         }
     }

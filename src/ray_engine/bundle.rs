@@ -1,7 +1,8 @@
 //! Buckets: which triangles can rays of one origin and nearly one direction meet?
 //!
 //! Section 5.3 keeps triangles outside the bucket of rays away from the card. The test here is conservative by a margin
-//! that is much wider than the card's errors, in f64: a triangle is left out only if it lies wholly to one side of all rays.
+//! that is much wider than the card's errors, in f64: a triangle is left out only if it lies wholly to one side of all
+//! rays.
 
 use glam::DVec3;
 use refsim::texture::Region;

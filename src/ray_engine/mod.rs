@@ -1,7 +1,8 @@
 //! System 1: the Ray Engine. Ray-triangle intersection as a pixel program; the crossbar of rays and triangles.
 //!
 //! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
-//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each equation.
+//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each
+//! equation.
 
 mod barycentrics;
 mod bundle;

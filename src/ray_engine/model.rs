@@ -5,24 +5,24 @@
 /// The two rates of equation 11.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostRates {
-    /// Pixels a second, the pixel program included. Positive.
+    /// Pixels per second, the pixel program included. Positive.
     pub fill_pixels_per_s: f64,
-    /// Bytes a second from the card to the host. Positive; infinite for a card whose results stay where they are.
+    /// Bytes per second from the card to the host. Positive; infinite for a card whose results stay where they are.
     pub readback_bytes_per_s: f64,
 }
 
 impl CostRates {
-    /// Equation 11: seconds for `triangles` against `rays`, with `gamma` bytes read back a ray.
+    /// Equation 11: seconds for `triangles` against `rays`, with `gamma` bytes read back per ray.
     pub fn seconds(&self, rays: f64, triangles: f64, gamma: f64) -> f64 {
         triangles * rays / self.fill_pixels_per_s + rays * gamma / self.readback_bytes_per_s
     }
 
-    /// Equation 11 turned round: tests a second, for any number of rays.
+    /// Equation 11 turned round: tests per second, for any number of rays.
     pub fn tests_per_s(&self, triangles: f64, gamma: f64) -> f64 {
         triangles / self.seconds(1.0, triangles, gamma)
     }
 
-    /// Results a second that read-back alone allows.
+    /// Results per second that read-back alone allows.
     pub fn results_per_s(&self, gamma: f64) -> f64 {
         self.readback_bytes_per_s / gamma
     }
@@ -32,8 +32,8 @@ impl CostRates {
         self.fill_pixels_per_s * gamma / self.readback_bytes_per_s
     }
 
-    /// `T_min`: the fewest triangles at which the card is not slower than a host of `host_tests_per_s`; `None` if the host is
-    /// at least as fast as the card ever is.
+    /// `T_min`: the fewest triangles at which the card is not slower than a host of `host_tests_per_s`; `None` if the
+    /// host is at least as fast as the card ever is.
     pub fn least_triangles(&self, host_tests_per_s: f64, gamma: f64) -> Option<u32> {
         let gained = host_tests_per_s.recip() - self.fill_pixels_per_s.recip();
         (gained > 0.0).then(|| (gamma / self.readback_bytes_per_s / gained).ceil().max(1.0) as u32)
@@ -48,6 +48,7 @@ impl CostRates {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     const GEFORCE3: CostRates = CostRates { fill_pixels_per_s: 390e6, readback_bytes_per_s: 250e6 };
 
@@ -77,6 +78,6 @@ mod tests {
         let fill = CostRates::implied_fill(286e6, 10.0, 4.0, 250e6);
         assert_eq!((fill / 1e5).round(), 5273.0);
         let card = CostRates { fill_pixels_per_s: fill, ..GEFORCE3 };
-        assert!((card.tests_per_s(10.0, 4.0) / 286e6 - 1.0).abs() < 1e-12);
+        assert_abs_diff_eq!(card.tests_per_s(10.0, 4.0) / 286e6, 1.0, epsilon = 1e-12);
     }
 }

@@ -7,7 +7,8 @@ use refsim::texture::Region;
 
 use crate::geom::Ray;
 
-/// Side of the squares that lists are laid out in: a tile of the card, and the paper's bucket of 256 rays (section 5.3).
+/// Side of the squares that lists are laid out in: a tile of the card, and the paper's bucket of 256 rays (section
+/// 5.3).
 const SQUARE: usize = 16;
 /// Squares in a row of a list's batch.
 const SQUARES_A_ROW: usize = 16;
@@ -45,9 +46,9 @@ impl RayBatch {
         }
     }
 
-    /// A list of rays, 256 after 256 in squares of 16 x 16 pixels, 16 squares a row: neighbours in the list are neighbours
-    /// on the screen. The last square is padded by repeating the last ray; [`Self::pixel_of`] finds the answers again. An
-    /// empty list gives a batch of no rows.
+    /// A list of rays, 256 after 256 in squares of 16 x 16 pixels, 16 squares per row: neighbours in the list are
+    /// neighbours on the screen. The last square is padded by repeating the last ray; [`Self::pixel_of`] finds the
+    /// answers again. An empty list gives a batch of no rows.
     pub fn from_list(rays: &[Ray]) -> Self {
         let squares = rays.len().div_ceil(SQUARE * SQUARE);
         let columns = squares.clamp(1, SQUARES_A_ROW);

@@ -22,10 +22,10 @@ use crate::tracer::triangle_test::{scaled, scaled_corners};
 /// Corners of a triangle around a pixel's centre, in pixels.
 const AROUND: [[f32; 2]; 3] = [[0.0, 0.4], [0.4, -0.3], [-0.4, -0.3]];
 
-/// A card that intersects rays with triangles in its vertex units: one draw per ray, three vertices per test.
+/// A card that intersects rays with triangles in its vertex units: a draw per ray, three vertices per test.
 ///
-/// The paper's own program is not printed. This one is the shortest that we found for triangles whose normal and
-/// edges lie ready in vertex memory: 20 instructions.
+/// The paper's own program is not printed. This one is the shortest that we found for triangles whose normal and edges
+/// lie ready in vertex memory: 20 instructions.
 #[derive(Clone, Debug)]
 pub struct VertexCrossbar {
     profile: Profile,

@@ -1,4 +1,4 @@
-//! Casting with counts, and with word to whoever waits.
+//! A caster that counts rays by kind and reports progress.
 
 use std::ops::AddAssign;
 
@@ -22,7 +22,7 @@ pub enum RayKind {
     Photon,
 }
 
-/// Rays cast, by kind.
+/// Rays cast, per kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
     /// From the eye.
@@ -83,7 +83,7 @@ impl AddAssign for RayCounts {
     }
 }
 
-/// How far the work is.
+/// How far a rendering is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderProgress {
     /// What is being made: `photons` or `samples`.
@@ -96,10 +96,10 @@ pub struct RenderProgress {
     pub rays: u64,
 }
 
-/// Who wants to know: called after every bundle.
+/// Called with the progress after every bundle.
 pub type WatchProgress<'a> = dyn FnMut(RenderProgress) + 'a;
 
-/// A caster that counts.
+/// A [`Caster`] that counts rays and reports progress.
 pub(super) struct CountingCaster<'a> {
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,

@@ -13,10 +13,10 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the point lights if
-/// the scene has no emitters); a glossy
-/// lobe sends one ray into a direction drawn from it, which sees emitters and other surfaces; a mirror sends one ray, glass both of its
-/// rays where the eye sees it first, else one by chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
+/// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the
+/// point lights if the scene has no emitters); a glossy lobe sends one ray into a direction drawn from it, which sees
+/// emitters and other surfaces; a mirror sends one ray, glass both of its rays where the eye sees it first, else one by
+/// chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.
@@ -60,7 +60,8 @@ impl Shade for Distributed<'_> {
     }
 }
 
-/// The diffuse part, by one point of the emitters; and both parts by the point lights, which no ray from a lobe could find.
+/// The diffuse part, by one point of the emitters; and both parts by the point lights, which no ray from a lobe could
+/// find.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
     let area = lights.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
     let points = (0..lights.points()).filter_map(|light| Some((lights.point(surfel, light)?, *lobes)));
@@ -81,7 +82,8 @@ pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
-/// A mirror's ray, or those of glass: both where the eye sees it first, since a choice there is seen as grain, afterwards one.
+/// A mirror's ray, or those of glass: both where the eye sees it first, since a choice there is seen as grain,
+/// afterwards one.
 pub(super) fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen =
         if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };

@@ -10,8 +10,9 @@ use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene, Surface};
 use crate::tracer::Caster;
 
-/// Casts eye rays. A surface shows its own colour (of mirrors and glass what they let pass) times the cosine to the eye, and what it emits
-/// on top; a back face shows half of it, so that holes and turned triangles are seen. No other rays are cast.
+/// Casts eye rays. A surface shows its own colour (of mirrors and glass what they let pass) times the cosine to the
+/// eye, and what it emits on top; a back face shows half of it, so that holes and turned triangles are seen. No other
+/// rays are cast.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.

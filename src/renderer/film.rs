@@ -21,7 +21,8 @@ pub struct RenderedPicture {
     pub color: Vec<[f64; 3]>,
     /// Estimated variance of that mean: of the samples, over their number; 0 of one sample.
     pub variance: Vec<[f64; 3]>,
-    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is the depth along the view.
+    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is
+    /// the depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: none, unless a scene's figures are beyond reason.
     pub not_finite: u64,
@@ -76,7 +77,7 @@ pub(super) fn expose(
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
     let mut film = Film { sum: vec![DVec3::ZERO; pixels], squares: vec![DVec3::ZERO; pixels], not_finite: 0 };
-    // With one sample a pixel and no lens the rays of the picture are those through the middles.
+    // With one sample per pixel and no lens the rays of the picture are those through the middles.
     let middles = settings.samples == 1 && settings.lens.is_none();
     let mut first = if middles { Vec::with_capacity(pixels) } else { through_middles(tracer, camera, settings)? };
     let total = pixels as u64 * samples;

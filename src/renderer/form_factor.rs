@@ -1,7 +1,9 @@
-//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11, the estimate).
+//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11,
+//! the estimate).
 //!
-//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its front that arrives at
-//! b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean is F.
+//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its
+//! front that arrives at b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean
+//! is F.
 
 use std::f64::consts::PI;
 
@@ -9,7 +11,7 @@ use super::counting::CountingCaster;
 use super::sampling::triangle;
 use super::visibility::visible;
 use crate::geom::Ray;
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
 use crate::scene::Scene;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 use crate::tracer::{CastError, Caster};
@@ -23,8 +25,9 @@ pub struct FormFactor {
     pub variance: f64,
 }
 
-/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a` arrives at `b`. `samples` pairs
-/// of points decide; pairs that cannot see each other by their cosines alone cost no ray. 0 if either has no area.
+/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a`
+/// arrives at `b`. `samples` pairs of points decide; pairs that cannot see each other by their cosines alone cost no
+/// ray. 0 if either has no area.
 ///
 /// # Errors
 /// [`CastError`] if the caster fails.
@@ -37,7 +40,7 @@ pub fn form_factor(
     caster: &mut dyn Caster,
 ) -> Result<FormFactor, CastError> {
     let (from, to) = (Patch::new(scene, a), Patch::new(scene, b));
-    let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, Keyed::new(seed), sample));
+    let pairs = (0..u64::from(samples)).map(|sample| pair(&from, &to, CounterRng::new(seed), sample));
     let pairs: Vec<Option<(f64, Ray)>> = pairs.collect();
     let rays: Vec<Option<Ray>> = pairs.iter().flatten().map(|pair| Some(pair.1)).collect();
     let mut ignore = |_| {};
@@ -56,7 +59,7 @@ pub fn form_factor(
 }
 
 /// Two points that face each other, the integrand without V, and the ray between them.
-fn pair(from: &Patch<'_>, to: &Patch<'_>, random: Keyed, sample: u64) -> Option<(f64, Ray)> {
+fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Option<(f64, Ray)> {
     let number = |dimension| random.unit(0, sample, dimension);
     let p = from.place(number(0), [number(1), number(2)])?;
     let q = to.place(number(3), [number(4), number(5)])?;

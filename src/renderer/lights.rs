@@ -32,8 +32,8 @@ pub(super) struct Leaving {
     pub(super) power: DVec3,
 }
 
-/// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters that they stand for; a renderer that
-/// used both would light everything twice.
+/// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters
+/// that they stand for; a renderer that used both would light everything twice.
 pub(super) struct Lights<'a> {
     scene: &'a Scene,
     rounding: f64,
@@ -73,7 +73,8 @@ impl<'a> Lights<'a> {
         self.points.len()
     }
 
-    /// Light that leaves a light: from an emitter by the cosine to its front, from a point in all directions. Takes six numbers in [0, 1).
+    /// Light that leaves a light: from an emitter by the cosine to its front, from a point in all directions. Takes six
+    /// numbers in [0, 1).
     pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<Leaving> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
@@ -116,7 +117,8 @@ impl<'a> Lights<'a> {
         Some(Arriving { ray, towards, light: 1.0 / density * radiance, density })
     }
 
-    /// The density over solid angle with which [`Lights::area`] would have chosen the place of an emitter that a ray found.
+    /// The density over solid angle with which [`Lights::area`] would have chosen the place of an emitter that a ray
+    /// found.
     pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
         let way = found.place.at - from;

@@ -55,8 +55,8 @@ impl Lobes {
         if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }
     }
 
-    /// `f cos`, and the density with which [`Lobes::choose`] takes the direction. Both are zero where the direction leaves by the other side of
-    /// the triangle, or is below the shading normal's horizon.
+    /// `f cos`, and the density with which [`Lobes::choose`] takes the direction. Both are zero where the direction
+    /// leaves by the other side of the triangle, or is below the shading normal's horizon.
     pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: DVec3) -> (DVec3, f64) {
         let cos = towards.dot(surfel.shading);
         if cos <= 0.0 || towards.dot(surfel.normal) <= 0.0 {
@@ -96,15 +96,15 @@ pub(super) struct SpecularRay {
     pub(super) kind: RayKind,
     /// The chance with which it is taken where one of several is.
     pub(super) chance: f64,
-    /// What a photon's flux is multiplied by, beside `weight`, so that what it lands as is irradiance over the square of the index too: the
-    /// square of the ratio of indices at a boundary that it passes, else 1.
+    /// What a photon's flux is multiplied by, beside `weight`, so that what it lands as is irradiance over the square
+    /// of the index too: the square of the ratio of indices at a boundary that it passes, else 1.
     pub(super) squeeze: f64,
 }
 
 /// The ways on from a mirror (one) or glass (one under total internal reflection, else two); none from other surfaces.
 ///
-/// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963): so there is no factor here,
-/// and what shines or scatters inside glass does so as in air.
+/// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963):
+/// so there is no factor here, and what shines or scatters inside glass does so as in air.
 pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
     let mirrored = |weight, chance| SpecularRay {
         towards: mirror_direction(surfel),

@@ -30,8 +30,9 @@ pub enum Direct {
     Both,
 }
 
-/// Renders by path tracing. `settings.depth` is the most surfaces that a path meets between eye and light: 0 shows emitters alone, 1 light that
-/// comes straight from emitters too. After three hits a path lives on by chance (Russian roulette), which leaves the mean as it is.
+/// Renders by path tracing. `settings.depth` is the most surfaces that a path meets between eye and light: 0 shows
+/// emitters alone, 1 light that comes straight from emitters too. After three hits a path lives on by chance (Russian
+/// roulette), which leaves the mean as it is.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.

@@ -58,9 +58,10 @@ impl PhotonMap {
         Self { photons, axes }
     }
 
-    /// The sum of `value` over the photons about a point, an area. Takes the `nearest` photons within `radius` that landed on a surface
-    /// that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the other k - 1 the sum: on an even spread that has
-    /// the right mean. Where fewer than `nearest` lie within the radius, all of them count and its own area does.
+    /// The sum of `value` over the photons about a point, an area. Takes the `nearest` photons within `radius` that
+    /// landed on a surface that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the other k
+    /// - 1 the sum: on an even spread that has the right mean. Where fewer than `nearest` lie within the radius, all of
+    /// them count and its own area does.
     pub(super) fn density(
         &self,
         at: DVec3,
@@ -166,10 +167,11 @@ impl NearestSearch<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::random::Keyed;
+    use crate::geom::random::CounterRng;
+    use approx::assert_abs_diff_eq;
 
     fn scattered(count: u64) -> Vec<Photon> {
-        let random = Keyed::new(3);
+        let random = CounterRng::new(3);
         let photon = |i| Photon {
             at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), if i % 5 == 0 { 0.5 } else { 0.0 }),
             normal: if i % 7 == 0 { DVec3::NEG_Z } else { DVec3::Z },
@@ -196,13 +198,13 @@ mod tests {
     fn the_nearest_are_those_that_a_plain_search_finds() {
         let photons = scattered(500);
         let map = PhotonMap::new(photons.clone());
-        let random = Keyed::new(4);
+        let random = CounterRng::new(4);
         for i in 0..100 {
             let at = DVec3::from([0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1));
             for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
                 let found = map.density(at, DVec3::Z, nearest, radius, |photon| photon.power)[0];
                 let expected = slowly(&photons, at, nearest, radius);
-                assert!((found - expected).abs() <= 1e-9 * expected, "{found} {expected}");
+                assert_abs_diff_eq!(found, expected, epsilon = 1e-9 * expected);
             }
         }
     }
@@ -210,7 +212,7 @@ mod tests {
     #[test]
     fn an_even_spread_has_its_density() {
         // 4000 photons on a square of side 1, seen from its middle.
-        let random = Keyed::new(9);
+        let random = CounterRng::new(9);
         let photon = |i| Photon {
             at: DVec3::new(random.unit(i, 0, 0), random.unit(i, 0, 1), 0.0),
             normal: DVec3::Z,
@@ -220,7 +222,7 @@ mod tests {
         let map = PhotonMap::new((0..4000).map(photon).collect());
         let mean = (0..25).map(|i| DVec3::new(0.3 + 0.1 * f64::from(i % 5), 0.3 + 0.1 * f64::from(i / 5), 0.0));
         let mean = mean.map(|at| map.density(at, DVec3::Z, 100, 1.0, |p| p.power)[0]).sum::<f64>() / 25.0;
-        assert!((mean - 1.0).abs() < 0.05, "{mean}");
+        assert_abs_diff_eq!(mean, 1.0, epsilon = 0.05);
         assert_eq!(PhotonMap::default().density(DVec3::ZERO, DVec3::Z, 10, 1.0, |p| p.power), DVec3::ZERO);
     }
 }

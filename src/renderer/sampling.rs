@@ -1,4 +1,5 @@
-//! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global Illumination Compendium).
+//! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global
+//! Illumination Compendium).
 
 use super::vector::turned;
 use crate::elementary::{on_circle, pow};
@@ -82,12 +83,13 @@ impl DiscreteDistribution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::random::Keyed;
+    use crate::geom::random::CounterRng;
+    use approx::assert_abs_diff_eq;
 
     const COUNT: u64 = 20_000;
 
     fn mean(f: impl Fn([f64; 2]) -> f64) -> f64 {
-        let random = Keyed::new(5);
+        let random = CounterRng::new(5);
         (0..COUNT).map(|i| f([random.unit(i, 0, 0), random.unit(i, 0, 1)])).sum::<f64>() / COUNT as f64
     }
 
@@ -95,11 +97,11 @@ mod tests {
     fn densities_are_those_stated() {
         let normal = DVec3::new(0.0, 0.6, 0.8);
         // Under cos / pi the mean cosine is 2/3; under the lobe's density it is (n + 1) / (n + 2).
-        assert!((mean(|u| cosine(normal, u).dot(normal)) - 2.0 / 3.0).abs() < 0.01);
-        assert!((mean(|u| lobe(normal, 8.0, u).dot(normal)) - 0.9).abs() < 0.005);
+        assert_abs_diff_eq!(mean(|u| cosine(normal, u).dot(normal)), 2.0 / 3.0, epsilon = 0.01);
+        assert_abs_diff_eq!(mean(|u| lobe(normal, 8.0, u).dot(normal)), 0.9, epsilon = 0.005);
         // The centroid of a triangle is the mean of its corners; half of a disk's area lies within 1 / sqrt 2.
-        assert!((mean(|u| triangle(u)[1]) - 1.0 / 3.0).abs() < 0.01);
-        assert!((mean(|u| disk(u).map(|x| x * x).iter().sum::<f64>()) - 0.5).abs() < 0.01);
+        assert_abs_diff_eq!(mean(|u| triangle(u)[1]), 1.0 / 3.0, epsilon = 0.01);
+        assert_abs_diff_eq!(mean(|u| disk(u).map(|x| x * x).iter().sum::<f64>()), 0.5, epsilon = 0.01);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What all renderers are told.
+//! Settings that all renderers share.
 
 use thiserror::Error;
 
@@ -15,25 +15,27 @@ pub struct Lens {
     pub focus: f64,
 }
 
-/// What all renderers are told; each says what it makes of `depth`.
+/// Settings that all renderers share; each documents what it makes of `depth`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples a pixel, at least 1. One goes through the middle of the pixel, several anywhere in it with the same chance.
+    /// Samples per pixel, at least 1. One goes through the middle of the pixel, several anywhere in it with the same
+    /// chance.
     pub samples: u32,
     /// The longest path.
     pub depth: u32,
-    /// Which random numbers.
+    /// Random seed.
     pub seed: u64,
-    /// Rays of a bundle, about: bounds the memory, never shows in the picture.
+    /// Approximate number of rays per bundle: bounds the memory, never changes the picture.
     pub bundle: usize,
-    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: says how far off a surface rays start. A card of a shorter format, told
-    /// that it has a longer one, sees its surfaces lie in their own shadow.
+    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: says how far off a surface rays start. A card of a
+    /// shorter format, told that it has a longer one, sees its surfaces lie in their own shadow.
     pub rounding: f64,
     /// A lens; else a pinhole.
     pub lens: Option<Lens>,
     /// Radiance from where nothing is.
     pub background: Color,
-    /// Radiance that Whitted's model adds to what diffuse surfaces scatter, times their albedo (his constant term); others ignore it.
+    /// Radiance that Whitted's model adds to what diffuse surfaces scatter, times their albedo (his constant term);
+    /// others ignore it.
     pub ambient: Color,
 }
 
@@ -86,7 +88,7 @@ impl Settings {
 /// Why there is no picture.
 #[derive(Debug, Error)]
 pub enum RenderError {
-    /// Whoever traces could not.
+    /// The ray caster failed.
     #[error(transparent)]
     Cast(#[from] CastError),
     /// A figure that makes no sense.

@@ -1,7 +1,7 @@
 //! A hit, worked out: where it is, how the surface lies there, and how far off it the next ray must start.
 //!
-//! The place is found anew in f64, on the triangle itself: t in f32 says only which triangle. So what a caster's arithmetic did to t is not
-//! seen in the picture, only what it did to the choice of triangle.
+//! The place is found anew in f64, on the triangle itself: t in f32 says only which triangle. So what a caster's
+//! arithmetic did to t is not seen in the picture, only what it did to the choice of triangle.
 
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
@@ -19,7 +19,8 @@ pub(super) struct Surfel<'a> {
     pub(super) place: SurfacePoint,
     /// The triangle's normal on the side that was hit.
     pub(super) normal: DVec3,
-    /// The normal to shade with: interpolated, on the side that was hit, and turned no further from the viewer than that it is seen.
+    /// The normal to shade with: interpolated, on the side that was hit, and turned no further from the viewer than
+    /// that it is seen.
     pub(super) shading: DVec3,
     /// Back along the ray, length 1.
     pub(super) view: DVec3,
@@ -57,7 +58,8 @@ impl<'a> Surfel<'a> {
         Ray::new(self.start(towards), narrow(towards)).ok()
     }
 
-    /// A ray to a place on another triangle, which meets something at t < 1 if and only if something is between. `None` if they coincide.
+    /// A ray to a place on another triangle, which meets something at t < 1 if and only if something is between. `None`
+    /// if they coincide.
     pub(super) fn ray_to(&self, other: &SurfacePoint) -> Option<Ray> {
         self.place.ray_to(other)
     }
@@ -90,8 +92,8 @@ fn interpolated(corners: [[f32; 3]; 3], weights: DVec3) -> Option<DVec3> {
     unit(weights[0] * a + weights[1] * b + weights[2] * c)
 }
 
-/// A shading normal that faces the viewer: one that does not is bent towards him until it just does. One that faces away from
-/// the triangle's own altogether is not believed.
+/// A shading normal that faces the viewer: one that does not is bent towards the viewer until it just does. One that
+/// faces away from the triangle's own altogether is not believed.
 fn seen(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
     if smooth.dot(normal) <= 0.0 {
         return normal;
@@ -107,7 +109,7 @@ fn seen(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
 mod tests {
     use super::*;
     use crate::geom::Mesh;
-    use crate::geom::random::Keyed;
+    use crate::geom::random::CounterRng;
     use crate::tracer::offset::SINGLE;
 
     fn triangle() -> Scene {
@@ -119,7 +121,7 @@ mod tests {
     #[test]
     fn places_lie_on_their_triangle_whatever_t_says() {
         let scene = triangle();
-        let random = Keyed::new(1);
+        let random = CounterRng::new(1);
         for i in 0..200 {
             let eye = [0, 1, 2].map(|k| (20.0 * random.unit(i, 0, k)) as f32);
             let inside = SurfacePoint::new(

@@ -10,7 +10,8 @@ pub fn srgb(value: f64) -> u8 {
     (curved * 255.0 + 0.5) as u8
 }
 
-/// Red, green, blue bytes of a picture: each radiance times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
+/// Red, green, blue bytes of a picture: each radiance times `exposure`, through the sRGB curve. What is brighter than 1
+/// is clipped.
 pub fn bytes(color: &[[f64; 3]], exposure: f64) -> Vec<u8> {
     color.iter().flat_map(|pixel| pixel.map(|channel| srgb(channel * exposure))).collect()
 }

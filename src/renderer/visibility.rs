@@ -5,9 +5,9 @@ use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::{CastError, Caster};
 
-/// For each pair of points: whether the open segment between them meets no triangle. Points on surfaces must be lifted off them by the
-/// caller, to the side that is meant; [`super::form_factor`] does so by itself. Two points at one place see each other, and so do points that
-/// f32 has no segment for.
+/// For each pair of points: whether the open segment between them meets no triangle. Points on surfaces must be lifted
+/// off them by the caller, to the side that is meant; [`super::form_factor`] does so by itself. Two points at one place
+/// see each other, and so do points that f32 has no segment for.
 ///
 /// # Errors
 /// [`CastError`] if the caster fails.

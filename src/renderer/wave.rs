@@ -5,14 +5,14 @@ use rayon::prelude::*;
 
 use super::RenderError;
 use super::counting::{CountingCaster, RayKind};
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
 use crate::geom::{Hit, Ray};
 use crate::tracer::{CastError, is_occluder};
 
 /// Random numbers of one sample of one pixel, along one branch of its tree of rays.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dice {
-    stream: Keyed,
+    stream: CounterRng,
     pixel: u64,
     sample: u64,
     branch: u64,
@@ -25,7 +25,7 @@ const A_HIT: u64 = 16;
 
 impl Dice {
     pub(super) const fn new(seed: u64, pixel: u64, sample: u64) -> Self {
-        Self { stream: Keyed::new(seed), pixel, sample, branch: 0 }
+        Self { stream: CounterRng::new(seed), pixel, sample, branch: 0 }
     }
 
     /// The dice of one of several rays that leave a hit.
@@ -107,7 +107,8 @@ pub(super) struct Wave {
     pub(super) first: Vec<Option<Hit>>,
 }
 
-/// Follows rays from the eye, one a slot, to their ends. Every sum runs in an order that the chunk's size does not change.
+/// Follows rays from the eye, one a slot, to their ends. Every sum runs in an order that the chunk's size does not
+/// change.
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,

@@ -1,4 +1,5 @@
-//! Whitted's ray tracing: point lights, hard shadows, mirrors, glass (An Improved Illumination Model for Shaded Display, 1980).
+//! Whitted's ray tracing: point lights, hard shadows, mirrors, glass (An Improved Illumination Model for Shaded
+//! Display, 1980).
 
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
@@ -13,11 +14,13 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit display.
+/// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit
+/// display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
-/// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and by `settings.ambient`;
-/// mirrors and glass send rays on, at most `settings.depth` after each other. Emitters are seen, directly and in mirrors, but do not light.
+/// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and
+/// by `settings.ambient`; mirrors and glass send rays on, at most `settings.depth` after each other. Emitters are seen,
+/// directly and in mirrors, but do not light.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.

@@ -60,8 +60,8 @@ pub enum CameraError {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the tangent of half the vertical
-    /// field of view; pixels are square.
+    /// A camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the tangent of
+    /// half the vertical field of view; pixels are square.
     ///
     /// # Errors
     /// [`CameraError`] for figures that make no picture.
@@ -138,7 +138,7 @@ impl Camera {
         narrow(self.exact_direction(x, y))
     }
 
-    /// The same direction at length 1, within one rounding of f32 a component.
+    /// The same direction at length 1, within one rounding of f32 per component.
     #[must_use]
     pub fn unit_direction(&self, x: u32, y: u32) -> [f32; 3] {
         let direction = self.exact_direction(x, y);
@@ -176,8 +176,8 @@ impl Camera {
         self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
 
-    /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32; the middle of
-    /// pixel (0, 0) is at (0.5, 0.5).
+    /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32;
+    /// the middle of pixel (0, 0) is at (0.5, 0.5).
     #[must_use]
     pub fn direction_at(&self, x: f64, y: f64) -> DVec3 {
         let across = 2.0 * x / f64::from(self.width) - 1.0;
@@ -189,6 +189,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn pixels_run_from_the_upper_left() {
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(camera.direction(3, 1), [0.75, 1.0, -0.25]);
         assert_eq!(camera.rays().len(), 8);
         assert_eq!(camera.rays()[5], camera.ray(1, 1));
-        assert!((wide(camera.unit_direction(2, 0)).length() - 1.0).abs() < 1e-6);
+        assert_abs_diff_eq!(wide(camera.unit_direction(2, 0)).length(), 1.0, epsilon = 1e-6);
     }
 
     #[test]

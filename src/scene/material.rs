@@ -15,7 +15,8 @@ pub enum Surface {
     Glossy {
         /// Reflectance of the diffuse part.
         albedo: Color,
-        /// Reflectance of the lobe at normal incidence. Sum with `albedo` at most 1 a channel, so that no energy is made.
+        /// Reflectance of the lobe at normal incidence. Sum with `albedo` at most 1 per channel, so that no energy is
+        /// made.
         specular: Color,
         /// Phong's exponent, above 0.
         exponent: f32,

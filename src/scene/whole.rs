@@ -42,7 +42,7 @@ impl View {
 /// Why parts make no scene.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SceneError {
-    /// Not one material and one set of normals a triangle.
+    /// Not one material and one set of normals per triangle.
     #[error("expected {triangles} {what}, one a triangle, found {found}")]
     Count {
         /// `materials` or `normals`.
@@ -79,8 +79,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene of triangles, a material each. `normals` are those at each triangle's corners, of length 1 (or zero where the triangle's
-    /// own is meant); an empty list makes all triangles flat.
+    /// A scene of triangles, a material each. `normals` are those at each triangle's corners, of length 1 (or zero
+    /// where the triangle's own is meant); an empty list makes all triangles flat.
     ///
     /// # Errors
     /// [`SceneError`] if the lists do not fit.

@@ -11,8 +11,8 @@ use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 use refsim::exec::batch::SimdLevel;
 
-/// A ray goes on a little beyond its best hit, in shares of t: an fp32 t is no better than that, and the next cell may hold a
-/// triangle whose rounded t is smaller.
+/// A ray goes on a little beyond its best hit, in shares of t: an fp32 t is no better than that, and the next cell may
+/// hold a triangle whose rounded t is smaller.
 const BEYOND: f64 = 1e-5;
 /// Rays that one worker traces at a time.
 const CHUNK: usize = 256;
@@ -36,7 +36,8 @@ impl std::ops::AddAssign for HostCounts {
     }
 }
 
-/// The nearest hit so far: of equal t the lowest triangle, as a card keeps that draws triangles in order and tests `less`.
+/// The nearest hit so far: of equal t the lowest triangle, as a card keeps that draws triangles in order and tests
+/// `less`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Best(Option<(f32, u32)>);
 
@@ -183,8 +184,8 @@ impl HostTracer {
         (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
     }
 
-    /// The first hit with the cells that `gpu` marks tested as the card tests them, every triangle of the cell. It goes the plain way,
-    /// through [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
+    /// The first hit with the cells that `gpu` marks tested as the card tests them, every triangle of the cell. It goes
+    /// the plain way, through [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
@@ -216,7 +217,8 @@ impl HostTracer {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }
 
-    /// [`Self::occluded_before`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose directions end at a light.
+    /// [`Self::occluded_before`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose
+    /// directions end at a light.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }

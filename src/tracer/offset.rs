@@ -1,10 +1,10 @@
 //! How far off a surface rays start and end, so that none hits the triangle that it leaves or the one that it goes to.
 //!
-//! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves by,
-//! at both ends of a segment. The distance depends on what is known of the point:
+//! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves
+//! by, at both ends of a segment. The distance depends on what is known of the point:
 //!
-//! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to the
-//!   test of that triangle;
+//! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to
+//!   the test of that triangle;
 //! - it lies *near* triangles, as a point of a patch whose four corners are flat only up to f32 does:
 //!   [`scene_clearance`], a fixed fraction of the scene.
 
@@ -43,8 +43,8 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not exist.
-    /// `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
+    /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not
+    /// exist. `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
     #[must_use]
     pub fn new(mesh: &Mesh, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
         Self::of(mesh.corners(triangle)?.map(wide), weights, rounding)
@@ -64,18 +64,18 @@ impl SurfacePoint {
 
     /// How far off the triangle a ray must start so that its test misses it, for points up to `reach` from the origin.
     ///
-    /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most
-    /// u (|x| + |y| + |z|), of which twice is taken. The test finds the side from n . ao. One rounding per component of ao,
-    /// ab and ac, and three of the cross product and four of the dot product, make at most (1 + 2 + 2 + 4) u of the sum of
-    /// magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at most the
-    /// triangle's size plus `reach`.
+    /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u (|x| + |y|
+    /// + |z|), of which twice is taken. The test finds the side from n . ao. One rounding per component of ao, ab and
+    /// ac, and three of the cross product and four of the dot product, make at most (1 + 2 + 2 + 4) u of the sum of
+    /// magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at most
+    /// the triangle's size plus `reach`.
     #[must_use]
     pub fn clearance(&self, reach: f64) -> f64 {
         self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
     }
 
-    /// The point lifted off the triangle to the side of `towards`, clear of the test of rays that start there or, with a
-    /// `reach`, that end there.
+    /// The point lifted off the triangle to the side of `towards`, clear of the test of rays that start there or, with
+    /// a `reach`, that end there.
     #[must_use]
     pub fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
         let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };

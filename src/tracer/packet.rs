@@ -13,8 +13,8 @@ type Lanes = [f32; LANES];
 /// A corner per lane, by component.
 type Corners = [Lanes; 3];
 
-/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits. Edges and normal
-/// are computed again each time: that costs less than to fetch them.
+/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits. Edges and
+/// normal are computed again each time: that costs less than to fetch them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 struct Packet {

@@ -5,8 +5,8 @@ use glam::DVec3;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 
-/// Corners are scaled to at most this magnitude: then the squares of their lengths are in the middle of the exponents of
-/// single precision.
+/// Corners are scaled to at most this magnitude: then the squares of their lengths are in the middle of the exponents
+/// of single precision.
 const MAX_CORNER: f64 = 4.0;
 
 /// The scale of a mesh's corners for the single-precision triangle test.
@@ -15,8 +15,8 @@ pub(crate) fn mesh_scale(mesh: &Mesh) -> f64 {
     in_single_precision(scale_into(low.max(high), MAX_CORNER))
 }
 
-/// The nearest scale that is a normal or denormal number of single precision. Scenes below 2^-123, numbers with few bits
-/// left, get less than they need.
+/// The nearest scale that is a normal or denormal number of single precision. Scenes below 2^-123, numbers with few
+/// bits left, get less than they need.
 pub(crate) fn in_single_precision(scale: f64) -> f64 {
     scale.clamp(power_of_two(-149), power_of_two(127))
 }

@@ -1,10 +1,11 @@
-//! The ray-triangle test in f32: what the Ray Engine's `float.psa` and `seven_vectors.vsa` compute, operation by operation.
+//! The ray-triangle test in f32: what the Ray Engine's `float.psa` and `seven_vectors.vsa` compute, operation by
+//! operation.
 //!
-//! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the
-//! result; so the host computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the
-//! scene brought to the same scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation
-//! here is one IEEE operation with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products
-//! run from the left, as `dp3` of the fp32 profiles.
+//! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the result;
+//! so the host computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the scene brought
+//! to the same scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation here is one IEEE
+//! operation with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products run from the
+//! left, as `dp3` of the fp32 profiles.
 
 use glam::Vec3;
 
@@ -45,8 +46,8 @@ impl HostTriangle {
         Self { a, b, n: ab.cross(ac), ab, ac, bc }
     }
 
-    /// The t of a hit along the ray's direction in range: not behind the origin, inside or on the edges, and from the front
-    /// unless `sides` says either.
+    /// The t of a hit along the ray's direction in range: not behind the origin, inside or on the edges, and from the
+    /// front unless `sides` says either.
     pub(crate) fn hit(&self, ray: &HostRay, sides: Sides) -> Option<f32> {
         let (t, hit) = match sides {
             Sides::Front => self.test::<false>(ray),

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::{Ran, crossbar_in};
+use approx::abs_diff_eq;
 
 fn radiosity(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -126,7 +127,7 @@ fn the_card_draws_its_own_form_factors() {
     let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect(&ran.stderr);
     assert_eq!(found["room"][0]["form_factors"], "hemicubes of 16");
     let sum = found["room"][0]["least_row_sum"].as_f64().expect("a number");
-    assert!((sum - 1.0).abs() < 1e-2, "closed: {sum}");
+    assert!(abs_diff_eq!(sum, 1.0, epsilon = 1e-2), "closed: {sum}");
 }
 
 /// An open sheet, a sheet with a triangle without area, a mirror, and nothing.

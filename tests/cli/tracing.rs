@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::crossbar_in;
+use approx::abs_diff_eq;
 
 fn in_project(path: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path).to_string_lossy().into_owned()
@@ -144,7 +145,7 @@ fn a_radeon_8500_traces_rays_of_any_origin_in_one_pass() {
             .collect();
         t
     };
-    let near = |t: Option<f32>, wanted: f32| t.is_some_and(|t| (t - wanted).abs() < 0.01);
+    let near = |t: Option<f32>, wanted: f32| t.is_some_and(|t| abs_diff_eq!(t, wanted, epsilon = 0.01));
     let front = trace("front");
     assert!(near(front[0], 1.0) && front[1..].iter().all(Option::is_none), "front: {front:?}");
     let both = trace("both");

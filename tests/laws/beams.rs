@@ -1,6 +1,6 @@
 //! A bucket's beam never passes by a cell that one of its rays visits.
 
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::tracer::octree::{Beam, Flow, GpuCells, Octree, OctreeParameters};
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 /// Rays through one face of the cube: from a box, most into a cone, with zeros, equal components and tiny ones.
-fn bucket(random: Keyed, count: u64, [distance, origins, directions]: [f64; 3]) -> Vec<Ray> {
+fn bucket(random: CounterRng, count: u64, [distance, origins, directions]: [f64; 3]) -> Vec<Ray> {
     let at = |i: u64, k: u64| 2.0 * random.unit(i, 1, k) - 1.0;
     let (axis, sign) =
         (random.bits(0, 2, 0) as usize % 3, if random.bits(0, 2, 1).is_multiple_of(2) { 1.0 } else { -1.0 });
@@ -48,7 +48,7 @@ proptest! {
         let octree = Octree::new(&scene(), OctreeParameters { most_triangles: 4, most_depth: 7 });
         let cells = GpuCells::mark(&octree, 5..=15);
         let gpu = gpu.then_some(&cells);
-        let rays = bucket(Keyed::new(seed), 40, [distance, origins, directions]);
+        let rays = bucket(CounterRng::new(seed), 40, [distance, origins, directions]);
         // Equal components make a ray look through the first of two faces.
         for face in 0..6 {
             let looks = |ray: &&Ray| {

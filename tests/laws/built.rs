@@ -1,6 +1,8 @@
 //! The scenes that the project builds: exact counts, sound triangles, and nothing but fronts to be seen.
 
+use approx::abs_diff_eq;
 use crossbar::geom::exact::{Sides, nearest_all};
+use crossbar::geom::vector::wide;
 use crossbar::scene::{Scene, built};
 
 fn scene(name: &str) -> Scene {
@@ -28,11 +30,15 @@ fn triangles_have_areas_and_normals_lean_to_the_front() {
         assert!(!scene.emitters().is_empty(), "{name} has a light");
         for (triangle, [a, b, c]) in (0..).zip(scene.mesh().iter_corners()) {
             let Some(normals) = scene.corner_normals(triangle) else { continue };
-            let face = cross(sub(b, a), sub(c, a));
+            let [a, b, c] = [a, b, c].map(wide);
+            let face = (b - a).cross(c - a);
             for normal in normals {
-                let normal = normal.map(f64::from);
-                assert!((dot(normal, normal) - 1.0).abs() < 1e-6, "{name}: normal {normal:?} of triangle {triangle}");
-                assert!(dot(normal, face) > 0.0, "{name}: normal {normal:?} of triangle {triangle} leans back");
+                let normal = wide(normal);
+                assert!(
+                    abs_diff_eq!(normal.length_squared(), 1.0, epsilon = 1e-6),
+                    "{name}: normal {normal:?} of triangle {triangle}"
+                );
+                assert!(normal.dot(face) > 0.0, "{name}: normal {normal:?} of triangle {triangle} leans back");
             }
         }
     }
@@ -65,16 +71,4 @@ fn views_see_fronts_only() {
             }
         }
     }
-}
-
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|axis| f64::from(a[axis]) - f64::from(b[axis]))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

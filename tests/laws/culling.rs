@@ -1,7 +1,7 @@
 //! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything finds.
 
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
@@ -13,7 +13,7 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 /// Numbers from -1 to 1 and, more often than by chance, 0 and the ends.
-fn coordinate(random: Keyed, i: u64, k: u64) -> f64 {
+fn coordinate(random: CounterRng, i: u64, k: u64) -> f64 {
     match random.bits(i, 9, k) % 8 {
         0 => 0.0,
         1 => 1.0,
@@ -22,7 +22,7 @@ fn coordinate(random: Keyed, i: u64, k: u64) -> f64 {
     }
 }
 
-fn point(random: Keyed, i: u64) -> [f64; 3] {
+fn point(random: CounterRng, i: u64) -> [f64; 3] {
     [0, 1, 2].map(|k| coordinate(random, i, k))
 }
 
@@ -31,7 +31,7 @@ fn add(a: [f64; 3], b: [f64; 3], by: f64) -> [f64; 3] {
 }
 
 /// Triangles of all kinds: plain, tiny, huge, needles, points, lines, and with corners of their neighbours.
-fn triangles(random: Keyed, count: u64, size: f64, wild: bool) -> Mesh {
+fn triangles(random: CounterRng, count: u64, size: f64, wild: bool) -> Mesh {
     let mut positions: Vec<[f32; 3]> = Vec::new();
     for i in 0..count {
         let at = point(random, 100 + i);
@@ -63,7 +63,7 @@ fn triangles(random: Keyed, count: u64, size: f64, wild: bool) -> Mesh {
 }
 
 /// Rays from a box, most of them into a cone, some at corners and edges and from points of the triangles.
-fn rays(random: Keyed, mesh: &Mesh, size: f64, [origins, directions]: [f64; 2]) -> RayBatch {
+fn rays(random: CounterRng, mesh: &Mesh, size: f64, [origins, directions]: [f64; 2]) -> RayBatch {
     let (eye, at) = (add([0.0; 3], point(random, 5000), 3.0), point(random, 5001));
     let mut all = Vec::new();
     for i in 0..64_u64 {
@@ -105,7 +105,7 @@ proptest! {
         origins in prop::sample::select(vec![0.0, 0.01, 0.3, 3.0]),
         directions in prop::sample::select(vec![0.0, 0.02, 0.3, 5.0]),
     ) {
-        let random = Keyed::new(seed);
+        let random = CounterRng::new(seed);
         let mesh = triangles(random, 12, size, true);
         let rays = rays(random, &mesh, size, [origins, directions]);
         let all: Vec<u32> = (0..mesh.len() as u32).collect();
@@ -127,7 +127,7 @@ fn much_of_what_can_be_culled_is() {
         for (sides, share) in [(Sides::Front, 1), (Sides::Both, 2)] {
             let mut gone = 0;
             for seed in 0..60 {
-                let random = Keyed::new(seed);
+                let random = CounterRng::new(seed);
                 let mesh = triangles(random, 12, 1.0, false);
                 let rays = rays(random, &mesh, 1.0, [0.0, 0.02]);
                 let all: Vec<u32> = (0..12).collect();

@@ -2,7 +2,7 @@
 
 use crossbar::geom::Hit;
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::Outputs;
@@ -24,7 +24,7 @@ fn profile() -> Profile {
 /// Eye rays, and rays from everywhere to everywhere.
 fn rays(count: usize) -> Vec<Ray> {
     let mut rays = Camera::teapot(32, 32).expect("a camera").rays();
-    let random = Keyed::new(21);
+    let random = CounterRng::new(21);
     for i in 0.. {
         if rays.len() >= count {
             break;

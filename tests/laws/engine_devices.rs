@@ -2,7 +2,7 @@
 
 use crossbar::geom::Hit;
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::Crossbar;
@@ -21,7 +21,7 @@ fn profile(name: &str) -> Profile {
 fn scene() -> (Mesh, Vec<Ray>) {
     let whole = teapot(2).expect("a teapot");
     let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..96].to_vec()).expect("a part of it");
-    let (random, eye) = (Keyed::new(3), Camera::teapot(1, 1).expect("a camera").rays()[0].origin());
+    let (random, eye) = (CounterRng::new(3), Camera::teapot(1, 1).expect("a camera").rays()[0].origin());
     let ray = |i: u64| {
         let [a, b, c] = mesh.corners((i / 4) as u32).expect("a triangle");
         let [p, q] = [0, 1].map(|k| 0.5 * random.unit(i, 0, k) as f32);

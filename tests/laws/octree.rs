@@ -2,7 +2,7 @@
 
 use crossbar::geom::Hit;
 use crossbar::geom::exact::{self, Sides};
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::{Crossbar, RayBatch};
@@ -105,7 +105,7 @@ proptest! {
 #[test]
 fn cells_come_front_to_back_and_cover_the_ray() {
     let octree = Octree::new(&teapot(4).expect("a teapot"), OctreeParameters::default());
-    let random = Keyed::new(3);
+    let random = CounterRng::new(3);
     for i in 0..2_000 {
         let point = |s| [0, 1, 2].map(|k| (8.0 * random.unit(i, s, k) - 4.0) as f32);
         let (from, to) = (point(0), point(1));

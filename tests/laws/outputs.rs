@@ -1,5 +1,6 @@
 //! What comes back of a ray changes bytes and work, and never a hit.
 
+use approx::abs_diff_eq;
 use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
@@ -123,12 +124,12 @@ fn the_weights_of_the_corners_give_the_point_that_was_hit() {
             seen += 1;
             assert!(weights.iter().all(|w| *w >= 0.0), "{weights:?}");
             let sum: f32 = weights.iter().sum();
-            assert!((sum - 1.0).abs() < 1e-3, "u + v + w is -n.d: {sum}");
+            assert!(abs_diff_eq!(sum, 1.0, epsilon = 1e-3), "u + v + w is -n.d: {sum}");
             let [a, b, c] = mesh.corners(hit.triangle).expect("a triangle");
             for axis in 0..3 {
                 let place = weights[0] * a[axis] + weights[1] * b[axis] + weights[2] * c[axis];
                 let along = ray.origin()[axis] + hit.t * ray.direction()[axis];
-                assert!((place - along).abs() < 3e-3, "axis {axis}: {place} and {along}");
+                assert!(abs_diff_eq!(place, along, epsilon = 3e-3), "axis {axis}: {place} and {along}");
             }
         }
         assert!(seen > 500, "{seen} hits");

@@ -1,12 +1,12 @@
 //! The ray tree gives back every ray once.
 
 use crossbar::geom::Ray;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::ray_engine::ray_tree::{RayTree, RayTreeParameters};
 use proptest::prelude::*;
 
 fn ray(i: u64, spread: f64) -> Ray {
-    let random = Keyed::new(11);
+    let random = CounterRng::new(11);
     let part = |sample, k| (spread * (2.0 * random.unit(i, sample, k) - 1.0)) as f32;
     let d = [0, 1, 2].map(|k| 2.0 * random.unit(i, 1, k) as f32 - 1.0);
     Ray::new([0, 1, 2].map(|k| part(0, k)), if d == [0.0; 3] { [1.0, 0.0, 0.0] } else { d }).expect("a ray")
@@ -49,7 +49,7 @@ fn buckets_are_coherent_and_well_filled() {
     for i in 0..100_000_u32 {
         tree.insert(i, &ray(u64::from(i), 10.0));
     }
-    let full = tree.fullness();
+    let full = tree.occupancy();
     let mean = full.iter().sum::<f64>() / full.len() as f64;
     assert!((0.3..0.9).contains(&mean), "the mean bucket is {:.0} % full", 100.0 * mean);
     let spread = |rays: &[u32]| {

@@ -1,11 +1,11 @@
 //! Bits of the factorisations. CI runs this with and without nalgebra's `std` feature, which other people's crates turn
 //! on in builds of the whole workspace: its kernels, chosen by the processor, must not show.
 
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::linalg::{Lu, Matrix, Qr, Svd, SymmetricEigen, dot};
 
 fn random([rows, columns]: [usize; 2], seed: u64) -> Matrix {
-    let random = Keyed::new(seed);
+    let random = CounterRng::new(seed);
     let value = |k: usize| random.unit(k as u64, 0, 0) - 0.5;
     Matrix::new([rows, columns], (0..rows * columns).map(value).collect()).expect("a small matrix")
 }

@@ -1,5 +1,6 @@
 //! Matrix radiosity: what the paper says of its figures, and what follows from it.
 
+use approx::abs_diff_eq;
 use crossbar::elementary::ln;
 use crossbar::radiosity::model;
 use crossbar::radiosity::packing::Packing;
@@ -84,8 +85,11 @@ fn an_iteration_of_1540_patches_on_the_5900_ultra() {
     let timing = Timing { patches: 1540, packing: Packing::Rgb, storage: Storage::Fp32, cache: false };
     let timed = timed_iteration(&Profile::named("nv35").expect("a card"), &timing).expect("an iteration");
     assert_eq!((timed.passes, timed.bottleneck), (7, Bottleneck::Textures));
-    assert!((timed.per_s - 31.578).abs() < 1e-3 && (timed.mflops - 149.779).abs() < 1e-3, "{timed:?}");
-    assert!((timed.per_s / 29.7 - 1.0).abs() < 0.15 && timed.bandwidth < 0.1, "near what is printed");
+    assert!(
+        abs_diff_eq!(timed.per_s, 31.578, epsilon = 1e-3) && abs_diff_eq!(timed.mflops, 149.779, epsilon = 1e-3),
+        "{timed:?}"
+    );
+    assert!(abs_diff_eq!(timed.per_s / 29.7, 1.0, epsilon = 0.15) && timed.bandwidth < 0.1, "near what is printed");
     // The target is one texel high.
     assert_eq!(timed.filled, 0.5);
 }

@@ -1,35 +1,33 @@
 //! Section 5.3: the ray cache's statistics, and what culling in the vertex program costs and saves.
 
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::scene::Camera;
 use crossbar::tracer::HostTracer;
+use glam::Vec3;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::timing::{Level, Model};
 
 /// The ray that a hit reflects, a little disturbed.
-fn reflected(mesh: &Mesh, ray: &Ray, hit: &Hit, random: Keyed, i: u64) -> Option<Ray> {
-    let [a, b, c] = mesh.corners(hit.triangle)?;
-    let sub = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let (ab, ac, d) = (sub(b, a), sub(c, a), ray.direction());
-    let n = [ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]];
-    let dot = |p: [f32; 3], q: [f32; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let by = 2.0 * dot(n, d) / dot(n, n);
-    let rough = |k: usize| 0.1 * (random.unit(i, 0, k as u64) as f32 - 0.5);
-    let direction = [0, 1, 2].map(|k| d[k] - by * n[k] + rough(k));
-    Ray::new([0, 1, 2].map(|k| ray.origin()[k] + 0.999 * hit.t * d[k]), direction).ok()
+fn reflected(mesh: &Mesh, ray: &Ray, hit: &Hit, random: CounterRng, i: u64) -> Option<Ray> {
+    let [a, b, c] = mesh.corners(hit.triangle)?.map(Vec3::from);
+    let (n, d) = ((b - a).cross(c - a), Vec3::from(ray.direction()));
+    let by = 2.0 * n.dot(d) / n.dot(n);
+    let rough = Vec3::from([0, 1, 2].map(|k| 0.1 * (random.unit(i, 0, k) as f32 - 0.5)));
+    let start = Vec3::from(ray.origin()) + 0.999 * hit.t * d;
+    Ray::new(start.into(), (d - by * n + rough).into()).ok()
 }
 
 /// Eye rays and the rays that their hits reflect.
 fn rays(mesh: &Mesh, side: u32) -> Vec<Ray> {
     let mut rays = Camera::teapot(side, side).expect("a camera").rays();
     let hits = HostTracer::new(mesh, Sides::Front).nearest_all(&rays).0;
-    let random = Keyed::new(5);
+    let random = CounterRng::new(5);
     let second: Vec<Ray> = (0..)
         .zip(rays.iter().zip(&hits))
         .filter_map(|(i, (ray, hit))| reflected(mesh, ray, hit.as_ref()?, random, i))
@@ -57,7 +55,7 @@ fn cache(mesh: &Mesh, rays: &[Ray], shuffle: Option<u64>) -> Cache {
     let parameters = EngineParameters { shuffle, card: false, ..EngineParameters::default() };
     let mut engine = engine(mesh, "ideal-fp32", parameters);
     engine.submit(rays).expect("the host works");
-    let full = engine.fullness();
+    let full = engine.occupancy();
     engine.finish().expect("the host works");
     let tree = engine.counts().tree;
     Cache {

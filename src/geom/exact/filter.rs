@@ -7,14 +7,17 @@
 //! operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
 //!
 //! **The bound.** Every figure here is a sum of at most six products `x * y * z` whose factors are components of d
-//! (exact) or differences of corners and origin (one rounding each). A product gathers: at most three roundings of its factors,
-//! two of multiplications, one of the difference inside the cross product, two of the outer sum: 8. So the error
-//! is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
+//! (exact) or differences of corners and origin (one rounding each). A product gathers: at most three roundings of its
+//! factors, two of multiplications, one of the difference inside the cross product, two of the outer sum: 8. So the
+//! error is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
 //! operations on magnitudes, so P <= P' / (1 - u)^8, and the error is below 8.1 u P'. `16 u P'` is used (a power of two
 //! times P', hence exact).
 
+use glam::{DVec3, Vec3Swizzles};
+
 use super::Sides;
 use crate::geom::Ray;
+use crate::geom::vector::wide;
 
 /// Half a unit in the last place of 1: the largest relative error of one f64 operation.
 const U: f64 = f64::EPSILON / 2.0;
@@ -64,24 +67,15 @@ impl Estimate {
     }
 }
 
-type Vector = [f64; 3];
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
 /// A cross product, and the sums of its products' magnitudes.
-fn cross(a: Vector, b: Vector) -> (Vector, Vector) {
-    let (yz, zy) = (a[1] * b[2], a[2] * b[1]);
-    let (zx, xz) = (a[2] * b[0], a[0] * b[2]);
-    let (xy, yx) = (a[0] * b[1], a[1] * b[0]);
-    ([yz - zy, zx - xz, xy - yx], [yz.abs() + zy.abs(), zx.abs() + xz.abs(), xy.abs() + yx.abs()])
+fn cross(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+    let (left, right) = (a.yzx() * b.zxy(), a.zxy() * b.yzx());
+    (left - right, left.abs() + right.abs())
 }
 
 /// The product of a vector with such a cross product, with its error bound.
-fn mixed(d: Vector, (value, magnitude): (Vector, Vector)) -> Estimate {
-    let sum = d[0].abs() * magnitude[0] + d[1].abs() * magnitude[1] + d[2].abs() * magnitude[2];
-    Estimate { value: d[0] * value[0] + d[1] * value[1] + d[2] * value[2], error: 16.0 * U * sum }
+fn mixed(d: DVec3, (value, magnitude): (DVec3, DVec3)) -> Estimate {
+    Estimate { value: d.dot(value), error: 16.0 * U * d.abs().dot(magnitude) }
 }
 
 /// A number not above any t that rounds to `t`, nor above `t` by up to eight roundings.
@@ -97,9 +91,8 @@ pub(super) fn above(t: f64) -> f64 {
 /// What f64 can say. The corners must be finite.
 #[must_use]
 pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
-    let o = ray.origin().map(f64::from);
-    let d = ray.direction().map(f64::from);
-    let [a, b, c] = triangle.map(|corner| sub(corner.map(f64::from), o));
+    let (o, d) = (wide(ray.origin()), wide(ray.direction()));
+    let [a, b, c] = triangle.map(|corner| wide(corner) - o);
 
     let edges = [cross(b, c), cross(c, a), cross(a, b)].map(|pair| mixed(d, pair).sense());
     let positive = edges.contains(&Sense::Positive);
@@ -107,9 +100,9 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     if positive && (negative || sides == Sides::Front) {
         return Guess::Miss;
     }
-    // The edges of the triangle itself, not differences of differences: one rounding a component.
-    let corners = triangle.map(|corner| corner.map(f64::from));
-    let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+    // The edges of the triangle itself, not differences of differences: one rounding per component.
+    let corners = triangle.map(wide);
+    let normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     let facing = mixed(d, normal);
     let height = mixed(a, normal);
     let sense = facing.sense();
@@ -135,9 +128,9 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
 
 /// Whether the triangle certainly has an area.
 pub(super) fn has_area(triangle: &[[f32; 3]; 3]) -> bool {
-    let [a, b, c] = triangle.map(|corner| corner.map(f64::from));
-    let (value, magnitude) = cross(sub(b, a), sub(c, a));
-    (0..3).any(|axis| value[axis].abs() > 16.0 * U * magnitude[axis])
+    let [a, b, c] = triangle.map(wide);
+    let (value, magnitude) = cross(b - a, c - a);
+    value.abs().cmpgt(16.0 * U * magnitude).any()
 }
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
 //! Ground truth: which triangles a ray hits, and which first, decided in exact arithmetic on the f32 figures as given.
 //!
-//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, in multiples of the ray's
-//! direction as given. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0) is
-//! never hit. n = (b - a) x (c - a); from the front means n.d < 0. Hits are ordered by exact t; of several at the same t
-//! the smallest id comes first, and the whole set of ties is reported.
+//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, in multiples of the
+//! ray's direction as given. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0)
+//! is never hit. n = (b - a) x (c - a); from the front means n.d < 0. Hits are ordered by exact t; of several at the
+//! same t the smallest id comes first, and the whole set of ties is reported.
 //!
 //! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) tell on which side
-//! of each edge the ray passes, and t = (n.A) / (n.d). [`whole`] evaluates these as integers of any size, since an f32 is
-//! an integer times a power of two. In front of it stands [`filter`], which evaluates them in f64 with a proved error bound
-//! and decides only what is clear; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests hold all
-//! three to the same answers.
+//! of each edge the ray passes, and t = (n.A) / (n.d). [`whole`] evaluates these as integers of any size, since an f32
+//! is an integer times a power of two. In front of it stands [`filter`], which evaluates them in f64 with a proved
+//! error bound and decides only what is clear; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests
+//! hold all three to the same answers.
 
 pub mod filter;
 pub mod ratio;
@@ -67,7 +67,8 @@ impl ExactT {
         ratio::to_f32(&self.num, &self.den)
     }
 
-    /// The nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays and triangles.
+    /// The nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays and
+    /// triangles.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         ratio::to_f64(&self.num, &self.den)

@@ -35,8 +35,8 @@ pub fn compare(a_num: &BigUint, a_den: &BigUint, b_num: &BigUint, b_den: &BigUin
     (a_num * b_den).cmp(&(b_num * a_den))
 }
 
-/// `num / den` as mantissa * 2^unit with at most `bits` bits, `unit >= lowest`, rounded to nearest even; `None` when the
-/// rounded value reaches 2^`top`. The mantissa has exactly `bits` bits unless `unit == lowest`.
+/// `num / den` as mantissa * 2^unit with at most `bits` bits, `unit >= lowest`, rounded to nearest even; `None` when
+/// the rounded value reaches 2^`top`. The mantissa has exactly `bits` bits unless `unit == lowest`.
 fn round(num: &BigUint, den: &BigUint, bits: u32, lowest: i64, top: i64) -> Option<(u64, i64)> {
     if num.is_zero() {
         return Some((0, lowest));

@@ -1,13 +1,16 @@
 //! A tree of boxes over a mesh that never skips a hit, for many rays.
 //!
-//! A box holds its triangles exactly (f32 figures in f64). A ray crosses the planes x = k at t = (k - o) / d, computed with at
-//! most three roundings; the interval of t inside a box is widened by 16 u on both ends, so that it holds the exact
-//! interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only when its widened
-//! interval is empty or starts beyond a t that some certain hit does not exceed. So the tree can change the time, but not the answer.
+//! A box holds its triangles exactly (f32 figures in f64). A ray crosses the planes x = k at t = (k - o) / d, computed
+//! with at most three roundings; the interval of t inside a box is widened by 16 u on both ends, so that it holds the
+//! exact interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only when its
+//! widened interval is empty or starts beyond a t that some certain hit does not exceed. So the tree can change the
+//! time, but not the answer.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{NearestHit, Shortlist, Sides, filter};
+use crate::geom::vector::wide;
 use crate::geom::{Mesh, Ray};
 
 /// Triangles in a leaf, at most.
@@ -28,9 +31,9 @@ pub struct Tracer<'a> {
 
 #[derive(Debug, Clone, Copy)]
 struct BoxNode {
-    low: [f64; 3],
-    high: [f64; 3],
-    kind: BoxContent,
+    low: DVec3,
+    high: DVec3,
+    content: BoxContent,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -43,9 +46,9 @@ enum BoxContent {
 
 /// A ray in f64, with what the boxes need.
 struct Probe {
-    origin: [f64; 3],
-    direction: [f64; 3],
-    inverse: [f64; 3],
+    origin: DVec3,
+    direction: DVec3,
+    inverse: DVec3,
 }
 
 impl<'a> Tracer<'a> {
@@ -53,12 +56,8 @@ impl<'a> Tracer<'a> {
     #[must_use]
     pub fn new(mesh: &'a Mesh) -> Self {
         let corners: Vec<_> = mesh.iter_corners().collect();
-        let mut items: Vec<(u32, [f64; 3])> = (0..)
-            .zip(&corners)
-            .map(|(id, triangle)| {
-                (id, [0, 1, 2].map(|axis| triangle.iter().map(|corner| f64::from(corner[axis])).sum()))
-            })
-            .collect();
+        let mut items: Vec<(u32, DVec3)> =
+            (0..).zip(&corners).map(|(id, triangle)| (id, triangle.iter().map(|&corner| wide(corner)).sum())).collect();
         let mut nodes = Vec::with_capacity(items.len());
         if !items.is_empty() {
             build(&mut items, 0, &corners, &mut nodes);
@@ -71,9 +70,8 @@ impl<'a> Tracer<'a> {
     /// The first hit of a ray; the same answer as [`super::nearest`].
     #[must_use]
     pub fn nearest(&self, ray: &Ray, sides: Sides) -> Option<NearestHit> {
-        let origin = ray.origin().map(f64::from);
-        let direction = ray.direction().map(f64::from);
-        let probe = Probe { origin, direction, inverse: direction.map(|value| 1.0 / value) };
+        let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
+        let probe = Probe { origin, direction, inverse: 1.0 / direction };
         let mut shortlist = Shortlist::new();
         let mut stack: Vec<(u32, f64)> = Vec::with_capacity(64);
         if let Some(start) = self.nodes.first().and_then(|root| probe.enter(root)) {
@@ -83,7 +81,7 @@ impl<'a> Tracer<'a> {
             if start > shortlist.limit {
                 continue;
             }
-            match self.nodes[index as usize].kind {
+            match self.nodes[index as usize].content {
                 BoxContent::Leaf { start, end } => {
                     for slot in start as usize..end as usize {
                         shortlist.try_triangle(ray, self.order[slot], &self.corners[slot], sides);
@@ -117,31 +115,25 @@ pub fn nearest_all(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<Option<Neares
 }
 
 /// Builds the node of `items`, which stand at `offset` in the whole order, and all below it.
-fn build(items: &mut [(u32, [f64; 3])], offset: usize, corners: &[[[f32; 3]; 3]], nodes: &mut Vec<BoxNode>) {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for corner in items.iter().flat_map(|&(id, _)| corners[id as usize]) {
-        for axis in 0..3 {
-            let value = f64::from(corner[axis]);
-            low[axis] = if value < low[axis] { value } else { low[axis] };
-            high[axis] = if value > high[axis] { value } else { high[axis] };
-        }
+fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], nodes: &mut Vec<BoxNode>) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in items.iter().flat_map(|&(id, _)| corners[id as usize]).map(wide) {
+        (low, high) = (low.min(corner), high.max(corner));
     }
     let place = nodes.len();
     let leaf = BoxContent::Leaf { start: offset as u32, end: (offset + items.len()) as u32 };
-    nodes.push(BoxNode { low, high, kind: leaf });
+    nodes.push(BoxNode { low, high, content: leaf });
     if items.len() <= LEAF {
         return;
     }
-    let spread = |axis: usize| high[axis] - low[axis];
-    let axis = (1..3).fold(0, |widest, axis| if spread(axis) > spread(widest) { axis } else { widest });
+    let axis = (high - low).max_position();
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| a.1[axis].total_cmp(&b.1[axis]).then(a.0.cmp(&b.0)));
     let (left, right) = items.split_at_mut(middle);
     build(left, offset, corners, nodes);
     let second = nodes.len() as u32;
     build(right, offset + middle, corners, nodes);
-    nodes[place].kind = BoxContent::Inner { second };
+    nodes[place].content = BoxContent::Inner { second };
 }
 
 impl Probe {

@@ -38,11 +38,11 @@ pub enum WriteError {
     },
 }
 
-/// Writes one file through `fill`, and the folders that are missing on the way. On any error, whatever stood at `path` before still
-/// stands, and no folder was made.
+/// Writes one file through `fill`, and the folders that are missing on the way. On any error, whatever stood at `path`
+/// before still stands, and no folder was made.
 ///
-/// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written to and
-/// never replaced; it too gets everything or, when `fill` fails, nothing.
+/// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written
+/// to and never replaced; it too gets everything or, when `fill` fails, nothing.
 ///
 /// # Errors
 /// [`WriteError`].
@@ -101,12 +101,13 @@ fn fill_file(
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-/// Several files that appear together in one folder, when [`FileSet::commit`] is called. Dropped without it, it leaves nothing behind.
+/// Several files that appear together in one folder, when [`FileSet::commit`] is called. Dropped without it, it leaves
+/// nothing behind.
 ///
-/// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed one after
-/// another, because the folder itself stays: programs may be at work in it, and it may hold other files. A process that is killed
-/// in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with the rest; the next set for the folder
-/// first finishes them. Files of other names are never touched.
+/// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
+/// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
+/// process that is killed in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with
+/// the rest; the next set for the folder first finishes them. Files of other names are never touched.
 #[derive(Debug)]
 pub struct FileSet {
     /// The folder as it was named.
@@ -175,8 +176,9 @@ impl FileSet {
         fill_file(&staged, &self.folder.join(name), fill)
     }
 
-    /// Puts all files in their places and returns these, in the order of staging. What can fail (a file that was
-    /// staged but not written, a place taken by a folder, a subfolder that cannot be made) is looked at before the first rename.
+    /// Puts all files in their places and returns these, in the order of staging. What can fail (a file that was staged
+    /// but not written, a place taken by a folder, a subfolder that cannot be made) is looked at before the first
+    /// rename.
     ///
     /// # Errors
     /// [`WriteError`]; unless a rename itself fails, nothing has then appeared.
@@ -225,8 +227,8 @@ impl FileSet {
     }
 }
 
-/// The innermost existing folder on the way to `folder`, and plain names from there. Nothing that is missing can be a link, so `..`
-/// behind it means what it seems to.
+/// The innermost existing folder on the way to `folder`, and plain names from there. Nothing that is missing can be a
+/// link, so `..` behind it means what it seems to.
 fn split(folder: &Path) -> (PathBuf, PathBuf) {
     let mut base = PathBuf::new();
     let mut rest = PathBuf::new();

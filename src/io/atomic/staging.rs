@@ -1,8 +1,9 @@
 //! The folder in which files are written before they appear.
 //!
-//! `.crossbar-XXXXXX/new` holds them while they are written, `.crossbar-XXXXXX/whole` once all are there and only renames are left. A
-//! process that is killed leaves the folder; the next one that writes to the same place clears it away, or finishes its renames. A lock
-//! on `.crossbar-XXXXXX/lock`, which ends with its process, tells a folder that was left from one that is in use.
+//! `.crossbar-XXXXXX/new` holds them while they are written, `.crossbar-XXXXXX/whole` once all are there and only
+//! renames are left. A process that is killed leaves the folder; the next one that writes to the same place clears it
+//! away, or finishes its renames. A lock on `.crossbar-XXXXXX/lock`, which ends with its process, tells a folder that
+//! was left from one that is in use.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -16,8 +17,8 @@ const LOCK: &str = "lock";
 const NEW: &str = "new";
 const WHOLE: &str = "whole";
 
-/// The staging folders of this process. Held while one is made, and while files are renamed out of one: whoever ends the process
-/// waits for that.
+/// The staging folders of this process. Held while one is made, and while files are renamed out of one: whoever ends
+/// the process waits for that.
 static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -25,8 +26,8 @@ fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
     IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process that is about
-/// to end because a signal says so.
+/// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process
+/// that is about to end because a signal says so.
 pub fn abandon() {
     let folders = in_use();
     for folder in folders.iter() {
@@ -77,8 +78,9 @@ impl Staging {
         fs::rename(self.new_files().join(name), place)
     }
 
-    /// Renames files, named as below `base`, to their places there, at most `most` of them. Whoever comes after a process that was
-    /// killed on the way renames the rest. Returns the place that could not be taken, if one could not.
+    /// Renames files, named as below `base`, to their places there, at most `most` of them. Whoever comes after a
+    /// process that was killed on the way renames the rest. Returns the place that could not be taken, if one could
+    /// not.
     pub(super) fn rename_files(&self, base: &Path, names: &[PathBuf], most: usize) -> Result<(), (PathBuf, io::Error)> {
         let _quiet = in_use();
         let whole = self.folder.path().join(WHOLE);

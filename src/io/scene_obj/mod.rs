@@ -1,8 +1,9 @@
 //! Wavefront OBJ with materials: a whole scene.
 //!
-//! Geometry is read as by [`super::obj`] (checked line by line, then handed to tobj); beyond it, `vn` and the normals of corners,
-//! `mtllib` and `usemtl` count. A triangle with a normal at each corner is round, one without is flat. A face without material, or with
-//! one that no library has, is grey. Libraries are named by the rest of their line and lie beside the model ([`mtl`]).
+//! Geometry is read as by [`super::obj`] (checked line by line, then handed to tobj); beyond it, `vn` and the normals
+//! of corners, `mtllib` and `usemtl` count. A triangle with a normal at each corner is round, one without is flat. A
+//! face without material, or with one that no library has, is grey. Libraries are named by the rest of their line and
+//! lie beside the model ([`mtl`]).
 //!
 //! [`write`] gives text that reads back with the same bits.
 
@@ -65,8 +66,8 @@ pub enum SceneObjError {
     },
 }
 
-/// Reads a scene from an OBJ file and the libraries that it names, or from a PLY file, all of one grey material. It has no
-/// views and no point lights.
+/// Reads a scene from an OBJ file and the libraries that it names, or from a PLY file, all of one grey material. It has
+/// no views and no point lights.
 ///
 /// # Errors
 /// [`SceneObjError`], with the path, and the line where there is one.
@@ -84,8 +85,8 @@ pub fn load_scene(path: &Path) -> Result<Scene, SceneObjError> {
     })
 }
 
-/// Reads a scene from bytes; `name` stands for the file in messages, and `library` gives the bytes of a material library. No
-/// input makes it panic.
+/// Reads a scene from bytes; `name` stands for the file in messages, and `library` gives the bytes of a material
+/// library. No input makes it panic.
 ///
 /// # Errors
 /// [`SceneObjError`], with the line where there is one.

@@ -1,7 +1,7 @@
 //! Material libraries (MTL).
 //!
-//! A first pass of ours checks every statement that is used; tobj then reads the checked lines. Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr
-//! illum`; all others (ambient colours, textures) are passed over.
+//! A first pass of ours checks every statement that is used; tobj then reads the checked lines. Used are
+//! `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are passed over.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -9,7 +9,8 @@
 //! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
 //! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (where there is none, 1 - `d`; where that is missing too, 1) |
 //!
-//! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above 0) needs glass.
+//! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above
+//! 0) needs glass.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

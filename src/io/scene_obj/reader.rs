@@ -155,7 +155,8 @@ pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, SceneObjErro
         .map_err(|reason| SceneObjError::Scene { path: name.into(), reason })
 }
 
-/// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is zero.
+/// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is
+/// zero.
 fn of_length_one(normal: [f32; 3]) -> [f32; 3] {
     if (wide(normal).length_squared() - 1.0).abs() <= SLACK {
         return normal;

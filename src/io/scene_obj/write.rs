@@ -5,10 +5,12 @@ use std::io::{self, Write};
 
 use crate::scene::{Color, Material, Scene, Surface};
 
-/// Writes the triangles with their normals and the names of their materials; `library` is the file that [`write_mtl`] fills.
+/// Writes the triangles with their normals and the names of their materials; `library` is the file that [`write_mtl`]
+/// fills.
 ///
 /// # Errors
-/// Those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials are empty, hold white space or `#`, or repeat.
+/// Those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials are empty, hold white space or `#`, or
+/// repeat.
 pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Result<()> {
     check_names(scene.materials())?;
     writeln!(out, "mtllib {library}")?;

@@ -42,6 +42,7 @@ const fn rule<const N: usize>(table: [GaussPoint; N]) -> [GaussPoint; N] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::abs_diff_eq;
 
     #[test]
     fn powers_are_integrated_exactly_up_to_their_degree() {
@@ -50,7 +51,7 @@ mod tests {
                 let value = |x: f64| (0..power).fold(1.0, |product, _| product * x);
                 let sum: f64 = rule.iter().map(|&(x, weight)| weight * value(x)).sum();
                 let exact = 1.0 / (power + 1) as f64;
-                assert!((sum - exact).abs() < 4e-16, "{} points, degree {power}: {sum}", rule.len());
+                assert!(abs_diff_eq!(sum, exact, epsilon = 4e-16), "{} points, degree {power}: {sum}", rule.len());
             }
         }
     }

@@ -50,6 +50,7 @@ pub(in crate::radiosity) fn clipped(corners: &[DVec3], height: impl Fn(DVec3) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     /// Faces the point from above: counter-clockwise seen from below.
     const LID: [DVec3; 4] = [
@@ -64,7 +65,7 @@ mod tests {
         // Four corner rectangles of sides 1 and 1 at height 1: each 1 / (pi sqrt 2) atan(1 / sqrt 2).
         let corner = atan2(1.0, 2.0_f64.sqrt()) / (PI * 2.0_f64.sqrt());
         let found = point_to_polygon(DVec3::ZERO, DVec3::Z, &LID);
-        assert!((found - 4.0 * corner).abs() < 1e-15, "{found}");
+        assert_abs_diff_eq!(found, 4.0 * corner, epsilon = 1e-15);
         let mut back = LID;
         back.reverse();
         assert_eq!(point_to_polygon(DVec3::ZERO, DVec3::Z, &back), 0.0, "its back is black");

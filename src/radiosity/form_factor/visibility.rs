@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::exchange::kernel;
 use super::{FormFactorError, Patches};
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
 use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
@@ -77,7 +77,7 @@ pub(super) fn hide(
 /// other, assigned at random.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
-    let (random, index) = (Keyed::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
+    let (random, index) = (CounterRng::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
     let (side, lift) = (parameters.side as usize, scene_clearance(patches.extent()));
     let at = |patch: u32, stratum: usize, sample: u64, dimension: u64| {
         let along = |k: usize, d| (k as f64 + random.unit(index, sample, dimension + d)) / side as f64;
@@ -137,7 +137,7 @@ pub(in crate::radiosity) fn point_share(
         return Err(FormFactorError::NoSamples);
     }
     let (side, lift) = (u64::from(parameters.side), scene_clearance(patches.extent()));
-    let (random, start) = (Keyed::new(parameters.seed), point + lift * normal);
+    let (random, start) = (CounterRng::new(parameters.seed), point + lift * normal);
     let count = side.saturating_mul(side);
     let sample = |target: usize, k: u64| {
         let patch = &patches.list()[target];

@@ -40,8 +40,8 @@ impl EngineCounts {
         self.rays_on_card as f64 / self.rays.max(1) as f64
     }
 
-    /// Of all visits of rays to the caches of GPU cells, the share that ended on the card; the others were forced to the host. The other
-    /// reading of Table 2. A ray that visits several caches counts several times.
+    /// Of all visits of rays to the caches of GPU cells, the share that ended on the card; the others were forced to
+    /// the host. The other reading of Table 2. A ray that visits several caches counts several times.
     pub fn share_of_visits_on_card(&self) -> f64 {
         self.pass_rays as f64 / (self.pass_rays + self.forced_rays).max(1) as f64
     }

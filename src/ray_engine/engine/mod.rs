@@ -1,15 +1,16 @@
 //! The Ray Engine: rays go in, in any order and number; first hits come out (sections 5 and 6.2).
 //!
-//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each ray
-//! through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache. A cache
-//! of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell. What is left in
-//! caches at the end is forced to the host.
+//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each
+//! ray through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache.
+//! A cache of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell.
+//! What is left in caches at the end is forced to the host.
 //!
-//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the card or on the
-//! host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins. So order, sizes of caches, `R_min`
-//! and threads change counts and time, never a hit. (On cards of other formats the hit depends on who tests it: there the
-//! caches matter, as they did. And where fp32 finds a triangle that the ray does not truly meet, outside the cells on its way, the octree and
-//! its cells decide whether it is asked: one answer in thousands of scenes made to be hard; docs/papers/ray_engine.md counts them.)
+//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the
+//! card or on the host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins.
+//! So order, sizes of caches, `R_min` and threads change counts and time, never a hit. (On cards of other formats the
+//! hit depends on who tests it: there the caches matter, as they did. And where fp32 finds a triangle that the ray does
+//! not truly meet, outside the cells on its way, the octree and its cells decide whether it is asked: one answer in
+//! thousands of scenes made to be hard; docs/papers/ray_engine.md counts them.)
 
 mod counts;
 mod flight;
@@ -49,7 +50,8 @@ pub struct Ticket(pub u64);
 pub struct LocatedHit {
     /// Triangle and t.
     pub hit: Hit,
-    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can be far off.
+    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can
+    /// be far off.
     pub weights: [f32; 3],
 }
 
@@ -67,7 +69,7 @@ pub struct RayEngine<'a> {
     caches: BTreeMap<usize, Cache>,
     /// Rays that can go on, and from where.
     ready: VecDeque<(u32, f64)>,
-    /// Cells whose caches hold a whole pass, once a pass.
+    /// Cells whose caches hold a whole pass, once per pass.
     full: VecDeque<CellId>,
     answered: Vec<Answered>,
     counts: EngineCounts,
@@ -147,7 +149,8 @@ impl<'a> RayEngine<'a> {
     }
 
     /// The same with the place of each hit in its triangle: from the card where it computed that and found the hit
-    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The bits are the same on fp32.
+    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The
+    /// bits are the same on fp32.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
@@ -203,9 +206,9 @@ impl<'a> RayEngine<'a> {
         &self.cells
     }
 
-    /// Shares of full of the tree's buckets.
-    pub fn fullness(&self) -> Vec<f64> {
-        self.tree.fullness()
+    /// Bucket occupancy of the ray tree, in [0, 1].
+    pub fn occupancy(&self) -> Vec<f64> {
+        self.tree.occupancy()
     }
 
     /// Bytes that waiting rays take, in the tree, in flight and in caches.
@@ -214,7 +217,8 @@ impl<'a> RayEngine<'a> {
         self.tree.bytes() + self.flights.bytes() + caches
     }
 
-    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine records.
+    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine
+    /// records.
     pub fn note_host(&mut self, operation: Operation, count: u64) {
         self.note(operation, count);
     }

@@ -13,9 +13,9 @@ pub enum Readback {
     /// Draw, wait, read back, go on: what `glReadPixels` does.
     #[default]
     Synchronous,
-    /// The results of a pass come by themselves behind its draw, with a fence (NV_fence) that is passed when they are there. Its rays
-    /// stay in flight while the host goes on; they are taken when `passes` younger passes have been given to the card, or when nothing
-    /// else can go on. 0 is 1.
+    /// The results of a pass come by themselves behind its draw, with a fence (NV_fence) that is passed when they are
+    /// there. Its rays stay in flight while the host goes on; they are taken when `passes` younger passes have been
+    /// given to the card, or when nothing else can go on. 0 is 1.
     Asynchronous {
         /// Passes in flight while the host goes on, at most.
         passes: usize,
@@ -45,8 +45,9 @@ pub struct EngineParameters {
     pub readback: Readback,
     /// What comes back of a ray.
     pub outputs: Outputs,
-    /// Whether triangles come back as places in the pass's list, in the smallest colour target that the card has: one byte for up to 255
-    /// triangles, two for more, four where the card has no such target. Not with barycentric coordinates.
+    /// Whether triangles come back as places in the pass's list, in the smallest colour target that the card has: one
+    /// byte for up to 255 triangles, two for more, four where the card has no such target. Not with barycentric
+    /// coordinates.
     pub small_ids: bool,
     /// Whether the vertex program culls triangles that no ray of a pass can hit.
     pub cull: bool,

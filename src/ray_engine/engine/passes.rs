@@ -21,7 +21,7 @@ pub(super) struct PassInFlight {
     pub(super) waiting: Vec<Waiting>,
     /// What they hit. The emulator knows at once; the host must not look before it has taken the pass.
     pub(super) hits: Vec<Option<CardHit>>,
-    /// The fence behind its read-back, if nobody waited for it.
+    /// The fence behind its read-back, if no one has waited for it.
     fence: Option<FenceId>,
     /// Its textures and targets.
     sheet: usize,

@@ -48,7 +48,8 @@ impl RayEngine<'_> {
         reached.cells.is_empty()
     }
 
-    /// Until nothing can go on but what is in flight: rays first, then caches that are full, in the order in which they came.
+    /// Until nothing can go on but what is in flight: rays first, then caches that are full, in the order in which they
+    /// came.
     fn drive(&mut self) -> Result<(), EngineError> {
         loop {
             while let Some((flight, from)) = self.ready.pop_front() {
@@ -122,8 +123,8 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units. They are in
-    /// flight then; whatever is one too many in flight is taken.
+    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units.
+    /// They are in flight then; whatever is one too many in flight is taken.
     fn on_card(&mut self, cell: CellId, waiting: Vec<Waiting>) -> Result<(), EngineError> {
         let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
         if waiting.is_empty() {

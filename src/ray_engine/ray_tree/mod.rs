@@ -1,8 +1,9 @@
-//! The 5-D ray tree (section 5.3, after Arvo and Kirk 1987): rays that start near one another and look the same way share a bucket.
+//! The 5-D ray tree (section 5.3, after Arvo and Kirk 1987): rays that start near one another and look the same way
+//! share a bucket.
 //!
-//! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. The six faces have a tree
-//! each. A bucket that overflows is cut in four: in two at the mean of the origins along the axis on which they vary most, and in two
-//! at the mean of the directions likewise.
+//! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. The six
+//! faces have a tree each. A bucket that overflows is cut in four: in two at the mean of the origins along the axis on
+//! which they vary most, and in two at the mean of the directions likewise.
 
 mod key;
 mod split;
@@ -52,14 +53,14 @@ pub struct RayTreeCounts {
 
 /// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct RayTreeEntry {
+struct Entry {
     ray: u32,
     key: Key,
 }
 
 #[derive(Clone, Debug)]
-enum NodeContents {
-    Bucket(Vec<RayTreeEntry>),
+enum RayTreeContent {
+    Bucket(Vec<Entry>),
     Inner(Split, [u32; 4]),
 }
 
@@ -68,7 +69,7 @@ struct RayTreeNode {
     /// Rays in all buckets below.
     count: usize,
     parent: Option<u32>,
-    kind: NodeContents,
+    kind: RayTreeContent,
 }
 
 /// Rays in coherent buckets. A ray is told by a number of the caller's.
@@ -85,7 +86,7 @@ impl RayTree {
     /// An empty tree. A bucket holds one ray at least.
     pub fn new(parameters: RayTreeParameters) -> Self {
         let parameters = RayTreeParameters { bucket: parameters.bucket.max(1), ..parameters };
-        let root = RayTreeNode { count: 0, parent: None, kind: NodeContents::Bucket(Vec::new()) };
+        let root = RayTreeNode { count: 0, parent: None, kind: RayTreeContent::Bucket(Vec::new()) };
         Self { parameters, nodes: vec![root; key::FACES], free: Vec::new(), counts: RayTreeCounts::default() }
     }
 
@@ -104,11 +105,11 @@ impl RayTree {
         self.counts
     }
 
-    /// The shares of full that the buckets which hold anything are, in no particular order. (The paper: typically 50 to 80 %.)
-    pub fn fullness(&self) -> Vec<f64> {
-        let share = |rays: &Vec<RayTreeEntry>| rays.len() as f64 / self.parameters.bucket as f64;
+    /// Occupancy of the buckets that hold anything, in [0, 1], in no particular order. The paper: typically 0.5 to 0.8.
+    pub fn occupancy(&self) -> Vec<f64> {
+        let share = |rays: &Vec<Entry>| rays.len() as f64 / self.parameters.bucket as f64;
         let bucket = |node: &RayTreeNode| match &node.kind {
-            NodeContents::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
+            RayTreeContent::Bucket(rays) if !rays.is_empty() => Some(share(rays)),
             _ => None,
         };
         self.nodes.iter().filter_map(bucket).collect()
@@ -117,8 +118,8 @@ impl RayTree {
     /// Bytes that the tree holds on to.
     pub fn bytes(&self) -> usize {
         let buckets = self.nodes.iter().map(|node| match &node.kind {
-            NodeContents::Bucket(rays) => rays.capacity() * size_of::<RayTreeEntry>(),
-            NodeContents::Inner(..) => 0,
+            RayTreeContent::Bucket(rays) => rays.capacity() * size_of::<Entry>(),
+            RayTreeContent::Inner(..) => 0,
         });
         self.nodes.capacity() * size_of::<RayTreeNode>()
             + self.free.capacity() * size_of::<u32>()
@@ -134,9 +135,9 @@ impl RayTree {
             let here = &mut self.nodes[node as usize];
             here.count += 1;
             match &mut here.kind {
-                NodeContents::Inner(split, children) => node = children[split.child(&key)],
-                NodeContents::Bucket(rays) => {
-                    rays.push(RayTreeEntry { ray, key });
+                RayTreeContent::Inner(split, children) => node = children[split.child(&key)],
+                RayTreeContent::Bucket(rays) => {
+                    rays.push(Entry { ray, key });
                     break;
                 }
             }
@@ -147,19 +148,19 @@ impl RayTree {
 
     /// Cuts a bucket that is too full, and any child that is; rays that are all alike stay together.
     fn split(&mut self, node: u32) {
-        let NodeContents::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
+        let RayTreeContent::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
         if rays.len() <= self.parameters.bucket {
             return;
         }
         let Some(split) = Split::of(rays) else { return };
-        let mut parts: [Vec<RayTreeEntry>; 4] = Default::default();
+        let mut parts: [Vec<Entry>; 4] = Default::default();
         for entry in std::mem::take(rays) {
             parts[split.child(&entry.key)].push(entry);
         }
         let children = parts.map(|rays| {
-            self.make(RayTreeNode { count: rays.len(), parent: Some(node), kind: NodeContents::Bucket(rays) })
+            self.make(RayTreeNode { count: rays.len(), parent: Some(node), kind: RayTreeContent::Bucket(rays) })
         });
-        self.nodes[node as usize].kind = NodeContents::Inner(split, children);
+        self.nodes[node as usize].kind = RayTreeContent::Inner(split, children);
         self.counts.splits += 1;
         for child in children {
             self.split(child);

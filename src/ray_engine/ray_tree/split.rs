@@ -1,6 +1,6 @@
 //! Where a full bucket is cut.
 
-use super::RayTreeEntry;
+use super::Entry;
 use super::key::Key;
 
 /// Two planes: one of origins, one of directions.
@@ -12,7 +12,7 @@ pub(super) struct Split {
 
 impl Split {
     /// The planes at the means, across the axes of greatest variance; `None` if that would leave all rays together.
-    pub(super) fn of(rays: &[RayTreeEntry]) -> Option<Self> {
+    pub(super) fn of(rays: &[Entry]) -> Option<Self> {
         let origin = widest(rays, |key: &Key, axis| key.origin[axis], 3);
         let direction = widest(rays, |key: &Key, axis| key.direction[axis], 2);
         let split = Self { origin, direction };
@@ -28,7 +28,7 @@ impl Split {
 }
 
 /// The axis with the greatest variance, and the mean there; sums run in the order of the rays.
-fn widest(rays: &[RayTreeEntry], at: impl Fn(&Key, usize) -> f32, axes: usize) -> (usize, f32) {
+fn widest(rays: &[Entry], at: impl Fn(&Key, usize) -> f32, axes: usize) -> (usize, f32) {
     let count = rays.len() as f64;
     let moments = |axis| {
         let values = || rays.iter().map(|entry| f64::from(at(&entry.key, axis)));

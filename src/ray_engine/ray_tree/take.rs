@@ -1,6 +1,6 @@
 //! Taking a batch out: the fullest bucket that a greedy search finds, filled up from its siblings.
 
-use super::{NodeContents, RayTree, RayTreeEntry, RayTreeNode, key};
+use super::{Entry, RayTree, RayTreeContent, RayTreeNode, key};
 
 /// Rays that go to the card together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,8 +14,8 @@ pub struct Taken {
 }
 
 impl RayTree {
-    /// Takes a batch out: at most a bucket full; nothing from an empty tree. The search goes down to the child with the most
-    /// rays below it, so it need not find the fullest bucket of all.
+    /// Takes a batch out: at most a bucket full; nothing from an empty tree. The search goes down to the child with the
+    /// most rays below it, so it need not find the fullest bucket of all.
     pub fn take(&mut self) -> Taken {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {
@@ -56,15 +56,15 @@ impl RayTree {
 
     /// The bucket that a greedy search ends in.
     fn descend(&self, mut node: u32) -> u32 {
-        while let NodeContents::Inner(_, children) = &self.nodes[node as usize].kind {
+        while let RayTreeContent::Inner(_, children) = &self.nodes[node as usize].kind {
             node = self.fullest(*children);
         }
         node
     }
 
     /// Moves up to `most` rays of a bucket, the last first, and corrects the counts above it.
-    fn drain(&mut self, bucket: u32, most: usize, into: &mut Vec<RayTreeEntry>) {
-        let NodeContents::Bucket(rays) = &mut self.nodes[bucket as usize].kind else { return };
+    fn drain(&mut self, bucket: u32, most: usize, into: &mut Vec<Entry>) {
+        let RayTreeContent::Bucket(rays) = &mut self.nodes[bucket as usize].kind else { return };
         let taken = most.min(rays.len());
         into.extend(rays.drain(rays.len() - taken..));
         let mut above = Some(bucket);
@@ -82,7 +82,7 @@ impl RayTree {
         while let Some(node) = above.filter(|&node| self.nodes[node as usize].count <= few) {
             let mut rays = Vec::new();
             self.collect(node, &mut rays);
-            self.nodes[node as usize].kind = NodeContents::Bucket(rays);
+            self.nodes[node as usize].kind = RayTreeContent::Bucket(rays);
             above = self.nodes[node as usize].parent;
             levels += 1;
         }
@@ -90,15 +90,15 @@ impl RayTree {
     }
 
     /// Takes everything out of a node's subtree; the nodes below it are free again.
-    fn collect(&mut self, node: u32, into: &mut Vec<RayTreeEntry>) {
-        let kind = std::mem::replace(&mut self.nodes[node as usize].kind, NodeContents::Bucket(Vec::new()));
+    fn collect(&mut self, node: u32, into: &mut Vec<Entry>) {
+        let kind = std::mem::replace(&mut self.nodes[node as usize].kind, RayTreeContent::Bucket(Vec::new()));
         match kind {
-            NodeContents::Bucket(rays) => into.extend(rays),
-            NodeContents::Inner(_, children) => {
+            RayTreeContent::Bucket(rays) => into.extend(rays),
+            RayTreeContent::Inner(_, children) => {
                 for child in children {
                     self.collect(child, into);
                     self.nodes[child as usize] =
-                        RayTreeNode { count: 0, parent: None, kind: NodeContents::Bucket(Vec::new()) };
+                        RayTreeNode { count: 0, parent: None, kind: RayTreeContent::Bucket(Vec::new()) };
                     self.free.push(child);
                 }
             }

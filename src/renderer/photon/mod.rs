@@ -1,13 +1,14 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
-//! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the *caustic* map those of light that
-//! met nothing but mirrors and glass before. What the eye sees of a diffuse part is then the sum of three that share no path: light straight from
-//! the lights (a shadow ray), caustics (the caustic map's density), and light by other diffuse and glossy surfaces (gather rays, which end at
-//! the next such surface in the global map's density, and see no light themselves). Glossy lobes, mirrors and glass send rays on as in
+//! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the
+//! *caustic* map those of light that met nothing but mirrors and glass before. What the eye sees of a diffuse part is
+//! then the sum of three that share no path: light straight from the lights (a shadow ray), caustics (the caustic map's
+//! density), and light by other diffuse and glossy surfaces (gather rays, which end at the next such surface in the
+//! global map's density, and see no light themselves). Glossy lobes, mirrors and glass send rays on as in
 //! [`super::distributed`].
 //!
-//! Densities are taken over disks of finite size, so this is the one renderer whose mean is not the rendering equation's: it blurs within
-//! [`Photons::radius`], and darkens where a disk hangs over an edge.
+//! Densities are taken over disks of finite size, so this is the one renderer whose mean is not the rendering
+//! equation's: it blurs within [`Photons::radius`], and darkens where a disk hangs over an edge.
 
 mod emit;
 
@@ -60,7 +61,8 @@ impl Photons {
     }
 }
 
-/// Renders with photon maps. `settings.depth` is the most surfaces that a photon meets, and the most rays that follow each other from the eye.
+/// Renders with photon maps. `settings.depth` is the most surfaces that a photon meets, and the most rays that follow
+/// each other from the eye.
 ///
 /// # Errors
 /// [`RenderError`] if the settings make no sense or the caster fails.

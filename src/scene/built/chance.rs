@@ -1,16 +1,16 @@
 //! Chance in a scene: numbers drawn one after the other, for places and angles only.
 
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
 
 /// Numbers of a seed, in the order in which a generator asks for them.
 pub(super) struct Chance {
-    random: Keyed,
+    random: CounterRng,
     drawn: u64,
 }
 
 impl Chance {
     pub(super) const fn new(seed: u64) -> Self {
-        Self { random: Keyed::new(seed), drawn: 0 }
+        Self { random: CounterRng::new(seed), drawn: 0 }
     }
 
     /// A number from `low` up to `high`.

@@ -1,7 +1,7 @@
 //! The Cornell box, as measured at Cornell University: 42 triangles, open in front.
 //!
-//! The published figures are millimetres, x to the left and y up; here x runs to the right and z up, in metres. The ceiling
-//! has a hole where the light is, so that no two faces lie in one plane.
+//! The published figures are millimetres, x to the left and y up; here x runs to the right and z up, in metres. The
+//! ceiling has a hole where the light is, so that no two faces lie in one plane.
 
 use super::super::{Material, PointLight, Scene, Surface, View};
 use super::parts::{MaterialId, Parts, Placement};
@@ -58,7 +58,8 @@ fn walls(parts: &mut Parts, white: MaterialId, [left, right]: [MaterialId; 2], l
     wall(parts, inner, light);
 }
 
-/// A block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed below. 12 triangles.
+/// A block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed below.
+/// 12 triangles.
 fn block(parts: &mut Parts, base: [[f64; 2]; 4], height: f64, material: MaterialId) {
     let ring = |height: f64| base.map(|[x, depth]| [x, height, depth]);
     let (low, high) = (ring(0.0), ring(height));

@@ -41,7 +41,8 @@ pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A shelf of 1 x 0.3 m, `rows` rows of `books` books each, 0.35 m a row. 36 + 12 (`rows` + 1) + 12 `rows` `books` triangles.
+/// A shelf of 1 x 0.3 m, `rows` rows of `books` books each, 0.35 m per row. 36 + 12 (`rows` + 1) + 12 `rows` `books`
+/// triangles.
 pub(super) fn bookshelf(
     parts: &mut Parts,
     place: Placement,

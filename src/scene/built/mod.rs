@@ -1,7 +1,8 @@
 //! Scenes that the project builds itself: exact counts of triangles, the same bits everywhere.
 //!
-//! Units are metres, z is up, fronts look outwards (of a room: inwards). Coordinates are computed in f64 by additions, products, square
-//! roots and [`crate::elementary`], and rounded to f32 once. A seed moves and turns things; it never changes a count.
+//! Units are metres, z is up, fronts look outwards (of a room: inwards). Coordinates are computed in f64 by additions,
+//! products, square roots and [`crate::elementary`], and rounded to f32 once. A seed moves and turns things; it never
+//! changes a count.
 //!
 //! - [`parts`], [`solids`]: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene.

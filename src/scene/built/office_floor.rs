@@ -1,7 +1,9 @@
-//! One floor of an office building, in the manner of Soda Hall: 11,052 triangles, as many as the model of the Ray Engine (Table 1).
+//! One floor of an office building, in the manner of Soda Hall: 11,052 triangles, as many as the model of the Ray
+//! Engine (Table 1).
 //!
-//! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors stand open at all angles,
-//! and there is no ceiling, so that one looks in from above: many small things, disjoint as seen from there.
+//! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors stand open at
+//! all angles, and there is no ceiling, so that one looks in from above: many small things, disjoint as seen from
+//! there.
 //!
 //! | what | triangles |
 //! |---|---|
@@ -122,7 +124,8 @@ fn ground(parts: &mut Parts) {
     floor(parts, [-GROUNDS, DEPTH], [WIDTH + GROUNDS, DEPTH + GROUNDS], lawn);
 }
 
-/// A wall along its place's x from 0 to `length`, `thick` to +y, with openings from left to right. Each stretch is a block.
+/// A wall along its place's x from 0 to `length`, `thick` to +y, with openings from left to right. Each stretch is a
+/// block.
 fn wall(
     parts: &mut Parts,
     place: Placement,
@@ -287,7 +290,8 @@ fn corridor(parts: &mut Parts, palette: &Palette) {
     }
 }
 
-/// A room of one or two workplaces, with a cupboard or none; the place is the middle of its window's wall, the room lies towards +y.
+/// A room of one or two workplaces, with a cupboard or none; the place is the middle of its window's wall, the room
+/// lies towards +y.
 fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, chance: &mut Chance) {
     let left = place.to(-1.35, 1.5 + chance.between(-0.15, 0.15), 0.0).facing(90.0);
     workplace(parts, left, palette, chance);

@@ -81,7 +81,8 @@ impl Parts {
         self.material(Material::diffuse(name, albedo))
     }
 
-    /// One triangle of the room, counter-clockwise from the front; with normals at its corners if it is part of something round.
+    /// One triangle of the room, counter-clockwise from the front; with normals at its corners if it is part of
+    /// something round.
     pub(super) fn triangle(&mut self, corners: [DVec3; 3], normals: Option<[DVec3; 3]>, material: MaterialId) {
         let corners = corners.map(|corner| self.welder.vertex(positive_zeros(corner)));
         self.triangles.push(corners);

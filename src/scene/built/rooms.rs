@@ -1,5 +1,5 @@
-//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of straight walls.
-//! z is up, y goes back, walls face inwards.
+//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of
+//! straight walls. z is up, y goes back, walls face inwards.
 
 use crate::geom::Mesh;
 use crate::scene::{Color, Material, Scene, Surface, View};
@@ -57,7 +57,7 @@ impl RoomBuilder {
     }
 }
 
-/// The closed unit cube, a material a wall in the order of [`WALLS`].
+/// The closed unit cube, a material per wall in the order of [`WALLS`].
 #[must_use]
 pub fn cube(materials: [Material; 6]) -> Scene {
     let mut room = RoomBuilder { materials: materials.into(), ..RoomBuilder::default() };
@@ -65,7 +65,8 @@ pub fn cube(materials: [Material; 6]) -> Scene {
     room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
 }
 
-/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1 everywhere.
+/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1
+/// everywhere.
 #[must_use]
 pub fn furnace(reflectance: f32) -> Scene {
     let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
@@ -82,7 +83,8 @@ pub struct CornellBox {
     pub open: bool,
 }
 
-/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling, blocks as published.
+/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling,
+/// blocks as published.
 #[must_use]
 pub fn cornell(what: CornellBox) -> Scene {
     let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
@@ -128,6 +130,7 @@ fn block(room: &mut RoomBuilder, floor: [[f32; 2]; 4], height: f32) {
 mod tests {
     use super::*;
     use crate::geom::vector::wide;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn closed_rooms_are_watertight_and_face_inwards() {
@@ -135,9 +138,9 @@ mod tests {
             let six = |[a, b, c]: [[f32; 3]; 3]| wide(a).dot(wide(b).cross(wide(c)));
             scene.mesh().iter_corners().map(six).sum::<f64>() / 6.0
         };
-        assert!((volume(&furnace(0.5)) + 1.0).abs() < 1e-12);
+        assert_abs_diff_eq!(volume(&furnace(0.5)), -1.0, epsilon = 1e-12);
         let empty = volume(&cornell(CornellBox::default()));
-        assert!((empty + 5.5 * 5.5 * 5.5).abs() < 1e-4, "{empty}");
+        assert_abs_diff_eq!(empty, -(5.5 * 5.5 * 5.5), epsilon = 1e-4);
         // A block without a floor has the volume of a closed one, since its floor lies in the plane through the origin.
         let blocks = volume(&cornell(CornellBox { blocks: true, open: false })) - empty;
         assert!((9.0..14.0).contains(&blocks), "two blocks of 1.65 x 1.65, 1.65 and 3.3 high: {blocks}");

@@ -15,7 +15,7 @@ impl Parts {
         self.painted_block(place, low, high, [material; 6]);
     }
 
-    /// A block with a material a face. 12 triangles.
+    /// A block with a material per face. 12 triangles.
     pub(super) fn painted_block(&mut self, place: Placement, low: [f64; 3], high: [f64; 3], faces: Faces) {
         self.frustum(place, [low, high], 0.0, faces);
     }
@@ -80,9 +80,9 @@ impl Parts {
         self.revolve(place, &profile, normals, sides, material);
     }
 
-    /// A surface of revolution around z. The profile is a line of (radius, height) with the outside to its right: upwards on the outside,
-    /// downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides` where an end lies on the axis. Gentle
-    /// corners of the profile are smoothed.
+    /// A surface of revolution around z. The profile is a line of (radius, height) with the outside to its right:
+    /// upwards on the outside, downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides`
+    /// where an end lies on the axis. Gentle corners of the profile are smoothed.
     pub(super) fn lathe(&mut self, place: Placement, profile: &[[f64; 2]], sides: u32, material: MaterialId) {
         let stretches: Vec<[f64; 2]> = profile.windows(2).map(|ends| outward(ends[0], ends[1])).collect();
         let smooth = |one: [f64; 2], other: [f64; 2]| {
@@ -101,7 +101,8 @@ impl Parts {
         self.revolve(place, profile, normals, sides, material);
     }
 
-    /// A profile turned around z; `normals` (radius, height) at each of its points, as the end of one stretch and the start of the next.
+    /// A profile turned around z; `normals` (radius, height) at each of its points, as the end of one stretch and the
+    /// start of the next.
     fn revolve(
         &mut self,
         place: Placement,
@@ -129,8 +130,8 @@ impl Parts {
         }
     }
 
-    /// A tube bent in a circle around the place's y axis: `bend` is its radius, `from` and `to` parts of a full turn from +x towards +z.
-    /// Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
+    /// A tube bent in a circle around the place's y axis: `bend` is its radius, `from` and `to` parts of a full turn
+    /// from +x towards +z. Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
     pub(super) fn bent_tube(
         &mut self,
         place: Placement,

@@ -2,7 +2,7 @@
 //!
 //! | what | triangles |
 //! |---|---|
-//! | the teapot at 6 quads a patch side, of polished copper | 2,256 |
+//! | the teapot at 6 quads per patch side, of polished copper | 2,256 |
 //! | the glass sphere, 16 around and 8 bands | 224 |
 //! | the round plinth, 20 sides | 76 |
 //! | the floor, 4 x 5 tiles | 40 |
@@ -15,7 +15,7 @@ use glam::DVec3;
 
 use super::super::{Material, PointLight, Scene, Surface, View};
 use super::parts::{MaterialId, Parts, Placement};
-use crate::geom::random::Keyed;
+use crate::geom::random::CounterRng;
 use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
 use crate::geom::vector::wide;
 
@@ -32,7 +32,7 @@ const LIGHT: f64 = 0.18;
 pub fn teapot_room(seed: u64) -> Scene {
     let mut parts = Parts::default();
     walls(&mut parts);
-    things(&mut parts, Keyed::new(seed));
+    things(&mut parts, CounterRng::new(seed));
     let view = View {
         name: "front".into(),
         eye: [0.02, -0.74, 0.7],
@@ -88,7 +88,7 @@ pub(super) fn ceiling(
     parts.polygon(Placement::ROOM, &inner, within);
 }
 
-fn things(parts: &mut Parts, random: Keyed) {
+fn things(parts: &mut Parts, random: CounterRng) {
     // A number from -1 to 1 for each thing that may move.
     let wobble = |thing: u64| 2.0 * random.unit(thing, 0, 0) - 1.0;
     let copper = parts.material(Material {
@@ -123,7 +123,8 @@ fn things(parts: &mut Parts, random: Keyed) {
     parts.block(Placement::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
 }
 
-/// The teapot standing at a place, with smooth normals: each corner has the mean of its part's triangles there, by area.
+/// The teapot standing at a place, with smooth normals: each corner has the mean of its part's triangles there, by
+/// area.
 fn teapot(parts: &mut Parts, place: Placement, scale: f64, material: MaterialId) {
     let teapot = tessellate(RATE).expect("a rate in range");
     let corners: Vec<[DVec3; 3]> = teapot.mesh.iter_corners().map(|corners| corners.map(wide)).collect();

@@ -1,8 +1,8 @@
 //! A bucket of rays against cells (section 5.3, after Arvo and Kirk 1987): the beam that holds all of its rays.
 //!
-//! The rays of a bucket look through one face of the unit cube, so that along its axis all of them go one way, and their slopes across it are
-//! bounded. Each bound is a plane with all rays on one side of it: `p_u - most * p_k` never exceeds the largest value that it has at an
-//! origin. A cell on the other side of one of them is met by no ray.
+//! The rays of a bucket look through one face of the unit cube, so that along its axis all of them go one way, and
+//! their slopes across it are bounded. Each bound is a plane with all rays on one side of it: `p_u - most * p_k` never
+//! exceeds the largest value that it has at an origin. A cell on the other side of one of them is met by no ray.
 
 use glam::DVec3;
 
@@ -11,7 +11,8 @@ use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 use crate::geom::vector::wide;
 
-/// By how much traversal can be off, in shares of what lies between a ray's origin and the octree: many roundings of f64.
+/// By how much traversal can be off, in shares of what lies between a ray's origin and the octree: many roundings of
+/// f64.
 const ROUNDING: f64 = 1e-13;
 
 /// A plane that has all rays on its lower side: the points at which `normal . p <= most`.
@@ -78,8 +79,8 @@ impl Beam {
 }
 
 impl Octree {
-    /// The first cell with triangles that a ray of the beam may meet, or all of them; GPU cells count whole. Never leaves one out that
-    /// [`Octree::traverse`] would visit for a ray of the beam.
+    /// The first cell with triangles that a ray of the beam may meet, or all of them; GPU cells count whole. Never
+    /// leaves one out that [`Octree::traverse`] would visit for a ray of the beam.
     pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> Reached {
         let middle = self.corner + self.size / 2.0;
         let extent = beam.reach + self.size + self.corner.abs().max_element();
@@ -95,7 +96,8 @@ impl Octree {
         search.found
     }
 
-    /// Whether a beam's test says anything of these rays: from very far away, traversal visits cells that a ray does not meet.
+    /// Whether a beam's test says anything of these rays: from very far away, traversal visits cells that a ray does
+    /// not meet.
     pub(crate) fn sees(&self, rays: &[Ray]) -> bool {
         !rays.iter().any(|ray| self.is_out_of_sight(ray))
     }

@@ -7,7 +7,8 @@ use super::{MAX_DEPTH, Octree, OctreeNode, OctreeParameters};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 
-/// Growth of a cell for its list, in sides of the root and in magnitudes of coordinates: some units in the last place of fp32.
+/// Growth of a cell for its list, in sides of the root and in magnitudes of coordinates: some units in the last place
+/// of fp32.
 const MARGIN: f64 = 5e-7;
 /// Growth of the root over the mesh, so that nothing lies on its outer planes.
 const ROOM: f64 = 1e-3;
@@ -40,7 +41,8 @@ pub(super) fn build(mesh: &Mesh, parameters: OctreeParameters) -> Octree {
 }
 
 impl OctreeBuilder {
-    /// Makes `node` a leaf of these triangles, or cuts it. `vain` counts the levels above at which cutting gained nothing.
+    /// Makes `node` a leaf of these triangles, or cuts it. `vain` counts the levels above at which cutting gained
+    /// nothing.
     fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, vain: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
         self.octree.depth = self.octree.depth.max(depth);

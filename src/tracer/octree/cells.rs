@@ -20,8 +20,8 @@ impl CellId {
     }
 }
 
-/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose number of
-/// different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
+/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose
+/// number of different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuCells {
     /// For each node, where its triangles stand; empty for a node that is no GPU cell.

@@ -1,8 +1,11 @@
-//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with less work.
+//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with
+//! less work.
 //!
-//! - A word a child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is touched.
-//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry, 0). A child's
-//!   half is the upper one if its middle plane lies before that, which is where stepping from the entry would arrive.
+//! - A word per child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is
+//!   touched.
+//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry,
+//!   0). A child's half is the upper one if its middle plane lies before that, which is where stepping from the entry
+//!   would arrive.
 //! - No recursion: a cell with children left to visit waits on a stack; one whose last child is entered does not.
 //!
 //! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
@@ -47,8 +50,8 @@ struct WaitingCell {
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Waiting([WaitingCell; MAX_DEPTH as usize + 1]);
 
-/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them: comparing
-/// and choosing is then the business of the integer units, in which it takes a clock.
+/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them:
+/// comparing and choosing is then the business of the integer units, in which it takes a clock.
 type Keys = [i64; 3];
 
 impl Compact {
@@ -76,8 +79,8 @@ impl Compact {
         Self { corner, size, margin, root: places[0], children: children.collect() }
     }
 
-    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the parameters of its
-    /// entry and exit, front to back, until it says stop.
+    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the
+    /// parameters of its entry and exit, front to back, until it says stop.
     #[inline(always)]
     pub(crate) fn walk(
         &self,
@@ -193,13 +196,13 @@ fn first(far: Keys) -> (i64, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::random::Keyed;
+    use crate::geom::random::CounterRng;
     use crate::geom::teapot::teapot;
     use crate::tracer::octree::OctreeParameters;
 
     /// From anywhere within and around the teapot to anywhere; on a grid that holds the planes of cells and both zeros.
     fn rays(octree: &Octree, count: u64) -> Vec<Ray> {
-        let random = Keyed::new(17);
+        let random = CounterRng::new(17);
         let middle = octree.corner + octree.size / 2.0;
         let ray = |i: u64| {
             let grid = |sample, k| (16.0 * random.unit(i, sample, k)).floor() - 8.0;

@@ -1,9 +1,10 @@
-//! The triangle octree (section 5.3), traversed after Revelles, Urena and Lastra, "An Efficient Parametric Algorithm for Octree
-//! Traversal" (2000): from the root down, with nothing but the parameters at which the ray meets the planes of a cell.
+//! The triangle octree (section 5.3), traversed after Revelles, Urena and Lastra, "An Efficient Parametric Algorithm
+//! for Octree Traversal" (2000): from the root down, with nothing but the parameters at which the ray meets the planes
+//! of a cell.
 //!
-//! **No hit is lost.** A cell lists every triangle that touches the closed cell grown by [`Octree::margin`], which is larger than
-//! what rounding can do to a plane's parameter; so whichever of two neighbours a ray on their common plane, edge or corner is
-//! said to go through, that one lists what is hit there. Both zeros are one direction.
+//! **No hit is lost.** A cell lists every triangle that touches the closed cell grown by [`Octree::margin`], which is
+//! larger than what rounding can do to a plane's parameter; so whichever of two neighbours a ray on their common plane,
+//! edge or corner is said to go through, that one lists what is hit there. Both zeros are one direction.
 
 mod beam;
 mod build;
@@ -31,8 +32,8 @@ pub struct OctreeParameters {
 }
 
 impl Default for OctreeParameters {
-    /// Tuned for [`HostTracer`](super::HostTracer), which tests eight triangles at a time: 16 triangles make fewer cells
-    /// than 8, and less memory to wait for.
+    /// Tuned for [`HostTracer`](super::HostTracer), which tests eight triangles at a time: 16 triangles make fewer
+    /// cells than 8, and less memory to wait for.
     fn default() -> Self {
         Self { most_triangles: 16, most_depth: 10 }
     }
@@ -72,7 +73,7 @@ pub struct OctreeCounts {
     pub leaves: usize,
     /// Leaves without a triangle.
     pub empty_leaves: usize,
-    /// Entries of the lists: a triangle counts once a leaf.
+    /// Entries of the lists: a triangle counts once per leaf.
     pub entries: usize,
     /// Triangles of the fullest leaf.
     pub fullest: usize,

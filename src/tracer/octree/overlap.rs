@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-/// Whether the triangle, its corners given from the middle of the box, touches the box of these half sides. Rounding can make
-/// it say yes to a triangle that misses by less than 1e-14 of the corners' magnitude, and no to one that reaches in by less:
-/// callers grow the box.
+/// Whether the triangle, its corners given from the middle of the box, touches the box of these half sides. Rounding
+/// can make it say yes to a triangle that misses by less than 1e-14 of the corners' magnitude, and no to one that
+/// reaches in by less: callers grow the box.
 pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = *corners;
     for axis in 0..3 {
@@ -27,13 +27,15 @@ pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     true
 }
 
-/// Whether a plane across this direction has the box on one side and the triangle on the other. No direction separates nothing.
+/// Whether a plane across this direction has the box on one side and the triangle on the other. No direction separates
+/// nothing.
 fn separates(direction: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = corners.map(|corner| corner.dot(direction));
     apart(a, b, c, half.dot(direction.abs()))
 }
 
-/// The same for the direction that is across an edge and an axis: one of its components is 0, the others are the edge's.
+/// The same for the direction that is across an edge and an axis: one of its components is 0, the others are the
+/// edge's.
 #[inline]
 fn separates_across(axis: usize, edge: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

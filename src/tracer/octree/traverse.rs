@@ -1,4 +1,4 @@
-//! The parametric traversal.
+//! The parametric traversal, plainly written: the reference of `compact.rs`, and what the Ray Engine walks.
 
 use std::ops::ControlFlow;
 
@@ -8,12 +8,12 @@ use super::cells::{CellId, GpuCells};
 use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 
-/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the middle
-/// between two such parameters still tells which half of a cell the ray is in.
+/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the
+/// middle between two such parameters still tells which half of a cell the ray is in.
 const STILL: f64 = 1e-200;
 
-/// Margins from which a ray can be told where it goes: the parameter of a plane is a difference and a quotient, each rounded to 53 bits, and
-/// those of inner planes are differences of such, one more a level.
+/// Margins from which a ray can be told where it goes: the parameter of a plane is a difference and a quotient, each
+/// rounded to 53 bits, and those of inner planes are differences of such, one more per level.
 const SIGHT: f64 = (1u64 << 48) as f64;
 
 /// What to do after a cell.
@@ -75,8 +75,8 @@ struct Walk<'a, F> {
 }
 
 impl Octree {
-    /// Calls `visit` for every cell with triangles that the ray goes through at t >= 0, front to back, until it says stop.
-    /// With `gpu`, GPU cells are visited whole; else all are leaves.
+    /// Calls `visit` for every cell with triangles that the ray goes through at t >= 0, front to back, until it says
+    /// stop. With `gpu`, GPU cells are visited whole; else all are leaves.
     pub fn traverse<'a>(
         &'a self,
         ray: &Ray,
@@ -86,8 +86,8 @@ impl Octree {
         self.traverse_from(ray, gpu, f64::NEG_INFINITY, visit)
     }
 
-    /// The same for a ray that has left a cell at `from`, in multiples of its direction: cells that it leaves no later are not
-    /// visited (again).
+    /// The same for a ray that has left a cell at `from`, in multiples of its direction: cells that it leaves no later
+    /// are not visited (again).
     pub fn traverse_from<'a>(
         &'a self,
         ray: &Ray,
@@ -108,13 +108,14 @@ impl Octree {
         walk.counts
     }
 
-    /// Whether a ray starts so far away that f64 does not tell the parameters of the cells' planes apart as well as margins do.
+    /// Whether a ray starts so far away that f64 does not tell the parameters of the cells' planes apart as well as
+    /// margins do.
     pub(super) fn is_out_of_sight(&self, ray: &Ray) -> bool {
         is_out_of_sight(self.corner, self.margin, ray)
     }
 
-    /// All leaves, for a ray of which nothing is known. No hit settles what the others hold, so each has t of minus infinity. No GPU cell:
-    /// nobody could go on behind one.
+    /// All leaves, for a ray of which nothing is known. No hit settles what the others hold, so each has t of minus
+    /// infinity. GPU cells are not visited: a ray could not go on behind one.
     fn everything<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         for node in 0..self.nodes.len() as u32 {
@@ -138,7 +139,8 @@ pub(super) fn is_out_of_sight(corner: DVec3, margin: f64, ray: &Ray) -> bool {
     far(0) | far(1) | far(2)
 }
 
-/// Where the ray, turned so that it rises, meets the planes of a cube, and which bits of a child's number the turning flips.
+/// Where the ray, turned so that it rises, meets the planes of a cube, and which bits of a child's number the turning
+/// flips.
 #[inline(always)]
 pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) {
     let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
@@ -218,8 +220,8 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
     }
 }
 
-/// Where the ray meets the middle planes of a cell with so many cuts above it: half of the cell's share of the root's span before its
-/// upper planes. A power of two makes the share, so that only the difference is rounded.
+/// Where the ray meets the middle planes of a cell with so many cuts above it: half of the cell's share of the root's
+/// span before its upper planes. A power of two makes the share, so that only the difference is rounded.
 #[inline(always)]
 pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
     let half = f64::from_bits(u64::from(1022 - level) << 52);

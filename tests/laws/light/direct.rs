@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use approx::abs_diff_eq;
 use crossbar::geom::vector::wide;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::{RenderedPicture, Settings, distributed, path};
@@ -55,7 +56,10 @@ fn check(scene: &Scene, factor: f64) {
 #[test]
 fn a_square_straight_above() {
     let (scene, factor) = lit([-1.0, -1.0, 1.5], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0]);
-    assert!((factor - 4.0 * parallel_corner(1.0 / 1.5, 1.0 / 1.5)).abs() < 1e-12, "two closed forms agree: {factor}");
+    assert!(
+        abs_diff_eq!(factor, 4.0 * parallel_corner(1.0 / 1.5, 1.0 / 1.5), epsilon = 1e-12),
+        "two closed forms agree: {factor}"
+    );
     check(&scene, factor);
 }
 

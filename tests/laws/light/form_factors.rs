@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use approx::assert_abs_diff_eq;
 use crossbar::renderer::form_factor::form_factor;
 use crossbar::renderer::visibility::visibility;
 use crossbar::scene::Scene;
@@ -30,7 +31,7 @@ fn parallel_squares() {
     let root = 2.0_f64.sqrt();
     let whole = 0.5 * libm::log(4.0 / 3.0) + 2.0 * root * libm::atan(1.0 / root) - 2.0 * libm::atan(1.0);
     let expected = 2.0 / PI * whole;
-    assert!((expected - 0.1998).abs() < 1e-4);
+    assert_abs_diff_eq!(expected, 0.1998, epsilon = 1e-4);
     let scene = parallel(false);
     for (a, b) in [([0, 1], [2, 3]), ([2, 3], [0, 1])] {
         let (value, spread) = factor(&scene, &a, &b);

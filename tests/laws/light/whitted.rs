@@ -88,23 +88,19 @@ fn a_prism_turns_light_by_total_internal_reflection() {
 /// The legs' and the hypotenuse's fronts must look out of the glass: away from its middle.
 fn turn_outwards(scene: &mut Scene) {
     use crossbar::geom::Mesh;
+    use crossbar::geom::vector::wide;
     let middle = [0.5_f32, 0.0, 0.5];
     let mesh = scene.mesh();
     let outwards = |(id, indices): (usize, &[u32; 3])| {
         let [a, b, c] = indices.map(|index| mesh.positions()[index as usize]);
-        let [u, v, m] = [sub(b, a), sub(c, a), sub(middle, a)];
-        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        let inwards = n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 0.0;
+        let [a, b, c, middle] = [a, b, c, middle].map(wide);
+        let inwards = (b - a).cross(c - a).dot(middle - a) > 0.0;
         let is_glass = id < 6;
         if inwards == is_glass { [indices[0], indices[2], indices[1]] } else { *indices }
     };
     let triangles = mesh.triangles().iter().enumerate().map(outwards).collect();
     let mesh = Mesh::new(mesh.positions().to_vec(), triangles).expect("a mesh");
     *scene = Scene::new(mesh, scene.materials().to_vec(), scene.material_of().to_vec(), Vec::new()).expect("a scene");
-}
-
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// A floor, a square of side 1 a unit above it, and a light a unit above that.

@@ -1,6 +1,7 @@
 //! Half precision makes a room dark: how dark, by patches, packing and rounding, against what rounding to the sum's
 //! step predicts.
 
+use approx::abs_diff_eq;
 use crossbar::radiosity::bias::{Accumulator, predicted};
 use crossbar::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
@@ -37,7 +38,7 @@ const SIZES: [usize; 3] = [60, 120, 240];
 /// First order in the loss: what is lost makes the sums smaller that lose, so that the prediction is too large by about
 /// as much again.
 fn is_predicted([found, predicted]: [f64; 2]) -> bool {
-    (found - predicted).abs() <= 0.1 * predicted + 1.5 * predicted * predicted
+    abs_diff_eq!(found, predicted, epsilon = 0.1 * predicted + 1.5 * predicted * predicted)
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crossbar::geom::random::Keyed;
+use approx::abs_diff_eq;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::vector::narrow;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
@@ -47,7 +48,7 @@ fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
 
 /// Points of a patch that no block stands on, and the share of all that they are.
 fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
-    let random = Keyed::new(seed);
+    let random = CounterRng::new(seed);
     let (mut points, mut tried) = (Vec::new(), 0);
     while (points.len() as u64) < count && tried < 1000 * count {
         let point = patch.at(random.unit(tried, 0, 0), random.unit(tried, 0, 1)).at;
@@ -132,7 +133,11 @@ fn enforcing_closure_hardly_changes_a_room_with_blocks() {
     // What closure takes away is the noise of nine rays a pair: 1.5 % of a patch at most here, and a fortieth of that
     // of the room.
     assert!(worst < 0.03, "a patch changes by {worst}");
-    assert!((light[1] / light[0] - 1.0).abs() < 1e-3, "the room changes by {}", light[1] / light[0] - 1.0);
+    assert!(
+        abs_diff_eq!(light[1] / light[0], 1.0, epsilon = 1e-3),
+        "the room changes by {}",
+        light[1] / light[0] - 1.0
+    );
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The card's picture: what a pixel shows is what exact arithmetic finds there.
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{narrow, wide};
 use crossbar::geom::{Mesh, Ray};
@@ -141,7 +142,11 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
             let spread =
                 values.iter().map(|x| x[c]).fold(0.0, f64::max) - values.iter().map(|x| x[c]).fold(9.0, f64::min);
             // The nearest patches are 12 pixels wide or more, the farthest 10: snapped corners shift what is inside by half a hundredth.
-            assert!((pixel[c] - want).abs() <= 0.01 * spread + 1e-5, "{} and {want}, spread {spread}", pixel[c]);
+            assert!(
+                abs_diff_eq!(pixel[c], want, epsilon = 0.01 * spread + 1e-5),
+                "{} and {want}, spread {spread}",
+                pixel[c]
+            );
             compared += 1;
         }
     }
@@ -179,7 +184,7 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let mean = at_corners(&patches, &radiosity)[0][0];
         for (found, want) in middle.iter().zip(mean) {
             // An operation is off by 2^-24 of its result; there are 3 a patch.
-            assert!((found - want).abs() <= 1e-6 * f64::from(triangles) * (want + 1.0), "{found} {want}");
+            assert_abs_diff_eq!(*found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
         }
     }
 }

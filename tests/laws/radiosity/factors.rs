@@ -1,7 +1,8 @@
 //! Form factors against closed forms, and against what must hold of all of them.
 
+use approx::abs_diff_eq;
 use crossbar::geom::Mesh;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::radiosity::form_factor::rectangles::{Bounded, parallel, perpendicular};
 use crossbar::radiosity::form_factor::{VisibilityParameters, point_to_polygon};
 use crossbar::radiosity::rooms::{self, CornellBox};
@@ -51,7 +52,7 @@ fn the_six_walls_of_a_cube_have_the_printed_constants() {
                 _ => 0.200_043_776_075_403,
             };
             let found = factors.matrix().row(i)[j];
-            assert!((found - expected).abs() < 1e-9, "{i} to {j}: {found}, not {expected}");
+            assert!(abs_diff_eq!(found, expected, epsilon = 1e-9), "{i} to {j}: {found}, not {expected}");
         }
     }
 }
@@ -136,7 +137,7 @@ fn a_tetrahedron_shares_its_light_evenly() {
         for j in 0..4 {
             let expected = if i == j { 0.0 } else { 1.0 / 3.0 };
             let found = factors.matrix().row(i)[j];
-            assert!((found - expected).abs() < 1e-5, "{i} to {j}: {found}");
+            assert!(abs_diff_eq!(found, expected, epsilon = 1e-5), "{i} to {j}: {found}");
         }
     }
 }
@@ -149,7 +150,7 @@ fn enforcement_closes_rows_and_keeps_reciprocity() {
     let mut spoilt = factors.matrix().clone();
     for i in 0..spoilt.row_count() {
         for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
-            *value *= 0.9 + 0.2 * Keyed::new(3).unit(i as u64, j as u64, 0);
+            *value *= 0.9 + 0.2 * CounterRng::new(3).unit(i as u64, j as u64, 0);
         }
     }
     factors = FormFactors::from_values(factors.areas().to_vec(), spoilt).expect("factors");
@@ -161,7 +162,7 @@ fn enforcement_closes_rows_and_keeps_reciprocity() {
 
 #[test]
 fn a_point_sees_of_a_patch_what_rays_find() {
-    let random = Keyed::new(8);
+    let random = CounterRng::new(8);
     let patch = [[0.3, 2.0, -0.5], [1.4, 2.2, 0.6], [0.2, 1.9, 1.5], [-0.9, 1.7, 0.4]].map(DVec3::from);
     let factor = point_to_polygon(DVec3::ZERO, DVec3::Y, &patch);
     // Uniform points of the disc are a cosine-distributed direction each (Nusselt's analogue).
@@ -175,7 +176,7 @@ fn a_point_sees_of_a_patch_what_rays_find() {
         }
     }
     let (share, sigma) = (f64::from(hits) / f64::from(all), (factor * (1.0 - factor) / f64::from(all)).sqrt());
-    assert!((share - factor).abs() < 5.0 * sigma, "{factor} against {share} of {all} rays");
+    assert!(abs_diff_eq!(share, factor, epsilon = 5.0 * sigma), "{factor} against {share} of {all} rays");
 }
 
 /// Whether the direction is on the same side of all planes through the origin and a side.
@@ -227,8 +228,8 @@ fn a_screen_hides_what_is_behind_it() {
     let open = 0.199_824_895_698_387;
     assert_eq!(factor(2.0), 0.0, "all hidden");
     let (none, half) = (factor(-0.5), factor(0.5));
-    assert!((none - open).abs() < 1e-9, "none hidden: {none}");
-    assert!((half - 0.5 * open).abs() < 0.02 * open, "half hidden, by symmetry: {half}");
+    assert!(abs_diff_eq!(none, open, epsilon = 1e-9), "none hidden: {none}");
+    assert!(abs_diff_eq!(half, 0.5 * open, epsilon = 0.02 * open), "half hidden, by symmetry: {half}");
 }
 
 #[test]

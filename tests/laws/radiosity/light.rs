@@ -1,5 +1,6 @@
 //! Physics: furnaces, energy, and light that is gathered at points.
 
+use approx::abs_diff_eq;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
@@ -113,7 +114,7 @@ fn corners_share_what_meets_there() {
     for (patch, values) in patches.list().iter().zip(&corners).filter(|(p, _)| p.normal()[2] == 1.0) {
         for (corner, value) in patch.corners().iter().zip(values) {
             if (0.1..0.9).contains(&corner[0]) {
-                assert!((value[0] - corner[0]).abs() < 1e-12, "{corner:?}: {value:?}");
+                assert!(abs_diff_eq!(value[0], corner[0], epsilon = 1e-12), "{corner:?}: {value:?}");
             }
         }
     }
@@ -141,6 +142,6 @@ fn irradiance_at_a_point_is_what_the_patch_around_it_reflects() {
     let h = gather::irradiance(&patches, &b, [patch.center(), patch.normal()], &mut tracer, parameters).expect("light");
     for (c, found) in h.into_iter().enumerate() {
         let expected = b[i][c] / system.reflectance()[i][c];
-        assert!((found - expected).abs() < 0.02 * expected, "channel {c}: {found} against {expected}");
+        assert!(abs_diff_eq!(found, expected, epsilon = 0.02 * expected), "channel {c}: {found} against {expected}");
     }
 }

@@ -15,7 +15,7 @@ mod solvers;
 mod textures;
 
 use crossbar::geom::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
@@ -36,7 +36,7 @@ fn tracer(scene: &Scene) -> HostTracer {
 
 /// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal, and a right side.
 fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
-    let random = Keyed::new(seed);
+    let random = CounterRng::new(seed);
     let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);
     let mut matrix = Matrix::zeros([size; 2]).expect("small");
     for i in 0..size {

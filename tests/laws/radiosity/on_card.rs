@@ -1,5 +1,6 @@
 //! Matrix radiosity on the card: within its bound of the truth, relit, refused in words that help; programs counted.
 
+use approx::abs_diff_eq;
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::bound::{ErrorBound, before, bounded_step, contraction};
@@ -79,7 +80,11 @@ fn a_solution_is_reached_and_its_history_is_the_residuals() {
         assert_eq!(solution.iterations() as usize + 1, seen.len());
         let host = system.solve_channel(0, Solver::Jacobi, &crossbar::radiosity::solve::Options::default(), None);
         for ((_, found), expected) in seen.iter().zip(host.expect("a solution").history) {
-            assert!((found[0] - expected).abs() <= 1e-3 * expected, "{} against the host's {expected}", found[0]);
+            assert!(
+                abs_diff_eq!(found[0], expected, epsilon = 1e-3 * expected),
+                "{} against the host's {expected}",
+                found[0]
+            );
         }
         let every = CardOptions { check_every: 7, ..options };
         card.load(&vec![[0.0; 3]; card.len()]).expect("zeros");

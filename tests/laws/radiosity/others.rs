@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar::io::parse_obj;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
@@ -36,7 +37,10 @@ fn form_factors_agree_with_an_estimate_by_rays_alone() {
         let theirs = form_factor(&scene, &faces[i], &faces[j], 6000, 7, &mut tracer).expect("rays");
         // Both are estimates; ours has a quarter of the samples, and less to estimate.
         let sigma = (theirs.variance * 3.0).sqrt();
-        assert!((ours - theirs.value).abs() <= 4.0 * sigma + 1e-4, "{i} to {j}: {ours} against {theirs:?}");
+        assert!(
+            abs_diff_eq!(ours, theirs.value, epsilon = 4.0 * sigma + 1e-4),
+            "{i} to {j}: {ours} against {theirs:?}"
+        );
         hidden += u32::from(theirs.value > 0.0);
     }
     assert!(hidden > 5, "most of them see each other: {hidden}");
@@ -71,7 +75,7 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
             let to_irradiance = PI / albedo[c];
             let (truth, sigma) = (picture.color[0][c] * to_irradiance, picture.variance[0][c].sqrt() * to_irradiance);
             assert!(
-                (found[c] - truth).abs() < 3.0 * sigma,
+                abs_diff_eq!(found[c], truth, epsilon = 3.0 * sigma),
                 "{name}, channel {c}: {} against {truth} +- {sigma}",
                 found[c]
             );
@@ -87,7 +91,7 @@ fn the_built_furnace_has_the_radiance_that_it_says() {
     factors.enforce_closure().expect("closed");
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
     let b = system.solve(Solver::Direct, &Options::default(), None).expect("a solution").radiosity();
-    assert!(b.iter().flatten().all(|b| (b / PI - 1.0).abs() < 1e-12), "radiance 1");
+    assert!(b.iter().flatten().all(|b| abs_diff_eq!(b / PI, 1.0, epsilon = 1e-12)), "radiance 1");
 }
 
 #[test]
@@ -104,5 +108,5 @@ fn built_scenes_and_models_of_ones_own_are_cut() {
     assert_eq!(patches.list().len(), 8, "a square and a triangle, four each");
     assert_eq!(patches.list().iter().filter(|p| p.corners().len() == 4).count(), 4);
     let area: f64 = patches.areas().iter().sum();
-    assert!((area - 1.5).abs() < 1e-12, "{area}");
+    assert_abs_diff_eq!(area, 1.5, epsilon = 1e-12);
 }

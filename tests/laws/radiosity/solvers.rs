@@ -1,5 +1,6 @@
 //! All solvers find the same solution; how fast is told by their histories.
 
+use approx::abs_diff_eq;
 use crossbar::radiosity::solve::{Options, Problem, SolveError, Solver, residual, solve};
 
 use super::{cornell, random_system};
@@ -24,7 +25,10 @@ fn all_solvers_agree_on_random_matrices_and_the_cornell_box() {
             assert!(solution.converged && off < 1e-9 * size, "{solver}, {} rows: off by {off}", right.len());
             let last =
                 residual(matrix, right, &solution.radiosity).iter().map(|r| r * r).sum::<f64>() / right.len() as f64;
-            assert!((last - solution.history[solution.iterations()]).abs() <= 1e-6 * last, "{solver}: {last}");
+            assert!(
+                abs_diff_eq!(last, solution.history[solution.iterations()], epsilon = 1e-6 * last),
+                "{solver}: {last}"
+            );
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Layouts read back to what was laid out; the card's order of operations against plain loops.
 
+use approx::abs_diff_eq;
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
@@ -51,7 +52,7 @@ proptest! {
             for (j, &value) in row.iter().enumerate() {
                 let exact: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| x * y).sum();
                 let size: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| (x * y).abs()).sum();
-                prop_assert!((f64::from(value) - exact).abs() <= 30.0 * 6e-8 * size, "{} against {}", value, exact);
+                prop_assert!(abs_diff_eq!(f64::from(value), exact, epsilon = 30.0 * 6e-8 * size), "{} against {}", value, exact);
             }
         }
     }

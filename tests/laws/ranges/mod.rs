@@ -11,6 +11,7 @@
 mod bounds;
 mod scene;
 
+use approx::abs_diff_eq;
 use bounds::{Bounds, First};
 use crossbar::geom::exact::{self, Sides};
 use crossbar::geom::{Hit, Mesh, Ray};
@@ -210,7 +211,7 @@ fn a_triangle_before_the_eye_is_seen_on_a_radeon_8500() {
                 .expect("the card works")
                 .hits;
             let t = hits[0].map(|hit| hit.t / far).unwrap_or_default();
-            assert!((t - 1.0).abs() < 0.01, "{device}, {size} at {far}: {t}");
+            assert!(abs_diff_eq!(t, 1.0, epsilon = 0.01), "{device}, {size} at {far}: {t}");
         }
     }
 }
@@ -249,6 +250,6 @@ fn scenes_of_micrometres_are_seen_on_float_cards() {
             .hits;
         let hit = hits[0].expect("a hit");
         assert_eq!(hit.triangle, 1, "{device}");
-        assert!((hit.t / 1.5e-6 - 1.0).abs() < 0.01, "{device}: {}", hit.t);
+        assert!(abs_diff_eq!(hit.t / 1.5e-6, 1.0, epsilon = 0.01), "{device}: {}", hit.t);
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes by number: some triangles, anywhere, of sizes from a thousandth to all of the scene, and a square of rays.
 
 use crossbar::geom::exact::Sides;
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::RayBatch;
 
@@ -20,12 +20,12 @@ pub(crate) struct Scene {
 impl Scene {
     /// Of a size from 2^-20 to 2^20.
     pub(crate) fn new(number: u64) -> Self {
-        Self::of_size(number, (Keyed::new(number).bits(0, 0, 0) % 41) as i32 - 20)
+        Self::of_size(number, (CounterRng::new(number).bits(0, 0, 0) % 41) as i32 - 20)
     }
 
     /// Of size 2^`power`.
     pub(crate) fn of_size(number: u64, power: i32) -> Self {
-        let random = Keyed::new(number);
+        let random = CounterRng::new(number);
         let size = power_of_two(power);
         let number_in = |index: u64, sample: u64, k: u64| 2.0 * random.unit(index, sample, k) - 1.0;
         let point = |index: u64, sample: u64| [0, 1, 2].map(|k| number_in(index, sample, k));

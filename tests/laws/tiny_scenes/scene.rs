@@ -1,6 +1,6 @@
 //! Tiny scenes by number: everything that an intersector has to live with, in a dozen triangles.
 
-use crossbar::geom::random::Keyed;
+use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray, Sides};
 
 /// Rays of a scene.
@@ -17,7 +17,7 @@ pub(crate) struct Scene {
 
 /// Dice of one scene, thrown one after the other.
 struct Dice {
-    stream: Keyed,
+    stream: CounterRng,
     scene: u64,
     throws: u64,
 }
@@ -62,7 +62,7 @@ fn coordinate(dice: &mut Dice, kind: Coordinates) -> f32 {
 
 impl Scene {
     pub(crate) fn new(number: u64) -> Self {
-        let mut dice = Dice { stream: Keyed::new(2002), scene: number, throws: 0 };
+        let mut dice = Dice { stream: CounterRng::new(2002), scene: number, throws: 0 };
         let kind = dice.one_of(&[Coordinates::Grid, Coordinates::Grid, Coordinates::Free, Coordinates::Mixed]);
         // Sizes: mostly one; at times tiny or huge, at times mixed within the scene.
         let scales: &[f32] = match dice.below(8) {

@@ -73,6 +73,7 @@ fn holds(patch: &Patch, point: DVec3) -> bool {
 mod tests {
     use super::*;
     use crate::radiosity::{Subdivision, rooms};
+    use approx::abs_diff_eq;
 
     #[test]
     fn a_direction_goes_through_its_pixel() {
@@ -83,7 +84,10 @@ mod tests {
             for [x, y] in [[0.3, -0.7], [-1.0, 1.0], [0.0, 0.25]] {
                 let d = direction(face, [x, y]);
                 let found = [face.across, face.upwards, face.forward].map(|axis| axis.dot(d));
-                assert!(found.iter().zip([x, y, 1.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+                assert!(
+                    found.into_iter().zip([x, y, 1.0]).all(|(a, b)| abs_diff_eq!(a, b, epsilon = 1e-12)),
+                    "{found:?}"
+                );
             }
         }
     }

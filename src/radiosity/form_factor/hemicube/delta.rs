@@ -61,6 +61,7 @@ fn beside(y: f64, z: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn pixels_sum_to_one_and_are_what_the_middle_says_of_small_ones() {
@@ -80,12 +81,12 @@ mod tests {
         let area = 4.0 / (n * n) as f64;
         for (i, j) in [(0, 0), (128, 128), (40, 200), (255, 3)] {
             let r = 1.0 + at(i) * at(i) + at(j) * at(j);
-            assert!((top[j * n + i] / (area / (PI * r * r)) - 1.0).abs() < 1e-4);
+            assert_abs_diff_eq!(top[j * n + i] / (area / (PI * r * r)), 1.0, epsilon = 1e-4);
         }
         for (i, j) in [(0, 0), (128, 127), (40, 100)] {
             let z = 1.0 - (2 * j + 1) as f64 / n as f64;
             let r = 1.0 + at(i) * at(i) + z * z;
-            assert!((side[j * n + i] / (z * area / (PI * r * r)) - 1.0).abs() < 1e-4);
+            assert_abs_diff_eq!(side[j * n + i] / (z * area / (PI * r * r)), 1.0, epsilon = 1e-4);
         }
     }
 }

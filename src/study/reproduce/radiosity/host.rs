@@ -40,10 +40,11 @@ pub(super) fn iteration(patches: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn the_printed_rate_comes_back() {
-        assert!((1.0 / iteration(PATCHES) - PRINTED_HOST.0).abs() < 1e-9);
+        assert_abs_diff_eq!(1.0 / iteration(PATCHES), PRINTED_HOST.0, epsilon = 1e-9);
         // 362 x 362 elements are the cache.
         assert_eq!((missed(362.0), missed(64.0)), (0.0, 0.0));
         assert!(missed(363.0) > 0.0);
