@@ -182,9 +182,9 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let picture = display.smooth(&mut machine, texture, std::f64::consts::PI).expect("a picture");
         let middle = picture.pixels[16 * 33 + 16];
         let mean = at_corners(&patches, &radiosity)[0][0];
-        for (found, want) in middle.iter().zip(mean) {
+        for (found, want) in middle.into_iter().zip(mean) {
             // An operation is off by 2^-24 of its result; there are 3 a patch.
-            assert_abs_diff_eq!(*found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
+            assert_abs_diff_eq!(found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
         }
     }
 }
