@@ -35,7 +35,7 @@ const CROSSBAR: Law = (
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["geom", "scene", "linalg"]),
-        ("card", &["geom", "linalg"]),
+        ("card", &[]),
         ("report", &["elementary"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
