@@ -15,7 +15,7 @@ use crate::io::read_limited;
 use crate::report::{SourceText, quoted_line};
 
 /// The longest shader file that is read, in bytes: the assembler takes no more.
-const LONGEST: u64 = asm::MAX_TEXT as u64;
+const MAX_BYTES: u64 = asm::MAX_TEXT as u64;
 
 /// A shader's text and what to call it in messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub enum ShaderError {
         offset: usize,
     },
     /// The file is far longer than any shader.
-    #[error("expected a shader of at most {LONGEST} bytes, found more in `{name}`")]
+    #[error("expected a shader of at most {MAX_BYTES} bytes, found more in `{name}`")]
     #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
     TooLong {
         /// The file.
@@ -132,7 +132,7 @@ impl ShaderText {
         let name = path.display().to_string();
         let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
         // No more than the limit is read: the name may be that of a device without an end.
-        let Some(bytes) = read_limited(path, LONGEST).map_err(unreadable)? else {
+        let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
             return Err(ShaderError::TooLong { name });
         };
         Self::from_bytes(name, bytes)

@@ -45,7 +45,7 @@ pub enum EngineError {
     #[diagnostic(transparent)]
     Kernel(#[from] KernelError),
     /// More triangles than ids.
-    #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colours), found {found}")]
+    #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colors), found {found}")]
     #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
     TooManyTriangles {
         /// Triangles of the mesh.

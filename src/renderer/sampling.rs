@@ -1,4 +1,5 @@
-//! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global Illumination Compendium).
+//! From pairs of numbers in [0, 1) to directions and places. All maps are the textbook's inversions (Dutre, Global
+//! Illumination Compendium).
 
 use super::vector::turned;
 use crate::elementary::{on_circle, pow};

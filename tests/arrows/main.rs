@@ -45,7 +45,7 @@ const CROSSBAR: Law = (
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["picture", "geom", "scene", "linalg"]),
-        ("card", &["geom", "linalg"]),
+        ("card", &[]),
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),

@@ -1,7 +1,7 @@
 !!FP1.0
 # A patch of four corners, between the radiosities at them.
 # TEX0: in-patch coordinates, depth, 1 in front and 0 behind; TEX1, TEX2: the corners' texels.
-# texture 0: radiosities at corners; p[0]: from radiosity to colour.
+# texture 0: radiosities at corners; p[0]: from radiosity to color.
 # Differences first: where all four are the same, so is what comes out.
 TEX R0, f[TEX1], TEX0, RECT;
 TEX R1, f[TEX1].zwzw, TEX0, RECT;
