@@ -8,8 +8,9 @@ use exr::prelude::{
     SmallVec, Text, WritableImage as _,
 };
 
-use super::read::require_size;
-use super::{ChannelUnit, Picture, PictureChannel, PictureError, PictureFormat, Samples};
+use super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
+use super::error::{PictureError, PictureFormat};
+use super::limits::require_size;
 
 /// A picture as an EXR file with its channels by their names. Losslessly packed; the same picture gives the same bytes.
 ///

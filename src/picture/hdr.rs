@@ -3,7 +3,8 @@
 use image::codecs::hdr::HdrEncoder;
 use image::{ExtendedColorType, ImageEncoder as _};
 
-use super::{Picture, PictureError, PictureFormat};
+use super::channels::Picture;
+use super::error::{PictureError, PictureFormat};
 
 /// The color of a picture as a Radiance HDR file. Values below 0 become 0.
 ///

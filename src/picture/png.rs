@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType, Rgb, RgbImage};
 
-use super::{PictureError, PictureFormat};
+use super::error::{PictureError, PictureFormat};
 
 /// An image from its samples, pixel by pixel, rows from the top.
 ///

@@ -2,58 +2,22 @@
 
 use std::io::Cursor;
 
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageFormat, ImageReader};
 
-use super::{ChannelUnit, Picture, PictureError, Samples, exr};
+use super::channels::{ChannelUnit, Picture, Samples};
+use super::error::{PictureError, PictureFormat};
+use super::exr;
+use super::limits::limits;
 
-/// Longest side of a picture that is read, in pixels.
-pub const MAX_SIDE: u32 = 16384;
-/// Memory that a decoded picture may take, in bytes (1 GiB).
-pub const MAX_DECODED_BYTES: u64 = 1 << 30;
-
-/// A file format of pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
-pub enum PictureFormat {
-    /// Portable Network Graphics: sRGB values of 8 or 16 bits.
-    #[strum(to_string = "PNG")]
-    Png,
-    /// Radiance's RGBE: linear light.
-    #[strum(to_string = "Radiance HDR")]
-    Hdr,
-    /// OpenEXR: named channels of halves, singles and whole numbers.
-    #[strum(to_string = "EXR")]
-    Exr,
-}
-
-impl PictureFormat {
-    /// The format of a file that begins with these bytes.
-    fn of(bytes: &[u8]) -> Option<Self> {
-        const SIGNATURES: [(&[u8], PictureFormat); 4] = [
-            (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
-            (b"#?RADIANCE", PictureFormat::Hdr),
-            (b"#?RGBE", PictureFormat::Hdr),
-            (b"\x76\x2f\x31\x01", PictureFormat::Exr),
-        ];
-        SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
-    }
-}
-
-/// What a decoder of the `image` library may take.
-pub fn limits() -> Limits {
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(MAX_DECODED_BYTES);
-    limits
-}
-
-/// Refuses a size that would take too much memory.
-pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), PictureError> {
-    let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
-    if width.max(height) > u64::from(MAX_SIDE) || bytes > MAX_DECODED_BYTES {
-        return Err(PictureError::TooLarge { width, height, channels });
-    }
-    Ok(())
+/// The format of a file that begins with these bytes.
+fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
+    const SIGNATURES: [(&[u8], PictureFormat); 4] = [
+        (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
+        (b"#?RADIANCE", PictureFormat::Hdr),
+        (b"#?RGBE", PictureFormat::Hdr),
+        (b"\x76\x2f\x31\x01", PictureFormat::Exr),
+    ];
+    SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
 }
 
 impl Picture {
@@ -64,7 +28,7 @@ impl Picture {
     /// # Errors
     /// [`PictureError`].
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
-        match PictureFormat::of(bytes) {
+        match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),
             Some(PictureFormat::Png) => from_png(&decoded(bytes, PictureFormat::Png, ImageFormat::Png)?),
             Some(PictureFormat::Hdr) => {

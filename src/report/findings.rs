@@ -1,10 +1,11 @@
-//! What a study found, and the one writer of it: page, tables, drawings, pictures, document, provenance.
+//! What a study found: text, tables, charts, pictures, files and a verdict.
+
+use std::ops::Range;
 
 use serde_json::{Map, Value, json};
 
-use super::page::{self, Passage};
 use super::{Chart, Provenance, ReportError, Table};
-use crate::picture::{Picture, RgbImage, exr, png};
+use crate::picture::{Picture, RgbImage, exr};
 
 /// A file of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -26,11 +27,22 @@ impl Verdict {
     }
 }
 
+/// A piece of a page; tables, charts and pictures by their places in the findings.
+#[derive(Clone, Debug)]
+pub(super) enum Passage {
+    Heading(String),
+    Paragraph(String),
+    Table(usize),
+    Chart(usize),
+    /// Side by side.
+    Pictures(Range<usize>),
+}
+
 /// A table with the places where it is written besides the page.
 #[derive(Clone, Debug)]
 pub struct FoundTable {
     pub(super) table: Table,
-    csv: Option<&'static str>,
+    pub(super) csv: Option<&'static str>,
     field: Option<&'static str>,
     printed: bool,
 }
@@ -100,7 +112,7 @@ pub struct Findings {
     pub(super) tables: Vec<FoundTable>,
     pub(super) charts: Vec<NamedChart>,
     pub(super) pictures: Vec<NamedPicture>,
-    files: Vec<NamedFile>,
+    pub(super) files: Vec<NamedFile>,
     fields: Map<String, Value>,
     printed: Vec<String>,
     verdict: Verdict,
@@ -217,28 +229,5 @@ impl Findings {
             }
         }
         Value::Object(document)
-    }
-
-    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
-    /// files of its own.
-    ///
-    /// # Errors
-    /// If an encoder refuses.
-    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
-        let pngs = self.pictures.iter().map(|found| png(&found.image)).collect::<Result<Vec<_>, _>>()?;
-        let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
-        let page = page::html(self, &pngs, &drawings, provenance);
-        let mut files = std::mem::take(&mut self.files);
-        for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
-            if let Some(name) = csv {
-                files.push((format!("{name}.csv"), table.csv()?.into_bytes()));
-            }
-        }
-        files.extend(self.pictures.iter().zip(pngs).map(|(found, png)| (format!("{}.png", found.name), png)));
-        let drawings = self.charts.iter().zip(drawings);
-        files.extend(drawings.map(|(found, svg)| (format!("{}.svg", found.name), svg.into_bytes())));
-        files.push(("study.json".to_owned(), format!("{:#}\n", self.document(provenance)).into_bytes()));
-        files.push(("index.html".to_owned(), page.into_bytes()));
-        Ok(files)
     }
 }

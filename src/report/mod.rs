@@ -13,6 +13,7 @@ mod source_text;
 mod table;
 pub mod trace;
 pub mod visible;
+mod write;
 
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};

@@ -1,23 +1,11 @@
 //! One HTML file with everything inside it.
 
-use std::ops::Range;
-
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::findings::{Findings, Passage};
 use super::visible::visible;
-use super::{Findings, Provenance, Table};
-
-/// A piece of a page; tables, charts and pictures by their places in the findings.
-#[derive(Clone, Debug)]
-pub(super) enum Passage {
-    Heading(String),
-    Paragraph(String),
-    Table(usize),
-    Chart(usize),
-    /// Side by side.
-    Pictures(Range<usize>),
-}
+use super::{Provenance, Table};
 
 /// The page as one HTML file that needs nothing else: pictures (`pngs`), charts (`drawings`) and style are inside it,
 /// scripts there are none. The provenance comes last.

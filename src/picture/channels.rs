@@ -1,0 +1,147 @@
+//! Pictures as named channels of samples.
+
+use image::RgbImage;
+
+use super::display;
+use super::error::PictureError;
+use super::png::rgb8;
+
+/// What the samples of a channel are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ChannelUnit {
+    /// Linear light: radiance, or proportional to it.
+    Linear,
+    /// A value of the sRGB curve, 0 to 1.
+    Srgb,
+    /// Multiples of the length of a pixel's ray.
+    RayLength,
+    /// Numbers that name something, a triangle for example.
+    Id,
+    /// Nobody said.
+    #[default]
+    Unknown,
+}
+
+/// The samples of a channel, rows from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// IEEE singles; NaN and infinity are kept.
+    Float(Vec<f32>),
+    /// Whole numbers: ids, counts, bit patterns.
+    Uint(Vec<u32>),
+}
+
+/// One channel of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureChannel {
+    /// Its name, `R` for example.
+    pub name: String,
+    /// What its samples are.
+    pub unit: ChannelUnit,
+    /// The samples, as many as the picture has pixels.
+    pub samples: Samples,
+}
+
+/// Named channels of samples, one per pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    channels: Vec<PictureChannel>,
+}
+
+impl Samples {
+    /// How many there are.
+    pub const fn len(&self) -> usize {
+        match self {
+            Self::Float(samples) => samples.len(),
+            Self::Uint(samples) => samples.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl Picture {
+    /// A picture without channels.
+    pub const fn new(width: u32, height: u32) -> Self {
+        Self { width, height, channels: Vec::new() }
+    }
+
+    /// Linear red, green and blue, rows from the top; pixels that are not given are black.
+    pub fn rgb(width: u32, height: u32, pixels: &[[f32; 3]]) -> Self {
+        let channel = |(channel, name): (usize, &str)| {
+            let mut samples: Vec<f32> = pixels.iter().map(|pixel| pixel[channel]).collect();
+            samples.resize(width as usize * height as usize, 0.0);
+            PictureChannel { name: name.to_owned(), unit: ChannelUnit::Linear, samples: Samples::Float(samples) }
+        };
+        Self { width, height, channels: ["R", "G", "B"].into_iter().enumerate().map(channel).collect() }
+    }
+
+    /// Adds a channel.
+    ///
+    /// # Errors
+    /// [`PictureError::Samples`] unless it has one sample per pixel, and at least one.
+    pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, PictureError> {
+        let (width, height, found) = (self.width, self.height, samples.len() as u64);
+        let expected = u64::from(width) * u64::from(height);
+        if found != expected || expected == 0 {
+            return Err(PictureError::Samples { width, height, expected, found });
+        }
+        self.channels.push(PictureChannel { name: name.to_owned(), unit, samples });
+        Ok(self)
+    }
+
+    /// Pixels per row.
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The channels, in the order in which they were added or stand in the file.
+    pub fn channels(&self) -> &[PictureChannel] {
+        &self.channels
+    }
+
+    /// The channel of a name, if its samples are floats.
+    pub fn floats(&self, name: &str) -> Option<(ChannelUnit, &[f32])> {
+        self.channels.iter().find(|channel| channel.name == name).and_then(|channel| match &channel.samples {
+            Samples::Float(samples) => Some((channel.unit, samples.as_slice())),
+            Samples::Uint(_) => None,
+        })
+    }
+
+    /// Linear red, green and blue per pixel; of a picture with the one channel `Y` three times that.
+    ///
+    /// # Errors
+    /// [`PictureError::NoColor`] if it has neither.
+    pub fn linear(&self) -> Result<Vec<[f32; 3]>, PictureError> {
+        let found = || self.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
+        let color = |names: [&str; 3]| Some([self.floats(names[0])?, self.floats(names[1])?, self.floats(names[2])?]);
+        let channels = color(["R", "G", "B"]).or_else(|| color(["Y"; 3]));
+        let channels = channels.ok_or_else(|| PictureError::NoColor { found: found() })?;
+        let linear = |(unit, samples): (ChannelUnit, &[f32]), pixel: usize| match unit {
+            ChannelUnit::Srgb => display::decode(f64::from(samples[pixel])) as f32,
+            _ => samples[pixel],
+        };
+        let pixels = self.width as usize * self.height as usize;
+        Ok((0..pixels).map(|pixel| channels.map(|channel| linear(channel, pixel))).collect())
+    }
+
+    /// What a screen shows: linear light times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
+    ///
+    /// # Errors
+    /// As [`Picture::linear`].
+    pub fn display(&self, exposure: f64) -> Result<RgbImage, PictureError> {
+        let pixels = self.linear()?;
+        let shown = pixels.iter().map(|pixel| pixel.map(|channel| display::encode(f64::from(channel) * exposure)));
+        Ok(rgb8(self.width, self.height, shown))
+    }
+}

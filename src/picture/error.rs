@@ -1,0 +1,83 @@
+//! Errors of pictures, with the formats and limits that they name.
+
+/// Longest side of a picture that is read, in pixels.
+pub const MAX_SIDE: u32 = 16384;
+/// Memory that a decoded picture may take, in bytes (1 GiB).
+pub const MAX_DECODED_BYTES: u64 = 1 << 30;
+
+/// A file format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+pub enum PictureFormat {
+    /// Portable Network Graphics: sRGB values of 8 or 16 bits.
+    #[strum(to_string = "PNG")]
+    Png,
+    /// Radiance's RGBE: linear light.
+    #[strum(to_string = "Radiance HDR")]
+    Hdr,
+    /// OpenEXR: named channels of halves, singles and whole numbers.
+    #[strum(to_string = "EXR")]
+    Exr,
+}
+
+/// A picture that cannot be made, written or read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+pub enum PictureError {
+    /// The number of samples does not fit the picture's size.
+    #[error("expected {expected} samples for a picture of {width}x{height}, found {found}")]
+    #[diagnostic(code(crossbar::picture::samples))]
+    Samples {
+        /// Pixels per row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Samples that a picture of this size has.
+        expected: u64,
+        /// Samples given.
+        found: u64,
+    },
+    /// The encoder refused.
+    #[error("the {format} file cannot be encoded: {reason}")]
+    #[diagnostic(code(crossbar::picture::encode))]
+    Encode {
+        /// The format.
+        format: PictureFormat,
+        /// What the encoder said.
+        reason: String,
+    },
+    /// The first bytes are those of no format that is read.
+    #[error("expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}")]
+    #[diagnostic(code(crossbar::picture::format))]
+    Unrecognized {
+        /// The first bytes, in hexadecimal.
+        found: String,
+    },
+    /// The picture is larger than any that is read.
+    #[error(
+        "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels"
+    )]
+    #[diagnostic(code(crossbar::picture::size))]
+    TooLarge {
+        /// Pixels per row.
+        width: u64,
+        /// Rows.
+        height: u64,
+        /// Channels.
+        channels: usize,
+    },
+    /// The file is broken, or of a kind that is not read.
+    #[error("expected {format} data, found something else: {reason}")]
+    #[diagnostic(code(crossbar::picture::decode))]
+    Decode {
+        /// The format that the first bytes promise.
+        format: PictureFormat,
+        /// What the decoder said.
+        reason: String,
+    },
+    /// There is no color to show.
+    #[error("expected channels R, G and B, or Y; found {}", if found.is_empty() { "none" } else { found })]
+    #[diagnostic(code(crossbar::picture::color))]
+    NoColor {
+        /// The names of the channels.
+        found: String,
+    },
+}

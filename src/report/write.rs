@@ -1,0 +1,30 @@
+//! The one writer of findings: tables, pictures, charts, document and page as files.
+
+use super::findings::{Findings, FoundTable, NamedFile};
+use super::{Provenance, ReportError, page};
+use crate::picture::png;
+
+impl Findings {
+    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
+    /// files of its own.
+    ///
+    /// # Errors
+    /// If an encoder refuses.
+    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
+        let pngs = self.pictures.iter().map(|found| png(&found.image)).collect::<Result<Vec<_>, _>>()?;
+        let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
+        let page = page::html(self, &pngs, &drawings, provenance);
+        let mut files = std::mem::take(&mut self.files);
+        for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
+            if let Some(name) = csv {
+                files.push((format!("{name}.csv"), table.csv()?.into_bytes()));
+            }
+        }
+        files.extend(self.pictures.iter().zip(pngs).map(|(found, png)| (format!("{}.png", found.name), png)));
+        let drawings = self.charts.iter().zip(drawings);
+        files.extend(drawings.map(|(found, svg)| (format!("{}.svg", found.name), svg.into_bytes())));
+        files.push(("study.json".to_owned(), format!("{:#}\n", self.document(provenance)).into_bytes()));
+        files.push(("index.html".to_owned(), page.into_bytes()));
+        Ok(files)
+    }
+}
