@@ -190,7 +190,7 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let mean = at_corners(&patches, &radiosity)[0][0];
         for (found, want) in middle.into_iter().zip(mean) {
             // An operation is off by 2^-24 of its result; there are 3 a patch.
-            assert_abs_diff_eq!(*found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
+            assert_abs_diff_eq!(found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
         }
     }
 }
