@@ -20,6 +20,13 @@ impl Progress {
         Self(bar)
     }
 
+    /// A spinner of what `what` says.
+    pub fn unending(what: &str) -> Self {
+        let bar = ProgressBar::new_spinner().with_message(what.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self(bar)
+    }
+
     /// `done` of `total` steps are done, of what `what` says now.
     pub fn show(&self, what: String, done: u64, total: u64) {
         self.0.set_length(total);

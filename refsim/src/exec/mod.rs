@@ -30,7 +30,6 @@ pub use observer::{NoObserver, Observer, Step, TextureRead, Trace};
 pub use tile::{TILE, TileDraw, TileExecutor, output_rules};
 pub use trace::{PixelTracer, Shading};
 pub use usage::{colors_written, inputs_read};
-pub use wgsl::NumberMode;
 
 use crate::check::Checked;
 use crate::device::Rules;

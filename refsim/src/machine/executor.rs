@@ -3,7 +3,7 @@
 use super::{Machine, MachineError};
 use crate::device::Profile;
 #[cfg(feature = "wgpu")]
-use crate::exec::{gpu::Gpu, wgsl::NumberMode};
+use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
 /// Which executor shades fragments. The bits are the same.
@@ -22,15 +22,13 @@ pub enum ExecutorKind {
 /// An executor with what it needs, for code that makes machines of its own.
 #[derive(Clone, Debug)]
 pub enum Executor {
-    /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has, in integer mode.
+    /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has.
     Kind(ExecutorKind),
     /// An opened GPU.
     #[cfg(feature = "wgpu")]
     Gpu {
         /// The GPU.
         gpu: Arc<Gpu>,
-        /// How it computes.
-        mode: NumberMode,
     },
 }
 
@@ -52,7 +50,7 @@ impl Executor {
         match self {
             Self::Kind(kind) => Ok(Machine::new(profile, *kind)),
             #[cfg(feature = "wgpu")]
-            Self::Gpu { gpu, mode } => Machine::with_gpu(profile, Arc::clone(gpu), *mode),
+            Self::Gpu { gpu } => Machine::with_gpu(profile, Arc::clone(gpu)),
         }
     }
 }
