@@ -53,9 +53,10 @@ pub struct Kernel {
     pub bindings: &'static [Access],
 }
 
-/// Texts of a kernel that are compiled for the very parts that a draw uses. Whoever needs more than so many gets one with
-/// all parts: random programs would have one each.
+/// Texts of a kernel that are compiled for the very parts that a draw uses, and then for what any draw used so far. The next
+/// one has all parts: random programs would have one each.
 const MAX_EXACT: usize = 6;
+const MAX_GROWING: usize = 9;
 
 /// Told before a pipeline is compiled, which takes seconds; what it gives is dropped afterwards.
 pub type CompileObserver = Box<dyn Fn() -> Box<dyn std::any::Any> + Send + Sync>;
@@ -158,7 +159,10 @@ impl Gpu {
         if let Some((_, pipeline)) = fitting {
             return Ok(pipeline.clone());
         }
-        let parts = if made.len() < MAX_EXACT { parts.clone() } else { Parts::all() };
+        let mut parts = if made.len() < MAX_GROWING { parts.clone() } else { Parts::all() };
+        if made.len() >= MAX_EXACT {
+            made.iter().for_each(|(there, _)| parts.extend(there));
+        }
         let told = self.observer.as_ref().map(|observer| observer());
         let text = parts.of(&(kernel.text)(), kernel.entry);
         let pipeline = self.pipeline(&text, kernel.entry, kernel.bindings)?;

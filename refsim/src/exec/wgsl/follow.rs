@@ -9,7 +9,7 @@ use crate::exec::{CheckedProgram, Shading, inputs_read, program};
 use crate::isa::Opcode;
 use crate::num::Format;
 use crate::output::FragmentFate;
-use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
+use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
 
 /// The kernel's entry point: a workgroup of one invocation a pixel.
 pub const ENTRY: &str = "follow_main";
@@ -110,7 +110,7 @@ impl<'w> Record<'w> {
     /// What happened to the fragment, of which `steps` are the words of all steps.
     pub fn shading(&self, steps: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Shading {
         Shading {
-            input: self.input(inputs_read(program(checked)).has(Interpolation::RECIPROCAL)),
+            input: self.input(inputs_read(program(checked))),
             delivered: trace_delivered(steps, checked, rules),
             steps: trace_steps(steps, checked, rules, lane),
             output: self.output(checked, rules),
@@ -123,15 +123,16 @@ impl<'w> Record<'w> {
         }
     }
 
-    /// The interpolated components; the window position too if the program reads it.
-    fn input(&self, position: bool) -> FragmentInput {
-        let at = |component: usize| self.words[INPUT + component];
+    /// The interpolated components that the program reads.
+    fn input(&self, read: ComponentMask) -> FragmentInput {
+        let at = |component: usize| if read.has(component) { self.words[INPUT + component] } else { 0 };
+        let position = read.has(Interpolation::RECIPROCAL);
         FragmentInput {
             t: std::array::from_fn(|set| std::array::from_fn(|c| at(4 * set + c))),
             v: std::array::from_fn(|color| std::array::from_fn(|c| at(COLOR_COMPONENT + 4 * color + c))),
             fog: at(FOG_COMPONENT),
-            position: std::array::from_fn(|c| if position { at(POSITION_COMPONENT + c) } else { 0 }),
-            depth: at(POSITION_COMPONENT + 2),
+            position: std::array::from_fn(|c| if position { self.words[INPUT + POSITION_COMPONENT + c] } else { 0 }),
+            depth: self.words[INPUT + POSITION_COMPONENT + 2],
         }
     }
 
