@@ -32,7 +32,7 @@ fn machine(profile: &Profile, kind: ExecutorKind) -> Machine {
     if kind == ExecutorKind::Wgpu
         && let Ok(Some(gpu)) = refsim::exec::gpu::testing::shared()
     {
-        return Machine::with_gpu(profile.clone(), gpu, refsim::exec::NumberMode::Integer).expect("a machine");
+        return Machine::with_gpu(profile.clone(), gpu).expect("a machine");
     }
     Machine::new(profile.clone(), kind)
 }

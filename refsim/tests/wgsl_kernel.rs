@@ -1,7 +1,6 @@
-//! The texts of the pixel kernel and of the one that follows pixels are valid modules, with a program in both number
-//! modes.
+//! The texts of the pixel kernel and of the one that follows pixels are valid modules.
 
-use refsim::exec::wgsl::number::{NativeOperations, NumberMode, library};
+use refsim::exec::wgsl::parts::{self, Parts};
 use refsim::exec::wgsl::{follow, kernel, program, texture};
 
 fn is_valid(text: &str, entry: &str, size: usize) {
@@ -16,12 +15,22 @@ fn is_valid(text: &str, entry: &str, size: usize) {
 }
 
 #[test]
-fn the_modules_of_all_programs_are_valid() {
-    for mode in [NumberMode::Integer, NumberMode::Native] {
-        let library = library(mode, NativeOperations::all());
-        let rest = [program::machine(), program::NO_OUTPUT, &texture::library()].concat();
-        let drawn = kernel::text(&library) + program::NO_TRACE + &rest;
-        is_valid(&drawn, kernel::ENTRY, kernel::INVOCATIONS);
-        is_valid(&(follow::text(&library) + &rest), follow::ENTRY, 1);
+fn the_modules_are_valid_with_all_their_parts_and_with_few() {
+    let rest = program::machine() + &texture::library();
+    let drawn = kernel::text() + program::NO_TRACE + &rest;
+    let followed = follow::text() + &rest;
+    for (text, entry, size) in [(&drawn, kernel::ENTRY, kernel::INVOCATIONS), (&followed, follow::ENTRY, 1)] {
+        is_valid(&(parts::constants() + text), entry, size);
+        let all = Parts::all().of(text, entry);
+        is_valid(&all, entry, size);
+        for feature in
+            ["HAS_FLOAT_TARGETS", "HAS_INTEGER_BLENDING", "HAS_CUBES", "HAS_SUSPENSION", "HAS_FIXED", "VM_DOT"]
+        {
+            let mut few = Parts::default();
+            few.add(feature);
+            let few = few.of(text, entry);
+            is_valid(&few, entry, size);
+            assert!(few.len() < all.len() * 2 / 3, "{entry} with {feature}");
+        }
     }
 }

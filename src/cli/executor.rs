@@ -1,12 +1,11 @@
-//! `--executor`, `--adapter`, `--native`: how the card's programs are run.
-
-#[cfg(feature = "wgpu")]
-use std::io::Write as _;
+//! `--executor`, `--adapter`: how the card's programs are run.
 
 use clap::ValueEnum;
 use refsim::machine::{Executor, ExecutorKind};
 
 use super::Problem;
+#[cfg(feature = "wgpu")]
+use super::ProgressBar;
 
 /// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -19,39 +18,29 @@ pub(super) enum DeviceExecutor {
     Wgpu,
 }
 
-/// Which GPU, and how it computes.
+/// Which GPU.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct GpuArgs {
     /// For wgpu: the adapter, by its name or a part of it; see `crossbar devices --adapters` [default: the best]
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-
-    /// For wgpu: leave single precision to the adapter's own floats where a probe finds them exact
-    #[arg(long)]
-    native: bool,
 }
 
 impl GpuArgs {
     /// Whether they say anything.
     pub(super) fn is_given(&self) -> bool {
-        self.adapter.is_some() || self.native
+        self.adapter.is_some()
     }
 
     #[cfg(feature = "wgpu")]
     fn open(&self) -> Result<Executor, Problem> {
-        use refsim::exec::{gpu::Gpu, wgsl::NumberMode};
+        use refsim::exec::gpu::Gpu;
         let refused = |e: refsim::exec::gpu::GpuError| {
             Problem::usage(e.to_string(), "`crossbar devices --adapters` lists the adapters")
         };
         let gpu = Gpu::open(self.adapter.as_deref()).map_err(refused)?;
-        if self.native
-            && let Some(departures) = gpu.probed().map_err(refused)?.departures()
-        {
-            // Nothing is to be done if nobody reads this.
-            writeln!(std::io::stderr().lock(), "note: {departures}").ok();
-        }
-        let mode = if self.native { NumberMode::Native } else { NumberMode::Integer };
-        Ok(Executor::Gpu { gpu: std::sync::Arc::new(gpu), mode })
+        let gpu = gpu.observed(Box::new(|| Box::new(ProgressBar::unending("compiling a shader for the GPU"))));
+        Ok(Executor::Gpu { gpu: std::sync::Arc::new(gpu) })
     }
 
     #[cfg(not(feature = "wgpu"))]
@@ -64,8 +53,8 @@ impl DeviceExecutor {
     /// The executor, ready to work.
     pub(super) fn open(self, gpu: &GpuArgs) -> miette::Result<Executor> {
         if self != Self::Wgpu && gpu.is_given() {
-            let help = "add `--executor wgpu`, or leave them out";
-            return Err(Problem::usage("`--adapter` and `--native` are for the wgpu executor", help).into());
+            let help = "add `--executor wgpu`, or leave it out";
+            return Err(Problem::usage("`--adapter` is for the wgpu executor", help).into());
         }
         Ok(match self {
             Self::Scalar => ExecutorKind::Scalar.into(),

@@ -20,6 +20,13 @@ impl ProgressBar {
         Self(bar)
     }
 
+    /// A spinner beside `what`.
+    pub fn unending(what: &str) -> Self {
+        let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self(bar)
+    }
+
     /// `done` of `total` steps of `what` are done.
     pub fn show(&self, what: String, done: u64, total: u64) {
         self.0.set_length(total);

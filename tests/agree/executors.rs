@@ -5,8 +5,6 @@ use refsim::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use refsim::exec::batch::SimdLevel;
 #[cfg(feature = "wgpu")]
 use refsim::exec::gpu::testing;
-#[cfg(feature = "wgpu")]
-use refsim::exec::wgsl::NumberMode;
 use refsim::machine::{ExecutorKind, Machine, MachineError};
 use std::sync::LazyLock;
 
@@ -20,9 +18,6 @@ pub(crate) struct Executor {
     simd: Option<SimdLevel>,
     /// Whether its texels are watched: it draws in the order of the hardware then.
     watched: bool,
-    /// How a GPU computes in single precision.
-    #[cfg(feature = "wgpu")]
-    mode: Option<NumberMode>,
     /// It draws one case in so many: slow ones needn't see all.
     pub(crate) every: u64,
 }
@@ -31,10 +26,10 @@ impl Executor {
     /// A machine of its own.
     pub(crate) fn machine(&self, profile: &Profile) -> Result<Machine, MachineError> {
         #[cfg(feature = "wgpu")]
-        if let Some(mode) = self.mode
+        if self.kind == ExecutorKind::Wgpu
             && let Some(gpu) = testing::shared().map_err(MachineError::from)?
         {
-            return Machine::with_gpu(profile.clone(), gpu, mode);
+            return Machine::with_gpu(profile.clone(), gpu);
         }
         let mut machine = Machine::with_threads(profile.clone(), self.kind, self.threads)?;
         machine.set_simd_level(self.simd);
@@ -44,19 +39,7 @@ impl Executor {
         Ok(machine)
     }
 
-    /// What is known to differ from IEEE 754 in the floats that it computes with.
-    pub(crate) fn departures(&self) -> Option<String> {
-        #[cfg(feature = "wgpu")]
-        if self.mode == Some(NumberMode::Native)
-            && let Ok(Some(gpu)) = testing::shared()
-        {
-            return gpu.probed().ok()?.departures();
-        }
-        None
-    }
-
-    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for everybody. A
-    /// native float mode, for example, serves one format only.
+    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for everybody.
     pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
         turn.is_multiple_of(self.every)
     }
@@ -86,8 +69,6 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     threads: 1,
     simd: None,
     watched: false,
-    #[cfg(feature = "wgpu")]
-    mode: None,
     every: 1,
 });
 
@@ -106,24 +87,19 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     all
 });
 
-/// Both number modes on the adapter that there is; without one, none.
+/// The adapter that there is.
 #[cfg(feature = "wgpu")]
 #[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn on_gpu() -> Vec<Executor> {
+fn on_gpu() -> Option<Executor> {
     match testing::shared() {
         Ok(Some(_)) => {}
         Ok(None) => {
             println!("ignored: no adapter");
-            return Vec::new();
+            return None;
         }
         Err(e) => panic!("{e}"),
     }
-    [("integer", NumberMode::Integer), ("native", NumberMode::Native)]
-        .map(|(word, mode)| {
-            let name = format!("wgpu/{word}");
-            Executor { name, kind: ExecutorKind::Wgpu, mode: Some(mode), every: EVERY_GPU, ..REFERENCE.clone() }
-        })
-        .to_vec()
+    Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: EVERY_GPU, ..REFERENCE.clone() })
 }
 
 /// Draws on software drivers take milliseconds where the batch executor takes microseconds.

@@ -8,7 +8,7 @@ use crossbar::radiosity::packing::{self, Packing};
 use crossbar::radiosity::{FormFactors, System};
 use refsim::device::Profile;
 #[cfg(feature = "wgpu")]
-use refsim::exec::{gpu::testing, wgsl::NumberMode};
+use refsim::exec::gpu::testing;
 use refsim::machine::{Executor, ExecutorKind};
 
 use crate::random::Random;
@@ -31,7 +31,7 @@ fn executors() -> Vec<(&'static str, Executor)> {
 #[cfg(feature = "wgpu")]
 fn on_gpu() -> Option<(&'static str, Executor)> {
     let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
-    Some(("wgpu", Executor::Gpu { gpu, mode: NumberMode::Integer }))
+    Some(("wgpu", Executor::Gpu { gpu }))
 }
 
 /// Form factors of a room that leaks a little, no two alike; reflectances below 1.

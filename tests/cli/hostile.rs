@@ -304,7 +304,7 @@ fn what_is_wrong_is_said() {
             "expected a pixel as `3,4`, column and row from 0; found `-1,2`",
         ),
         (vec!["compare", "nowhere.toml", "--pixel", "-1,2"], "found `-1,2`"),
-        (vec!["compare", "nowhere.toml", "--adapter", "x"], "add `--left wgpu` or `--right wgpu`, or leave them out"),
+        (vec!["compare", "nowhere.toml", "--adapter", "x"], "add `--left wgpu` or `--right wgpu`, or leave it out"),
         (vec!["alu", "add", "--format", "fp16", "--threads", "-1"], "-1 is not in 1..=1024"),
         (vec!["alu", "add", "--format", "fp16", "--verify"], "expected at least one line to verify, found none"),
         (

@@ -75,7 +75,7 @@ fn casters_refuse_what_is_not_for_them() {
     let cases: [(&str, &[&str]); 6] = [
         ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
         ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
-        ("adapter_of_the_host", &["--caster", "host", "--native"]),
+        ("adapter_of_the_host", &["--caster", "host", "--adapter", "x"]),
         ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
         ("engine_without_programs", &["--caster", "engine", "--device", "nv25"]),
         ("unknown_caster", &["--caster", "card"]),

@@ -65,7 +65,7 @@ fn executors() -> Vec<Executor> {
     let hosts = [ExecutorKind::Scalar, ExecutorKind::Batch].map(Executor::from);
     #[cfg(feature = "wgpu")]
     if let Some(gpu) = refsim::exec::gpu::testing::shared().unwrap_or_else(|e| panic!("{e}")) {
-        let gpu = Executor::Gpu { gpu, mode: refsim::exec::NumberMode::Integer };
+        let gpu = Executor::Gpu { gpu };
         return hosts.into_iter().chain([gpu]).collect();
     }
     hosts.into()

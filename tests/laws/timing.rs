@@ -20,7 +20,7 @@ fn executors() -> Vec<Executor> {
     let mut all: Vec<Executor> = vec![ExecutorKind::Batch.into()];
     #[cfg(feature = "wgpu")]
     if let Ok(Some(gpu)) = refsim::exec::gpu::testing::shared() {
-        all.push(Executor::Gpu { gpu, mode: refsim::exec::NumberMode::Integer });
+        all.push(Executor::Gpu { gpu });
     }
     all.push(ExecutorKind::Scalar.into());
     all

@@ -97,8 +97,8 @@ fn scalar_and_batch_give_the_same_study() {
 #[cfg(feature = "wgpu")]
 #[test]
 #[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn a_gpu_gives_the_same_study_in_both_number_modes() {
-    use refsim::exec::{gpu::testing, wgsl::NumberMode};
+fn a_gpu_gives_the_same_study() {
+    use refsim::exec::gpu::testing;
     let Some(gpu) = testing::shared().expect("an adapter that opens") else {
         println!("ignored: no adapter");
         return;
@@ -111,10 +111,8 @@ fn a_gpu_gives_the_same_study_in_both_number_modes() {
         small = small_study().0;
     }
     let batch = study(&small);
-    for mode in [NumberMode::Integer, NumberMode::Native] {
-        small.executor = refsim::machine::Executor::Gpu { gpu: gpu.clone(), mode };
-        assert_same(&batch, &study(&small), &format!("wgpu, {mode:?}"));
-    }
+    small.executor = refsim::machine::Executor::Gpu { gpu };
+    assert_same(&batch, &study(&small), "wgpu");
 }
 
 #[test]

@@ -35,7 +35,6 @@ pub use result::{DepthValue, FragmentResult};
 pub use tile::{TILE, TileDraw, output_rules};
 pub use trace::{PixelTracer, Shading};
 pub use usage::{colors_written, inputs_read};
-pub use wgsl::NumberMode;
 
 use crate::check::Checked;
 use crate::device::Rules;

@@ -4,13 +4,13 @@ use super::{ExecutorKind, Machine, MachineError};
 use crate::device::Profile;
 use crate::exec::batch::BatchExecutor;
 #[cfg(feature = "wgpu")]
-use crate::exec::{gpu::Gpu, wgsl::NumberMode};
+use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
 /// An executor with its GPU, if it needs one: for code that makes machines of its own. They share what it has decoded.
 #[derive(Clone, Debug)]
 pub enum Executor {
-    /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has, in integer mode.
+    /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has.
     Kind {
         /// The kind.
         kind: ExecutorKind,
@@ -22,8 +22,6 @@ pub enum Executor {
     Gpu {
         /// The GPU.
         gpu: Arc<Gpu>,
-        /// How it computes.
-        mode: NumberMode,
     },
 }
 
@@ -45,7 +43,7 @@ impl Executor {
         match self {
             Self::Kind { kind, batch } => Ok(Machine { batch: batch.clone(), ..Machine::new(profile, *kind) }),
             #[cfg(feature = "wgpu")]
-            Self::Gpu { gpu, mode } => Machine::with_gpu(profile, Arc::clone(gpu), *mode),
+            Self::Gpu { gpu } => Machine::with_gpu(profile, Arc::clone(gpu)),
         }
     }
 }

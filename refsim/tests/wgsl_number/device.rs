@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use refsim::exec::gpu::{Gpu, testing};
-use refsim::exec::wgsl::number::{NativeOperations, NumberMode, format_words, library, source_word};
+use refsim::exec::wgsl::number::{format_words, library, source_word};
+use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation, ops};
 
 use crate::operands::{Words, edges, formats, pattern};
@@ -12,21 +13,9 @@ use crate::reference::reference;
 /// Operands of single precision for steps, whatever the format.
 const SINGLE: Format = Format::FP32;
 
-pub(crate) fn text(entry: &str) -> String {
-    library(NumberMode::Integer, NativeOperations::empty()) + entry
-}
-
-/// Every operation in single precision, with some of them left to the device.
-pub(crate) fn check_native(gpu: &Gpu, native: NativeOperations) {
-    let formats = [Format::FP32, Format::FP16];
-    let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
-    let shader = library(NumberMode::Native, native) + include_str!("operations.wgsl");
-    let mut words = Words(2);
-    for operation in NumberOperation::ALL.into_iter().filter(|&o| tried(o)) {
-        let items: Vec<Item> =
-            (0..8000).map(|i| random_item(&mut words, &formats, &all, operation, usize::from(i % 8 == 0))).collect();
-        check_with(gpu, &shader, &formats, &items);
-    }
+/// The library with a text that has this entry point.
+pub(crate) fn text(more: &str, entry: &str) -> String {
+    Parts::all().of(&(library() + more), entry)
 }
 
 /// The adapter, or `None` after saying that there is none.
@@ -70,16 +59,12 @@ impl Item {
 
 /// Runs the items and names what differs.
 fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
-    check_with(gpu, &text(include_str!("operations.wgsl")), formats, items);
-}
-
-/// The same with a text that defines `run_operations`.
-fn check_with(gpu: &Gpu, shader: &str, formats: &[Format], items: &[Item]) {
+    let shader = text(include_str!("operations.wgsl"), "run_operations");
     let table: Vec<u32> = formats.iter().flat_map(format_words).collect();
     for part in items.chunks(1 << 18) {
         let words: Vec<u32> = part.iter().flat_map(|i| i.words(formats)).collect();
         let groups = [part.len().div_ceil(64) as u32, 1, 1];
-        let found = gpu.compute(shader, "run_operations", &[&table, &words], part.len(), groups);
+        let found = gpu.compute(&shader, "run_operations", &[&table, &words], part.len(), groups);
         let found = found.expect("the shader runs");
         for (item, bits) in part.iter().zip(found) {
             let Some(expected) = item.expected(formats) else { continue };
@@ -175,7 +160,7 @@ fn exhausted(o: NumberOperation) -> bool {
 
 fn tried(operation: NumberOperation) -> bool {
     use NumberOperation as Op;
-    !matches!(operation, Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
+    !matches!(operation, Op::Mad | Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
 }
 
 #[test]

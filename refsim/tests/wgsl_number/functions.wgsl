@@ -30,19 +30,13 @@ fn run_functions(@builtin(global_invocation_id) id: vec3<u32>) {
                 a[i] = n_decode(f, x[i]);
                 b[i] = n_decode(f, x[i + 4u]);
             }
-            result = n_encode(f, n_dot(f, items[at], a, b));
+            result = n_encode(f, n_finish(f, n_dot(f, items[at], a, b)));
         }
-        case 5u: { result = n_encode(g, n_convert(f, g, n_decode(f, x[0]))); }
-        case 6u: { result = n_encode(f, n_unorm(f, x[0], x[1])); }
+        case 5u: { result = n_encode(g, n_finish(g, n_term(N_CONVERT, g, f.kind, f.frac, n_decode(f, x[0]), 0u))); }
         case 7u: {
             result = n_encode(f, n_round(f, (x[2] & 1u) == 1u, vec2<u32>(x[0], x[1]), i32(x[3]), (x[2] & 2u) == 2u));
         }
         case 8u: { result = s_alu(x[2], x[0], x[1]); }
-        case 9u: { result = u32(s_scaled_floor(x[0], i32(x[1]))); }
-        case 10u: { result = s_from_i32(i32(x[0])); }
-        case 11u: {
-            result = select(0u, 1u, s_lt(x[0], x[1])) | select(0u, 2u, s_le(x[0], x[1])) | select(0u, 4u, s_eq(x[0], x[1]));
-        }
         default: {}
     }
     results[id.x] = result;

@@ -10,13 +10,13 @@ mod device;
 #[cfg(feature = "wgpu")]
 mod functions;
 #[cfg(feature = "wgpu")]
-mod native;
-#[cfg(feature = "wgpu")]
 mod operands;
+#[cfg(feature = "wgpu")]
+mod probe;
 #[cfg(feature = "wgpu")]
 mod reference;
 
-use refsim::exec::wgsl::number::{NativeOperations, NumberMode, library};
+use refsim::exec::wgsl::{number::library, parts};
 
 /// Parses and validates a module; the message names what naga found.
 fn validate(text: &str) {
@@ -28,7 +28,5 @@ fn validate(text: &str) {
 
 #[test]
 fn the_library_is_valid_wgsl() {
-    validate(&library(NumberMode::Integer, NativeOperations::empty()));
-    validate(&library(NumberMode::Native, NativeOperations::empty()));
-    validate(&library(NumberMode::Native, NativeOperations::all()));
+    validate(&(parts::constants() + &library()));
 }

@@ -4,7 +4,7 @@ use crate::generate::{self, Layout};
 use crate::random::Random;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
-use refsim::isa::{Stage, Version};
+use refsim::isa::Version;
 use refsim::texture::TextureKind;
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,6 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 pub(crate) const PIXEL: [Version; 7] =
     [Version::Ps1_1, Version::Ps1_2, Version::Ps1_3, Version::Ps1_4, Version::Ps2_0, Version::Ps2A, Version::Ps2B];
-pub(crate) const VERTEX: [Version; 2] = [Version::Vs1_1, Version::Vs2_0];
 pub(crate) const FORMATS: [&str; 10] =
     ["fp32", "s3.12", "fp16", "fp24", "s1.10", "s3.12:rtz", "fp16:rtz:nv", "s7.16", "fp32:ftz", "e4m3"];
 
@@ -69,11 +68,6 @@ pub(crate) fn files(profile: &Profile) -> Vec<(String, CheckedProgram)> {
     }
     assert!(kernels > 0 && out.len() > 20, "{} of {} programs pass the checker", out.len(), paths.len());
     out
-}
-
-/// The stage of a program.
-pub(crate) fn stage(program: &CheckedProgram) -> Stage {
-    program.version.stage()
 }
 
 /// A random legal program of at most `size` (0 to 3).

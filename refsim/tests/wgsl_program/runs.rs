@@ -1,14 +1,13 @@
 //! Programs on an adapter against the scalar executor, bit for bit: nothing but `shade()`, on random inputs.
 
-use crate::cases::{self, FORMATS, PIXEL, VERTEX, ideal, seeds};
+use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
 use crate::modules;
 use crate::random::Random;
 use refsim::device::{Profile, Rules};
 use refsim::exec::gpu::{Access, Buffer, Gpu, GpuError, Pipeline, testing};
-use refsim::exec::scalar::{PixelProgram, VertexProgram};
-use refsim::exec::wgsl::NumberMode;
-use refsim::exec::wgsl::number::{NativeOperations, format_words};
-use refsim::exec::wgsl::program::{self, ATTRIBUTE_WORDS, PixelShader, VERTEX_WORDS, VertexShader};
+use refsim::exec::scalar::PixelProgram;
+use refsim::exec::wgsl::number::format_words;
+use refsim::exec::wgsl::program::{self, PixelShader};
 use refsim::exec::wgsl::texture::{image_words, sampler_words};
 use refsim::exec::{CheckedProgram, Constants, NoObserver, PixelBindings, SamplerBinding, Step, Trace, sample_rules};
 use refsim::isa::{RegisterFile, Version};
@@ -21,7 +20,9 @@ use std::sync::Arc;
 const QUADS: usize = 64;
 /// Words of a quad's inputs and of its results.
 const INPUT_WORDS: usize = 41 * 4 + 2;
-const RESULT_WORDS: usize = 64 + 4 + 4 + 4 + 16 + 1;
+const RESULT_WORDS: usize = 64 + 4 + 4 + 4 + 16;
+/// Rows of `scratch` for what goes in and out, and for what a program puts down.
+const MORE_ROWS: usize = 66 + 4;
 
 fn done<T>(result: Result<T, GpuError>) -> T {
     result.unwrap_or_else(|e| panic!("{e}"))
@@ -116,13 +117,12 @@ fn expected(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_
                 out.extend(results.iter().map(|result| raw(rules.format, result.colors[target][c])));
             }
         }
+        out.extend(results.iter().map(|result| u32::from(result.killed)));
         out.extend(results.iter().map(|result| result.depth.map_or(0, |d| raw(d.format, d.bits))));
         // In single precision both ways of saying it are the same.
         let is_main = |f: Format| rules.format != Format::FP32 && f == rules.format;
         out.extend(results.iter().map(|result| u32::from(result.depth.is_some_and(|d| is_main(d.format)))));
-        out.extend(results.iter().map(|result| u32::from(result.killed)));
         out.extend(fetches.map(|f| f as u32));
-        out.push(0);
     }
     out
 }
@@ -133,19 +133,13 @@ pub(crate) struct Runner {
 }
 
 impl Runner {
-    /// For a module that defines `shade`.
-    pub(crate) fn new(gpu: &Arc<Gpu>, mode: NumberMode, shade: &str) -> Self {
-        Self::of_module(gpu, modules::pixel(mode, shade))
-    }
-
-    /// For a module that can do everything but start.
-    fn of_module(gpu: &Arc<Gpu>, module: String) -> Self {
-        let text = module + include_str!("runs.wgsl");
+    /// For a module of [`modules`].
+    pub(crate) fn new(gpu: &Arc<Gpu>, module: &str) -> Self {
         let access = [4, 6, 7].iter().fold(vec![Access::Read; 8], |mut all, &i| {
             all[i] = Access::ReadWrite;
             all
         });
-        let pipeline = gpu.pipeline(&text, "run", &access).unwrap_or_else(|e| panic!("{e}"));
+        let pipeline = gpu.pipeline(module, modules::ENTRY, &access).unwrap_or_else(|e| panic!("{e}"));
         Self { gpu: Arc::clone(gpu), pipeline }
     }
 
@@ -165,13 +159,21 @@ impl Runner {
     ) -> (Vec<u32>, Vec<u32>) {
         let of = |words: &[u32]| done(self.gpu.buffer_of(words));
         let mut draw = formats(rules);
-        draw.push(trace);
+        draw.extend([trace, slots as u32]);
         let zeros = |words: usize| done(self.gpu.buffer(words));
         let mut video = vec![0; QUADS * RESULT_WORDS];
         video.extend_from_slice(texels);
         let (results, traced) = (of(&video), zeros(1 << 16));
-        let buffers =
-            [of(&draw), of(inputs), of(&[0]), of(samplers), results, of(code), zeros(slots * QUADS * 4), traced];
+        let buffers = [
+            of(&draw),
+            of(inputs),
+            of(&[0]),
+            of(samplers),
+            results,
+            of(code),
+            zeros((slots + MORE_ROWS) * QUADS * 4),
+            traced,
+        ];
         let all: Vec<&Buffer> = buffers.iter().collect();
         done(self.gpu.dispatch(&self.pipeline, &all, [1, 1, 1]));
         let results = done(self.gpu.read(&buffers[4], 0..QUADS * RESULT_WORDS));
@@ -192,9 +194,9 @@ fn difference(found: &[u32], wanted: &[u32]) -> Option<String> {
     let (quad, word) = (at / RESULT_WORDS, at % RESULT_WORDS);
     let what = match word {
         0..64 => format!("oC{}.{} lane {}", word / 16, word / 4 % 4, word % 4),
-        64..68 => format!("depth lane {}", word - 64),
-        68..72 => format!("kind of depth lane {}", word - 68),
-        72..76 => format!("killed lane {}", word - 72),
+        64..68 => format!("killed lane {}", word - 64),
+        68..72 => format!("depth lane {}", word - 68),
+        72..76 => format!("kind of depth lane {}", word - 72),
         _ => format!("reads of sampler {}", word - 76),
     };
     Some(format!("quad {quad}, {what}: found {:#010x}, expected {:#010x}", found[at], wanted[at]))
@@ -208,13 +210,11 @@ fn random_case(seed: u64, size: usize) -> (Profile, String, CheckedProgram, Rand
     (profile, text, program, r)
 }
 
-/// Results without the count of slots, and in single precision without the kind of depth: there both are the same.
+/// Results with masks as ones, and in single precision without the kind of depth: there both are the same.
 fn comparable(mut words: Vec<u32>, rules: &Rules) -> Vec<u32> {
     for quad in words.chunks_mut(RESULT_WORDS) {
-        quad[RESULT_WORDS - 1] = 0;
-        if rules.format == Format::FP32 {
-            quad[68..72].fill(0);
-        }
+        quad[64..68].iter_mut().for_each(|mask| *mask = u32::from(*mask != 0));
+        quad[72..76].iter_mut().for_each(|mask| *mask = u32::from(*mask != 0 && rules.format != Format::FP32));
     }
     words
 }
@@ -223,14 +223,14 @@ fn comparable(mut words: Vec<u32>, rules: &Rules) -> Vec<u32> {
 fn the_machine_runs_random_programs() {
     let Some(gpu) = gpu() else { return };
     let start = std::time::Instant::now();
-    let runner = Runner::new(&gpu, NumberMode::Integer, program::machine());
+    let runner = Runner::new(&gpu, &modules::pixel());
     println!("the machine is compiled in {:?} on {}", start.elapsed(), gpu.adapter().name);
     for seed in seeds(140) {
         let (profile, text, checked, mut r) = random_case(seed, 2);
         let constants = random_constants(&mut r, 32);
         let bindings = PixelBindings::new(&constants);
-        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
-        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings, false);
+        let code = shader.microcode(None).unwrap_or_else(|e| panic!("{e}"));
         let quads = Quads::random(&mut r);
         let wanted = expected(&checked, &profile.rules, &bindings, &quads);
         let (found, _) = runner.run(&profile.rules, &quads.words(), &code.words, code.slots, 0);
@@ -241,108 +241,16 @@ fn the_machine_runs_random_programs() {
 }
 
 #[test]
-fn the_machine_runs_vertex_programs() {
-    let Some(gpu) = gpu() else { return };
-    let text = modules::vertex(NumberMode::Integer, program::machine());
-    let access = [Access::Read, Access::Read, Access::Read, Access::ReadWrite, Access::ReadWrite];
-    let pipeline = gpu.pipeline(&text, "vertex_main", &access).unwrap_or_else(|e| panic!("{e}"));
-    const COUNT: usize = 301;
-    for seed in seeds(40) {
-        let mut r = Random::new(seed ^ 0x5eed);
-        let mut profile = ideal("fp32");
-        profile.rules.vertex_format =
-            FORMATS[(seed / 2) as usize % FORMATS.len()].parse().unwrap_or_else(|e| panic!("{e}"));
-        let (text, checked) = cases::random(VERTEX[seed as usize % 2], 2, &profile, &mut r);
-        let constants = random_constants(&mut r, 40);
-        let shader = VertexShader::new(&checked, &profile.rules, &constants).unwrap_or_else(|e| panic!("{e}"));
-        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
-        let attributes: Vec<[[u32; 4]; 16]> = (0..COUNT)
-            .map(|i| {
-                r.tame = i % 2 == 0;
-                [0; 16].map(|_: u32| [0; 4].map(|_: u32| r.number()))
-            })
-            .collect();
-        let mut draw = formats(&profile.rules);
-        draw[..8].copy_from_slice(&format_words(&profile.rules.vertex_format));
-        draw.push(COUNT as u32);
-        let words: Vec<u32> = attributes.iter().flatten().flatten().copied().collect();
-        assert_eq!(words.len(), COUNT * ATTRIBUTE_WORDS);
-        let of = |words: &[u32]| done(gpu.buffer_of(words));
-        let zeros = |words: usize| done(gpu.buffer(words));
-        let buffers = [of(&draw), of(&words), of(&code.words), zeros(code.slots * 64 * 4), zeros(COUNT * VERTEX_WORDS)];
-        let all: Vec<&Buffer> = buffers.iter().collect();
-        done(gpu.dispatch(&pipeline, &all, [1, 1, 1]));
-        let found = done(gpu.read(&buffers[4], 0..COUNT * VERTEX_WORDS));
-        let scalar = VertexProgram::new(&checked, &profile.rules, &constants);
-        let mut slots = [0u64; 2];
-        for (i, (given, found)) in attributes.iter().zip(found.chunks(VERTEX_WORDS)).enumerate() {
-            let result = scalar.run(given, &mut NoObserver).0;
-            let vertex = result.vertex;
-            let flat = vertex.position.into_iter().chain(vertex.colors.into_iter().flatten());
-            let flat = flat.chain(vertex.texcoords.into_iter().flatten()).chain([vertex.fog, vertex.point_size]);
-            for (word, (wanted, &found)) in flat.zip(found).enumerate() {
-                let wanted = clean(wanted);
-                assert_eq!(found, wanted, "seed {seed}, vertex {i}, word {word}: {found:#x}, {wanted:#x}\n{text}");
-            }
-            slots[0] += result.slots;
-            slots[1] += u64::from(found[VERTEX_WORDS - 1]);
-        }
-        assert_eq!(slots[0], slots[1], "seed {seed}: instruction slots\n{text}");
-    }
-}
-
-/// Programs written out, each compiled by itself: short ones in integers, longer ones in the device's own floats.
-fn written_out(mode: NumberMode, formats: &[&str], size: usize, count: u64, most: usize) {
-    let Some(gpu) = gpu() else { return };
-    let (mut compared, mut slowest) = (0, std::time::Duration::ZERO);
-    for seed in seeds(count) {
-        let mut r = Random::new(seed ^ 0x07e7);
-        let version = PIXEL[seed as usize % PIXEL.len()];
-        let profile = ideal(formats[seed as usize / PIXEL.len() % formats.len()]);
-        let (text, checked) = cases::random(version, size, &profile, &mut r);
-        let constants = random_constants(&mut r, 32);
-        let bindings = PixelBindings::new(&constants);
-        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
-        let Some(unrolled) = shader.unrolled(mode, NativeOperations::all()) else { continue };
-        if unrolled.soft_calls > most {
-            continue;
-        }
-        let quads = Quads::random(&mut r);
-        let wanted = expected(&checked, &profile.rules, &bindings, &quads);
-        let start = std::time::Instant::now();
-        let runner = Runner::new(&gpu, mode, &unrolled.text);
-        slowest = slowest.max(start.elapsed());
-        let (found, _) = runner.run(&profile.rules, &quads.words(), &unrolled.words, 1, 0);
-        if let Some(difference) = difference(&comparable(found, &profile.rules), &wanted) {
-            panic!("seed {seed}, {}:\n{text}\n{difference}\n{}", profile.name, unrolled.text);
-        }
-        compared += 1;
-    }
-    println!("{compared} programs, the slowest compiled in {slowest:?}");
-    assert!(compared > 0 || std::env::var_os("CROSSBAR_SEED").is_some(), "some are short enough");
-}
-
-#[test]
-fn short_programs_run_written_out_in_integers() {
-    written_out(NumberMode::Integer, &FORMATS, 0, 14, 10);
-}
-
-#[test]
-fn programs_run_written_out_in_the_devices_floats() {
-    written_out(NumberMode::Native, &["fp32"], 1, 42, 24);
-}
-
-#[test]
 fn the_machine_tells_what_instructions_write() {
     let Some(gpu) = gpu() else { return };
-    let runner = Runner::of_module(&gpu, modules::followed(NumberMode::Integer, program::machine()));
+    let runner = Runner::new(&gpu, &modules::followed());
     let mut told = 0;
     for seed in seeds(70) {
         let (profile, text, checked, mut r) = random_case(seed ^ 0x7ace, 2);
         let constants = random_constants(&mut r, 32);
         let bindings = PixelBindings::new(&constants);
-        let shader = PixelShader::traced(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
-        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings, true);
+        let code = shader.microcode(None).unwrap_or_else(|e| panic!("{e}"));
         let quads = Quads::random(&mut r);
         let lane = r.below(4);
         let (_, words) = runner.run(&profile.rules, &quads.words(), &code.words, code.slots, lane as u32 + 1);
@@ -403,7 +311,7 @@ fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
 fn the_machine_reads_textures() {
     let Some(gpu) = gpu() else { return };
     let start = std::time::Instant::now();
-    let runner = Runner::of_module(&gpu, modules::textured(NumberMode::Integer, program::machine()));
+    let runner = Runner::new(&gpu, &modules::textured());
     println!("with textures it is compiled in {:?}", start.elapsed());
     let mut reads = 0;
     for seed in seeds(70) {
@@ -422,8 +330,8 @@ fn the_machine_reads_textures() {
             samplers.extend(sampler_words(binding.as_ref(), &rules, first as u32));
             texels.extend(binding.iter().flat_map(|b| image_words(b.image)));
         }
-        let shader = PixelShader::new(&checked, &profile.rules, &bindings).unwrap_or_else(|e| panic!("{e}"));
-        let code = shader.microcode().unwrap_or_else(|e| panic!("{e}"));
+        let shader = PixelShader::new(&checked, &profile.rules, &bindings, false);
+        let code = shader.microcode(None).unwrap_or_else(|e| panic!("{e}"));
         let quads = Quads::random(&mut r);
         let wanted = expected(&checked, &profile.rules, &bindings, &quads);
         let words = quads.words();

@@ -1,6 +1,7 @@
 //! The module that the tests run.
 
-use refsim::exec::wgsl::{NativeOperations, NumberMode, number, texture};
+use refsim::exec::wgsl::parts::Parts;
+use refsim::exec::wgsl::{number, texture};
 
 const HEAD: &str = "
 @group(0) @binding(0) var<storage, read> draw: array<u32>;
@@ -15,22 +16,27 @@ fn format(k: u32) -> Format {
 ";
 
 const READING: &str = "
-fn row(at: u32) -> vec4<u32> { return vec4<u32>(reads[at], reads[at + 1u], reads[at + 2u], reads[at + 3u]); }
-@compute @workgroup_size(64) fn read_texels(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = 56u * id.x;
-    if (at >= arrayLength(&reads)) { return; }
-    var gradients: array<vec4<u32>, 8>;
-    for (var i = 0u; i < 8u; i++) { gradients[i] = row(at + 24u + 4u * i); }
-    let run = ((vec4<u32>(reads[at + 22u]) >> vec4<u32>(0u, 1u, 2u, 3u)) & vec4<u32>(1u)) != vec4<u32>(0u);
-    var texel = texture_read(
-        reads[at + 20u], row(at), row(at + 4u), row(at + 8u), row(at + 12u), reads[at + 21u], row(at + 16u), gradients, run,
-    );
-    for (var i = 0u; i < 16u; i++) { made[16u * id.x + i] = texel[i / 4u][i % 4u]; }
+var<private> t_at: u32;
+var<private> t_to: u32;
+fn texture_operand(number: u32, lane: u32) -> u32 {
+    // Coordinates, a bias, gradients; a word for detail, sampler and lanes each stands before the gradients.
+    let gradient = select(24u + 4u * (number - 4u), 16u, reads[t_at + 21u] != DETAIL_GRADIENTS);
+    return reads[t_at + select(gradient, 4u * number, number < 4u) + lane];
+}
+fn texture_result(component: u32, lane: u32, value: u32) { made[t_to + 4u * component + lane] = value; }
+@compute @workgroup_size(64)
+fn read_texels(@builtin(global_invocation_id) id: vec3<u32>) {
+    t_at = 56u * id.x;
+    if (t_at >= arrayLength(&reads)) { return; }
+    t_to = 16u * id.x;
+    let run = ((vec4<u32>(reads[t_at + 22u]) >> vec4<u32>(0u, 1u, 2u, 3u)) & vec4<u32>(1u)) != vec4<u32>(0u);
+    texture_read(reads[t_at + 20u], reads[t_at + 21u], run);
 }
 ";
 
 const DECODING: &str = "
-@compute @workgroup_size(64) fn decode_texels(@builtin(global_invocation_id) id: vec3<u32>) {
+@compute @workgroup_size(64)
+fn decode_texels(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = 8u * id.x;
     if (at >= arrayLength(&reads)) { return; }
     let words = vec4<u32>(reads[at], reads[at + 1u], reads[at + 2u], reads[at + 3u]);
@@ -38,21 +44,16 @@ const DECODING: &str = "
 }
 ";
 
-fn module(entry: &str, mode: NumberMode, native: NativeOperations) -> String {
-    [HEAD, &number::library(mode, native), &texture::library(), entry].concat()
+fn module(more: &str, entry: &str) -> String {
+    Parts::all().of(&[HEAD, &number::library(), &texture::library(), more].concat(), entry)
 }
 
-/// The module that reads, in integers alone.
+/// The module that reads.
 pub(crate) fn reading() -> String {
-    module(READING, NumberMode::Integer, NativeOperations::empty())
-}
-
-/// The module that reads with all the `f32` there is.
-pub(crate) fn reading_native() -> String {
-    module(READING, NumberMode::Native, NativeOperations::all())
+    module(READING, "read_texels")
 }
 
 /// The module that decodes.
 pub(crate) fn decoding() -> String {
-    module(DECODING, NumberMode::Integer, NativeOperations::empty())
+    module(DECODING, "decode_texels")
 }

@@ -111,8 +111,8 @@ impl Args {
         // The options for GPUs hold for the sides that run on one.
         let on_gpu = |executor| executor == DeviceExecutor::Wgpu;
         if self.gpu.is_given() && !on_gpu(left_executor) && !on_gpu(right_executor) {
-            let help = "add `--left wgpu` or `--right wgpu`, or leave them out";
-            return Err(Problem::usage("`--adapter` and `--native` are for the wgpu executor", help).into());
+            let help = "add `--left wgpu` or `--right wgpu`, or leave it out";
+            return Err(Problem::usage("`--adapter` is for the wgpu executor", help).into());
         }
         let open = |executor| match on_gpu(left_executor) || on_gpu(right_executor) {
             true if !on_gpu(executor) => executor.open(&GpuArgs::default()),

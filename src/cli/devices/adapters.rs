@@ -57,9 +57,9 @@ pub(super) fn probe(name: &str, out: &mut Out) -> miette::Result<Verdict> {
     }
     out.table(&table)?;
     out.line("")?;
-    let native: Vec<&str> = report.operations.iter().filter(|o| o.exact()).map(|o| o.name).collect();
-    let listed = if native.is_empty() { "none".to_owned() } else { native.join(", ") };
-    out.line(format_args!("Equal to IEEE 754 in every bit, so that native mode may use them: {listed}"))?;
+    let exact: Vec<&str> = report.operations.iter().filter(|o| o.exact()).map(|o| o.name).collect();
+    let listed = if exact.is_empty() { "none".to_owned() } else { exact.join(", ") };
+    out.line(format_args!("Equal to IEEE 754 in every bit: {listed}"))?;
     Ok(Verdict::held(report.conforms()))
 }
 

@@ -26,7 +26,7 @@ Examples:
   crossbar devices --adapters
       the GPUs of this computer that the wgpu executor can use
   crossbar devices --probe llvmpipe
-      which of an adapter's own operations are exact, so that native mode may use them";
+      which of an adapter's own operations are exact, and which WGSL doesn't allow";
 
 /// Show the device profiles: limits, and every figure with its source and how sure it is
 #[derive(Debug, clap::Args)]

@@ -223,13 +223,13 @@ fn scalar_and_batch_draw_the_same_pictures() {
 #[test]
 #[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
 fn a_gpu_draws_the_same_pictures_in_integer_mode() {
-    use refsim::exec::{gpu::testing, wgsl::NumberMode};
+    use refsim::exec::gpu::testing;
     let Some(gpu) = testing::shared().expect("an adapter that opens") else {
         println!("ignored: no adapter");
         return;
     };
     let batch = all_pictures("nv35", &ExecutorKind::Batch.into());
-    let found = all_pictures("nv35", &Executor::Gpu { gpu, mode: NumberMode::Integer });
+    let found = all_pictures("nv35", &Executor::Gpu { gpu });
     assert!(found == batch);
 }
 

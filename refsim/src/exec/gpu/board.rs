@@ -1,7 +1,13 @@
 //! Memory of the card on the GPU: one buffer for textures, targets and depth buffers, and the buffers of a draw.
 
-use super::{Buffer, Gpu, GpuError};
+use super::{Access, Buffer, Gpu, GpuError, Pipeline};
 use std::sync::Arc;
+
+/// The bindings of kernels: draw, set-ups, tiles, samplers, video memory, code, scratch, counts.
+pub const BINDINGS: [Access; 8] = {
+    use Access::{Read, ReadWrite};
+    [Read, Read, Read, Read, ReadWrite, Read, ReadWrite, ReadWrite]
+};
 
 /// Words that `video` starts with.
 const FIRST_WORDS: usize = 1 << 16;
@@ -48,11 +54,9 @@ pub struct Board {
 
 /// The pixel program of a draw as the GPU runs it.
 #[derive(Clone, Debug)]
-pub struct Shader {
-    /// The text of the whole module.
-    pub text: String,
-    /// Its entry point.
-    pub entry: &'static str,
+pub struct LoadedProgram {
+    /// The kernel that runs it.
+    pub pipeline: Pipeline,
     /// What it finds in `code`.
     pub code: Vec<u32>,
     /// Rows of registers that an invocation needs in `scratch`.
@@ -126,8 +130,8 @@ impl Board {
     ///
     /// # Errors
     /// [`GpuError::Memory`], [`GpuError::Device`].
-    pub fn start(&mut self, shader: &Shader, samplers: &[u32], counts: usize) -> Result<(), GpuError> {
-        self.code.fill(&self.gpu, &shader.code)?;
+    pub fn start(&mut self, program: &LoadedProgram, samplers: &[u32], counts: usize) -> Result<(), GpuError> {
+        self.code.fill(&self.gpu, &program.code)?;
         self.samplers.fill(&self.gpu, samplers)?;
         self.counts.fill(&self.gpu, &vec![0; counts])
     }
@@ -144,19 +148,16 @@ impl Board {
     /// before left if that had as many.
     ///
     /// # Errors
-    /// [`GpuError::Shader`], [`GpuError::Memory`], [`GpuError::Device`].
+    /// [`GpuError::Memory`], [`GpuError::Device`].
     pub fn dispatch(
         &mut self,
-        shader: &Shader,
+        program: &LoadedProgram,
         draw: &[u32],
         tiles: &[u32],
         groups: [u32; 3],
         rows: usize,
     ) -> Result<(), GpuError> {
-        use super::Access::{Read, ReadWrite};
         let gpu = &self.gpu;
-        let access = [Read, Read, Read, Read, ReadWrite, Read, ReadWrite, ReadWrite];
-        let pipeline = gpu.pipeline(&shader.text, shader.entry, &access)?;
         self.draw.fill(gpu, draw)?;
         self.tiles.fill(gpu, tiles)?;
         self.scratch.reserve(gpu, 4 * rows)?;
@@ -170,7 +171,7 @@ impl Board {
             &self.scratch,
             &self.counts,
         ];
-        gpu.dispatch(&pipeline, &buffers.map(|b| &b.buffer), groups)
+        gpu.dispatch(&program.pipeline, &buffers.map(|b| &b.buffer), groups)
     }
 
     /// One word of the counts, which is zero from then on.

@@ -1,21 +1,21 @@
 //! The executor on a GPU of the host, through wgpu (feature `wgpu`).
 //!
 //! - `adapter`: which adapters there are, and picking one by name; `error`: what can go wrong.
-//! - `device`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
-//! - `probe`: whether the adapter's own single precision is exact. `testing`: what tests do without an adapter.
+//! - `opened`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
+//! - `probe`: what the adapter's own single precision gives, beside IEEE 754 and WGSL. `testing`: what tests do without an adapter.
 //! - `board`: the buffers of an emulated card.
 //!
 //! Nothing here decides a bit: the shaders do (`refsim::exec::wgsl`), from storage buffers of 32-bit words.
 
 mod adapter;
 mod board;
-mod device;
 mod error;
+mod opened;
 mod probe;
 pub mod testing;
 
 pub use adapter::{Adapter, AdapterKind, adapters};
-pub use board::{Board, Shader};
-pub use device::{Access, Buffer, Gpu, Pipeline};
+pub use board::{BINDINGS, Board, LoadedProgram};
 pub use error::GpuError;
-pub use probe::{Difference, FULL as FULL_PROBE, OperationReport, ProbeReport, Tally, probe};
+pub use opened::{Access, Buffer, CompileObserver, Gpu, Kernel, Pipeline};
+pub use probe::{FULL as FULL_PROBE, OperationReport, ProbeDifference, ProbeReport, Tally, probe};

@@ -1,14 +1,11 @@
-//! Whether an adapter's own single precision is IEEE 754, bit for bit, operation by operation.
-//!
-//! Native mode uses those operations of the device that this found exact, and integers for the others: so its results have the
-//! very bits of IEEE 754 on every adapter. What an operation may give that isn't exact is the interval that WGSL allows
-//! ([`crate::exec::wgsl::accuracy`]); a result outside it is a fault of the driver.
+//! An adapter's own single precision beside IEEE 754, operation by operation: which results have other bits, and which of
+//! these WGSL doesn't allow ([`crate::exec::wgsl::accuracy`]), which is a fault of the driver. The executor uses no floats of
+//! an adapter; this is for whoever has a GPU or writes a driver for one.
 
 use serde::Serialize;
 
 use super::{Gpu, GpuError};
 use crate::exec::wgsl::accuracy::{SingleOperation, allowed, order};
-use crate::exec::wgsl::number::{NativeOperations, NumberMode, library};
 use crate::num::Format;
 
 /// Operand sets of an operation in a full probe.
@@ -53,12 +50,12 @@ pub struct Tally {
     /// The largest distance of a number from the right one, in units in the last place.
     pub worst_ulps: u64,
     /// The first difference.
-    pub first: Option<Difference>,
+    pub first: Option<ProbeDifference>,
 }
 
 /// A result that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Difference {
+pub struct ProbeDifference {
     /// Bits of the operands.
     pub operands: Vec<u32>,
     /// Bits that the device gave.
@@ -87,45 +84,6 @@ impl OperationReport {
 }
 
 impl ProbeReport {
-    /// The operations that native mode may leave to the device: those whose every result was right.
-    pub fn native(&self) -> NativeOperations {
-        let mut native = NativeOperations::all();
-        for report in self.operations.iter().filter(|r| !r.exact()) {
-            native.remove(report.operation.native());
-        }
-        native
-    }
-
-    /// The operations that differ from IEEE 754 somewhere.
-    pub fn differing(&self) -> impl Iterator<Item = &OperationReport> {
-        self.operations.iter().filter(|report| !report.exact())
-    }
-
-    /// Says which operations differ, what becomes of that, and where the adapter leaves WGSL; `None` if none does.
-    pub fn departures(&self) -> Option<String> {
-        let names = |of: &mut dyn Iterator<Item = &OperationReport>| of.map(|r| r.name).collect::<Vec<_>>().join(", ");
-        let differing = names(&mut self.differing());
-        if differing.is_empty() {
-            return None;
-        }
-        let outside = names(&mut self.differing().filter(|report| !report.conforms()));
-        let within = match outside.as_str() {
-            "" => "within what WGSL allows".to_owned(),
-            outside => format!("outside of what WGSL allows in {outside}"),
-        };
-        let adapter = &self.adapter;
-        Some(format!(
-            "in the floats of {adapter}, results of {differing} differ from IEEE 754, {within}; native mode computes them by integers"
-        ))
-    }
-
-    /// Whether a result of the adapter's own floats may stand: an operation that the probe found exact must give the bits of
-    /// IEEE 754, one that it found to differ a result in the interval that WGSL allows.
-    pub fn accepts(&self, operation: SingleOperation, operands: [u32; 3], got: u32) -> bool {
-        let differs = self.differing().any(|report| report.operation == operation);
-        got == operation.exact(operands) || (differs && allowed(operation, operands).contains(got))
-    }
-
     /// Whether no result lay outside what WGSL allows.
     pub fn conforms(&self) -> bool {
         self.operations.iter().all(OperationReport::conforms)
@@ -138,19 +96,19 @@ impl ProbeReport {
 /// # Errors
 /// What the device refuses.
 pub fn probe(gpu: &Gpu, count: usize) -> Result<ProbeReport, GpuError> {
-    let text = library(NumberMode::Native, NativeOperations::all()) + include_str!("probe.wgsl");
+    let text = include_str!("probe.wgsl");
     let mut operations = Vec::new();
     for operation in SingleOperation::ALL {
         let mut report = OperationReport::new(operation);
-        let mut drawn = Drawn::new(operation);
+        let mut sets = OperandSets::new(operation);
         let mut left = count;
         while left > 0 {
-            let operands: Vec<[u32; 3]> = (0..left.min(BATCH)).map(|_| drawn.next()).collect();
+            let operands: Vec<[u32; 3]> = (0..left.min(BATCH)).map(|_| sets.next()).collect();
             left -= operands.len();
-            let word = operation.operation().word();
+            let word = operation as u32;
             let items: Vec<u32> = operands.iter().flat_map(|&[a, b, c]| [word, a, b, c]).collect();
             let groups = [operands.len().div_ceil(64) as u32, 1, 1];
-            let results = gpu.compute(&text, "run_probe", &[&items], operands.len(), groups)?;
+            let results = gpu.compute(text, "run_probe", &[&items], operands.len(), groups)?;
             for (operands, got) in operands.into_iter().zip(results) {
                 note(&mut report, operands, got);
             }
@@ -182,18 +140,18 @@ fn note(report: &mut OperationReport, operands: [u32; 3], got: u32) {
     tally.outside += u64::from(!allowed(operation, operands).contains(got));
     let ulps = (!FP32.is_nan(got) && !FP32.is_nan(want)).then(|| order(got).abs_diff(order(want)));
     tally.worst_ulps = tally.worst_ulps.max(ulps.unwrap_or(0));
-    tally.first.get_or_insert_with(|| Difference { operands: used.to_vec(), got, want, ulps });
+    tally.first.get_or_insert_with(|| ProbeDifference { operands: used.to_vec(), got, want, ulps });
 }
 
 /// Operand sets, the same in every run.
-struct Drawn {
+struct OperandSets {
     operation: SingleOperation,
     edges: Vec<u32>,
     made: usize,
     state: u64,
 }
 
-impl Drawn {
+impl OperandSets {
     fn new(operation: SingleOperation) -> Self {
         // Zero, smallest and largest subnormal, smallest normal, around one half, one and two, largest, infinity, NaN, and
         // an integer that no longer fits.
@@ -269,37 +227,17 @@ mod tests {
     const THIRD: [u32; 3] = [0x3f80_0000, 0x4040_0000, 0];
 
     #[test]
-    fn an_exact_adapter_owes_the_very_bits() {
+    fn results_are_judged_by_ieee_754_and_by_wgsl() {
         let exact = SingleOperation::Div.exact(THIRD);
-        let report = seen(&[(SingleOperation::Div, THIRD, exact)]);
-        assert_eq!((report.departures(), report.native()), (None, NativeOperations::all()));
-        assert!(report.accepts(SingleOperation::Div, THIRD, exact));
-        assert!(!report.accepts(SingleOperation::Div, THIRD, exact + 1));
-    }
-
-    #[test]
-    fn operations_that_differ_are_named_and_held_to_their_interval() {
-        let exact = SingleOperation::Div.exact(THIRD);
-        let report = seen(&[(SingleOperation::Div, THIRD, exact + 2), (SingleOperation::Add, THIRD, 0x4080_0000)]);
-        assert_eq!(
-            report.departures().as_deref(),
-            Some(
-                "in the floats of made up, results of div differ from IEEE 754, within what WGSL allows; native mode computes them \
-                 by integers"
-            )
-        );
-        assert_eq!(report.native(), NativeOperations::all().difference(NativeOperations::DIV));
-        // 2.5 ULPs for a division; nothing for what the probe found exact.
-        assert!(report.accepts(SingleOperation::Div, THIRD, exact + 2));
-        assert!(!report.accepts(SingleOperation::Div, THIRD, exact + 4));
-        assert!(!report.accepts(SingleOperation::Add, THIRD, 0x4080_0001));
-    }
-
-    #[test]
-    fn results_outside_of_wgsl_are_named() {
-        let report = seen(&[(SingleOperation::Add, THIRD, 0x4080_0003), (SingleOperation::Min, [0, 1 << 31, 0], 0)]);
-        let text = report.departures().unwrap_or_default();
-        assert!(text.contains("outside of what WGSL allows in add;"), "{text}");
-        assert!(!report.conforms() && !report.native().contains(NativeOperations::ADD));
+        let find = |results: &[_], operation| {
+            let report = seen(results).operations.into_iter().find(|report| report.operation == operation);
+            report.map(|report| (report.exact(), report.conforms()))
+        };
+        assert_eq!(find(&[(SingleOperation::Div, THIRD, exact)], SingleOperation::Div), Some((true, true)));
+        // 2.5 ULPs for a division.
+        assert_eq!(find(&[(SingleOperation::Div, THIRD, exact + 2)], SingleOperation::Div), Some((false, true)));
+        assert_eq!(find(&[(SingleOperation::Div, THIRD, exact + 4)], SingleOperation::Div), Some((false, false)));
+        assert_eq!(find(&[(SingleOperation::Add, THIRD, 0x4080_0003)], SingleOperation::Add), Some((false, false)));
+        assert!(!seen(&[(SingleOperation::Add, THIRD, 0x4080_0003)]).conforms());
     }
 }

@@ -1,4 +1,4 @@
-//! What WGSL lets a device's own `f32` operations give.
+//! What WGSL lets an adapter's own `f32` operations give.
 //!
 //! Source: "WebGPU Shading Language", sections 15.7 (floating point evaluation: subnormal numbers may be flushed on the way
 //! in and out, results of infinite or NaN operands and of overflow are indeterminate, multiply and add may be fused) and
@@ -7,14 +7,13 @@
 
 use serde::Serialize;
 
-use super::number::NativeOperations;
 use crate::num::{Flags, Format, NumberOperation, Rounding, from_ratio, ops};
 
 const FP32: Format = Format::FP32;
 /// Neighbours below and above an exact result.
 const BELOW: Format = FP32.with_rounding(Rounding::Down);
 
-/// A single precision operation of a device.
+/// A single precision operation of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[repr(u32)]
@@ -81,20 +80,6 @@ impl SingleOperation {
             Self::FromInteger => "from integer",
             Self::Min => "min",
             Self::Max => "max",
-        }
-    }
-
-    /// The part of native mode that needs it exact.
-    pub const fn native(self) -> NativeOperations {
-        match self {
-            Self::Add | Self::Sub => NativeOperations::ADD,
-            Self::Mul => NativeOperations::MUL,
-            Self::MulAdd => NativeOperations::MUL_ADD,
-            Self::Div | Self::Rcp => NativeOperations::DIV,
-            Self::Sqrt => NativeOperations::SQRT,
-            Self::Floor => NativeOperations::FLOOR,
-            Self::FromInteger => NativeOperations::CONVERT,
-            Self::Min | Self::Max => NativeOperations::MIN_MAX,
         }
     }
 
@@ -193,7 +178,7 @@ fn widened((low, high): (i64, i64), units: i64, half: bool) -> (i64, i64) {
     (low - reach * close(low), high + reach * close(high))
 }
 
-/// The results of finite operands without flushing.
+/// The results of finite operands.
 fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
     let magnitude = |bits: u32| bits & 0x7fff_ffff;
     // 2^-126 and 2^126.
@@ -216,6 +201,12 @@ fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
     }
 }
 
+/// Whether a result between two places may be flushed.
+fn may_be_subnormal((low, high): (i64, i64)) -> bool {
+    let normal = order(0x0080_0000);
+    low < normal && high > -normal
+}
+
 /// What WGSL allows for an operation on these bits (of `i32` for [`SingleOperation::FromInteger`]).
 pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
     let used = &operands[..operation.arity()];
@@ -235,16 +226,19 @@ pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
                 *operand &= 1 << 31;
             }
         }
-        let Some((low, high)) = plain(operation, taken) else { return Allowed::Any };
-        let infinity = order(0x7f80_0000);
-        if low <= -infinity || high >= infinity {
-            return Allowed::Any;
-        }
-        ranges.push((low, high));
-        // A subnormal result may be flushed.
-        let normal = order(0x0080_0000);
-        if low < normal && high > -normal {
-            ranges.push((0, 0));
+        // So may a product on its way into a sum be.
+        let product_flushed = [0, taken[1], taken[2]];
+        let flushes = operation == SingleOperation::MulAdd && may_be_subnormal(neighbours(SingleOperation::Mul, taken));
+        for taken in [taken].into_iter().chain(flushes.then_some(product_flushed)) {
+            let Some((low, high)) = plain(operation, taken) else { return Allowed::Any };
+            let infinity = order(0x7f80_0000);
+            if low <= -infinity || high >= infinity {
+                return Allowed::Any;
+            }
+            ranges.push((low, high));
+            if may_be_subnormal((low, high)) {
+                ranges.push((0, 0));
+            }
         }
     }
     if matches!(operation, SingleOperation::Min | SingleOperation::Max) && used.iter().all(|&b| FP32.is_subnormal(b)) {

@@ -1,14 +1,14 @@
 //! The kernel that follows single pixels: its text, what it is told, and its records.
 
 use super::kernel::{DrawWords, with_entry};
-use super::program::{TRACE_WORDS, trace_delivered, trace_steps};
+use super::program::{Interpolation, TRACE_WORDS, trace_delivered, trace_steps};
 use crate::device::Rules;
 use crate::exec::lower::{Arith, Formats};
-use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Shading, program};
+use crate::exec::{CheckedProgram, DepthValue, FragmentResult, Shading, inputs_read, program};
 use crate::isa::Opcode;
 use crate::num::Format;
 use crate::output::FragmentFate;
-use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
+use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
 
 /// The kernel's entry point: a workgroup of one invocation a pixel.
 pub const ENTRY: &str = "follow_main";
@@ -18,26 +18,26 @@ pub const JOB_WORDS: usize = 5;
 pub const HEAD: usize = RESULTS + 19;
 /// Where a record holds interpolated components and depth, what the program left.
 const INPUT: usize = 4;
-const RESULTS: usize = INPUT + 46;
+const RESULTS: usize = INPUT + 45;
 const NOTHING: u32 = 1;
 const FRAGMENT: u32 = 2;
 const UNFINISHED: u32 = 3;
 
-/// The text of the kernel with the arithmetic of `library`, without program and textures.
-pub fn text(library: &str) -> String {
+/// The text of the kernel with all its parts, without program and textures.
+pub fn text() -> String {
     let names = [("NOTHING", NOTHING), ("FRAGMENT", FRAGMENT), ("UNFINISHED", UNFINISHED)];
     let places = [("HEAD", HEAD as u32), ("INPUT", INPUT as u32), ("RESULTS", RESULTS as u32)];
     let constants: String =
         names.iter().chain(&places).map(|(name, value)| format!("const FOLLOW_{name}: u32 = {value}u;\n")).collect();
-    with_entry(library, &(constants + include_str!("follow.wgsl")))
+    with_entry(&(constants + include_str!("follow.wgsl")))
 }
 
 /// One dispatch of the kernel.
 #[derive(Clone, Copy, Debug)]
-pub struct Dispatch {
+pub struct FollowDispatch {
     /// Pixels.
     pub jobs: usize,
-    /// Rows of `scratch` that the program's registers take; [`super::kernel::SAVED_ROWS`] follow.
+    /// Rows of `scratch` that the program's registers take; [`super::kernel::EXTRA_ROWS`] follow.
     pub registers: usize,
     /// Whether it goes on where the one before, which was the same, ran out of its passes.
     pub resumes: bool,
@@ -51,7 +51,7 @@ pub struct Dispatch {
     pub skipped: usize,
 }
 
-impl Dispatch {
+impl FollowDispatch {
     /// Words of a record.
     pub fn record_words(&self) -> usize {
         HEAD + TRACE_WORDS * self.room
@@ -60,12 +60,12 @@ impl Dispatch {
 
 impl DrawWords {
     /// The words of `draw` for following pixels.
-    pub fn follow(&mut self, dispatch: &Dispatch) -> &[u32] {
+    pub fn follow(&mut self, dispatch: &FollowDispatch) -> &[u32] {
         let cost = self.cost();
         let resumes = u32::from(dispatch.resumes);
         self.set("D_TILES", &[dispatch.jobs as u32]);
         self.set("D_STRIDE", &[dispatch.jobs as u32]);
-        self.set("D_SAVE", &[dispatch.registers as u32, resumes, dispatch.passes.max(cost + 10_000), cost, 3, 5]);
+        self.set("D_ROWS", &[dispatch.registers as u32, resumes, dispatch.passes.max(cost + 10_000), cost, 3, 5]);
         let kept = [dispatch.record_words(), TRACE_WORDS * dispatch.room, TRACE_WORDS * dispatch.skipped];
         self.set("D_FOLLOW", &[dispatch.records, kept[0], kept[1], kept[2]].map(|word| word as u32));
         self.words()
@@ -109,7 +109,7 @@ impl<'w> Record<'w> {
     /// What happened to the fragment, of which `steps` are the words of all steps.
     pub fn shading(&self, steps: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Shading {
         Shading {
-            input: self.input(),
+            input: self.input(inputs_read(program(checked))),
             delivered: trace_delivered(steps, checked, rules),
             steps: trace_steps(steps, checked, rules, lane),
             output: self.output(checked, rules),
@@ -122,14 +122,16 @@ impl<'w> Record<'w> {
         }
     }
 
-    fn input(&self) -> FragmentInput {
-        let at = |component: usize| self.words[INPUT + component];
+    /// The interpolated components that the program reads.
+    fn input(&self, read: ComponentMask) -> FragmentInput {
+        let at = |component: usize| if read.has(component) { self.words[INPUT + component] } else { 0 };
+        let position = read.has(Interpolation::RECIPROCAL);
         FragmentInput {
             t: std::array::from_fn(|set| std::array::from_fn(|c| at(4 * set + c))),
             v: std::array::from_fn(|color| std::array::from_fn(|c| at(COLOR_COMPONENT + 4 * color + c))),
             fog: at(FOG_COMPONENT),
-            position: std::array::from_fn(|c| at(POSITION_COMPONENT + c)),
-            depth: at(POSITION_COMPONENT + 4),
+            position: std::array::from_fn(|c| if position { self.words[INPUT + POSITION_COMPONENT + c] } else { 0 }),
+            depth: self.words[INPUT + POSITION_COMPONENT + 2],
         }
     }
 
@@ -137,12 +139,12 @@ impl<'w> Record<'w> {
         let formats = Formats::pixel(rules);
         let main = |raw| formats.encode(Arith::Main, raw);
         let words = &self.words[RESULTS..HEAD];
-        let (depth, is_main) = (words[1], words[2] == 1);
+        let (killed, depth, is_main) = (words[16] != 0, words[17], words[18] != 0);
         // One instruction decides depth in single precision, always.
         let single = program(checked).instructions.iter().any(|i| i.opcode == Opcode::TexM3x2Depth);
         FragmentResult {
-            killed: words[0] == 1,
-            colors: std::array::from_fn(|target| std::array::from_fn(|c| main(words[3 + 4 * target + c]))),
+            killed,
+            colors: std::array::from_fn(|target| std::array::from_fn(|c| main(words[4 * target + c]))),
             depth: match (is_main, single) {
                 (true, _) => Some(DepthValue { format: rules.format, bits: main(depth) }),
                 (false, true) => Some(DepthValue { format: Format::FP32, bits: depth }),

@@ -17,12 +17,8 @@ fn trace_put(at: u32, word: u32) {
 
 // The results of a lane, after its program.
 fn f_results(record: u32, lane: u32, place: u32) {
-    let killed = select(0u, 1u, q_killed[lane]);
-    video[record + FOLLOW_RESULTS] = killed;
-    video[record + FOLLOW_RESULTS + 1u] = q_depth[lane];
-    video[record + FOLLOW_RESULTS + 2u] = select(0u, 1u, q_depth_is_main[lane]);
-    for (var i = 0u; i < 16u; i++) {
-        video[record + FOLLOW_RESULTS + 3u + i] = q_color[i >> 2u][i & 3u][lane];
+    for (var i = 0u; i < 19u; i++) {
+        video[record + FOLLOW_RESULTS + i] = scratch[q_row(ROW_COLORS + i)][lane];
     }
     video[record + 2u] = o_merge(lane, place, 0u);
     video[record + 3u] = q_traced;
@@ -41,9 +37,9 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
     let lane = (x & 1u) | ((y & 1u) << 1u);
     q_invocation = job;
     q_stride = draw[D_STRIDE];
-    q_save = draw[D_SAVE];
-    q_counts_steps = draw[D_STEP_BUDGET] == 1u;
-    q_step_budget = draw[D_STEP_BUDGET + 1u];
+    q_rows = draw[D_ROWS];
+    q_save = q_rows + IN_OUT_ROWS;
+    q_step_budget = draw[D_STEP_BUDGET];
     let record = draw[D_FOLLOW] + job * draw[D_FOLLOW + 1u];
     f_steps = record + FOLLOW_HEAD;
     let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
@@ -69,16 +65,15 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         if (!r_cover(at, x & 0xfffffffeu, y & 0xfffffffeu)[lane]) {
             continue;
         }
-        r_interpolate(at, x & 0xfffffffeu, y & 0xfffffffeu);
-        for (var c = 0u; c < 45u; c++) {
-            video[record + FOLLOW_INPUT + c] = q_input[c][lane];
-        }
-        video[record + FOLLOW_INPUT + 45u] = q_depth[lane];
+        r_start(at, x & 0xfffffffeu, y & 0xfffffffeu);
         q_covered = vec4<u32>(lane) == vec4<u32>(0u, 1u, 2u, 3u);
         q_run = vec4<bool>(true);
         q_trace = lane + 1u;
         q_passes = passes_left - draw[D_COST];
         shade();
+        for (var c = 0u; c < 45u; c++) {
+            video[record + FOLLOW_INPUT + c] = scratch[q_row(0xff00u + c)][lane];
+        }
         status = select(FOLLOW_FRAGMENT, FOLLOW_UNFINISHED, q_suspended);
         if (!q_suspended && any(q_covered & q_cut)) {
             atomicAdd(&counts[COUNT_OVERRUN], 1u);

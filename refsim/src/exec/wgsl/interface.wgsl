@@ -19,8 +19,8 @@ const SINGLE: u32 = 2u;
 const WRAPPED: u32 = 3u;
 const ITERATOR: u32 = 4u;
 
-// The format of an index above; from 5 on those of the draw's own, 9 and 10 the half and fixed precision of OpenGL's programs.
-fn format(k: u32) -> Format {
+// The format of an index above; from 5 on those of targets' channels, 9 and 10 the half and fixed precision of OpenGL's programs.
+fn format_of_draw(k: u32) -> Format {
     let at = 8u * k;
     return Format(
         draw[at], draw[at + 1u], draw[at + 2u], draw[at + 3u],
@@ -28,23 +28,44 @@ fn format(k: u32) -> Format {
     );
 }
 
-// Given to the program: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog, 41 to 44 window
-// position),
-// the lanes that run (a quad with a covered lane runs whole) and those that are fragments.
-var<private> q_input: array<vec4<u32>, 45>;
-var<private> q_run: vec4<bool>;
-var<private> q_covered: vec4<bool>;
-// Where the program's registers lie: value `slot` at scratch[slot * q_stride + q_invocation].
+// A format of the program, which may be one that compilers know.
+fn format(k: u32) -> Format {
+    if (HAS_FORMATS) {
+        return format_of_draw(k);
+    }
+    return N_FP32;
+}
+
+// Rows of four lanes in `scratch`: those of the program's registers by their slots, then from operand 0xff00 on what goes in
+// and out. In: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog, 41 to 44 window
+// position), edge functions 1 and 2, from which the program interpolates all but columns and rows. Out: colours of four
+// targets in the main format, masks of killed lanes, depth, masks of lanes whose depth is in the main format, not single.
+const ROW_EDGES: u32 = 0xff2du;
+const ROW_COLORS: u32 = 0xff2fu;
+const ROW_KILLED: u32 = 0xff3fu;
+const ROW_DEPTH: u32 = 0xff40u;
+const ROW_DEPTH_IS_MAIN: u32 = 0xff41u;
 var<private> q_invocation: u32;
 var<private> q_stride: u32;
-// Loop passes, about, that the invocation may still make in this dispatch: no dispatch shall run for seconds, and lavapipe ends
-// all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down in `scratch` from row
-// `q_save` on, says so and returns; called again, it goes on.
-var<private> q_passes: u32;
+// Where the second part begins, and where the program puts what it needs to go on.
+var<private> q_rows: u32;
 var<private> q_save: u32;
+
+fn q_row(operand: u32) -> u32 {
+    return select(operand, q_rows + operand - 0xff00u, operand >= 0xff00u) * q_stride + q_invocation;
+}
+
+// The first word of the triangle's set-up; the lanes that run (a quad with a covered lane runs whole) and those that are
+// fragments.
+var<private> q_setup: u32;
+var<private> q_run: vec4<bool>;
+var<private> q_covered: vec4<bool>;
+// Loop passes, about, that the invocation may still make in this dispatch: no dispatch shall run for seconds, and lavapipe ends
+// all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down, says so and returns;
+// called again, it goes on.
+var<private> q_passes: u32;
 var<private> q_suspended: bool;
-// Whether the steps of each lane are counted, how many it may make, and which lanes were cut off in front of one more.
-var<private> q_counts_steps: bool;
+// How many steps a lane may make, and which lanes were cut off in front of one more.
 var<private> q_step_budget: u32;
 var<private> q_cut: vec4<bool>;
 // Where the program's words begin in `code`.
@@ -53,13 +74,7 @@ var<private> q_code: u32;
 var<private> q_trace: u32;
 var<private> q_traced: u32;
 
-// Left by the program. Colours in the main format. Depth is the interpolated one in single precision before the program
-// runs; a program that decides depth in the main format says so lane by lane.
-var<private> q_color: array<array<vec4<u32>, 4>, 4>;
-var<private> q_depth: vec4<u32>;
-var<private> q_depth_is_main: vec4<bool>;
-var<private> q_killed: vec4<bool>;
+// The word of the texture read at work.
+var<private> q_read: u32;
 // Texture reads of covered lanes by sampler; the kernel clears and adds up.
 var<private> q_fetched: array<u32, 16>;
-// Instruction slots executed by covered lanes.
-var<private> q_executed: u32;

@@ -1,7 +1,14 @@
 // A workgroup draws a tile of 16 x 16 pixels: each invocation a quad, through the tile's triangles in order.
 
-// Fates of fragments in their order in `counts`, then texture reads by sampler; two words each.
-var<private> k_counts: array<u32, 22>;
+// How many fragments had each fate but that of being shaded.
+var<private> k_fates: vec4<u32>;
+
+fn k_count(word: u32, more: u32) {
+    let before = atomicAdd(&counts[2u * word], more);
+    if (before + more < before) {
+        atomicAdd(&counts[2u * word + 1u], 1u);
+    }
+}
 
 // Loop passes of eight invocations at a time: lavapipe runs so many in step, and counts the passes that any of them makes.
 // How many there were, the triangle (from 1) last charged for, and what its program cost at most.
@@ -21,9 +28,9 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     let count = tiles[4u * tile + 3u];
     q_invocation = 64u * tile + place;
     q_stride = draw[D_STRIDE];
-    q_save = draw[D_SAVE];
-    q_counts_steps = draw[D_STEP_BUDGET] == 1u;
-    q_step_budget = draw[D_STEP_BUDGET + 1u];
+    q_rows = draw[D_ROWS];
+    q_save = q_rows + IN_OUT_ROWS;
+    q_step_budget = draw[D_STEP_BUDGET];
     let passes_left = draw[D_PASSES];
     let cost = draw[D_COST];
     let eight = place >> 3u;
@@ -50,7 +57,7 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
             atomicStore(&k_most[eight], 0u);
         }
         q_passes = passes_left - spent;
-        r_interpolate(at, x, y);
+        r_start(at, x, y);
         q_run = vec4<bool>(true);
         shade();
         let used = passes_left - spent - q_passes;
@@ -64,8 +71,8 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
         }
         for (var lane = 0u; lane < 4u; lane++) {
             if (q_covered[lane]) {
-                k_counts[0] += 1u;
-                k_counts[1u + o_merge(lane, x + (lane & 1u), y + (lane >> 1u))] += 1u;
+                let fate = o_merge(lane, x + (lane & 1u), y + (lane >> 1u));
+                k_fates += select(vec4<u32>(0u), vec4<u32>(1u), vec4<u32>(fate) == vec4<u32>(1u, 2u, 3u, 4u));
             }
         }
     }
@@ -81,16 +88,20 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     if (passes != draw[D_PROOF] * draw[D_PROOF + 1u]) {
         atomicAdd(&counts[COUNT_CUT], 1u);
     }
-    for (var s = 0u; s < 16u; s++) {
-        k_counts[6u + s] = q_fetched[s];
+    // Each pair of words is a number: shaded, none, then the fates, then texture reads by sampler.
+    let shaded = k_fates.x + k_fates.y + k_fates.z + k_fates.w;
+    if (shaded != 0u) {
+        k_count(0u, shaded);
     }
-    for (var k = 0u; k < 22u; k++) {
-        let more = k_counts[k];
+    for (var k = 0u; k < 20u; k++) {
+        var more = 0u;
+        if (k < 4u) {
+            more = k_fates[k];
+        } else {
+            more = q_fetched[k - 4u];
+        }
         if (more != 0u) {
-            let before = atomicAdd(&counts[2u * k], more);
-            if (before + more < before) {
-                atomicAdd(&counts[2u * k + 1u], 1u);
-            }
+            k_count(2u + k, more);
         }
     }
 }

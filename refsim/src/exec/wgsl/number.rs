@@ -1,50 +1,10 @@
 //! Arithmetic in WGSL: the text of the library and the words by which a shader is told a format.
 //!
 //! The definition is [`crate::num`]: the exact result, rounded once. The text computes with integers of 32 bits alone,
-//! for every format, so its results are the same on every device that conforms to WGSL, whatever the device's own
-//! floating point does. [`NumberMode::Native`] replaces single precision operations by the device's own where a probe
-//! has found them exact.
-
-use std::fmt::Write;
-
-use bitflags::bitflags;
-use serde::{Deserialize, Serialize};
+//! for every format, so its results are the same on every adapter that conforms to WGSL, whatever its own floating
+//! point does.
 
 use crate::num::{Denormals, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
-
-/// How a shader computes in single precision.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum NumberMode {
-    /// Integers alone: the same bits on every conforming device.
-    #[default]
-    Integer,
-    /// The device's `f32` where [`NativeOperations`] says so; every other format as in integer mode.
-    Native,
-}
-
-bitflags! {
-    /// Single precision operations that a device's own `f32` carries out.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub struct NativeOperations: u32 {
-        /// Addition and subtraction.
-        const ADD = 1;
-        /// Multiplication.
-        const MUL = 2;
-        /// Product and sum, each rounded (`a * b + c` that the compiler doesn't contract).
-        const MUL_ADD = 4;
-        /// Division and reciprocal.
-        const DIV = 8;
-        /// Square root.
-        const SQRT = 16;
-        /// From 32-bit integers.
-        const CONVERT = 32;
-        /// Minimum, maximum and comparisons.
-        const MIN_MAX = 64;
-        /// Floor.
-        const FLOOR = 128;
-    }
-}
 
 /// How shaders name the operations of the table. Values are raw; comparisons give masks.
 impl NumberOperation {
@@ -101,37 +61,17 @@ pub fn source_word(format: &Format) -> u32 {
 }
 
 /// The text of the library: `struct Format`, the functions `n_...` for any format and `s_...` for single precision.
-///
-/// Integer mode takes no notice of `native`. In native mode the operations in `native` are the device's own `f32` ones, for
-/// binary32 with nearest even rounding, kept subnormals and infinities only.
-pub fn library(mode: NumberMode, native: NativeOperations) -> String {
-    let mut text = String::new();
-    // Writing to a string can't fail.
-    for operation in NumberOperation::ALL {
-        let _ = writeln!(text, "const {}: u32 = {}u;", operation.constant(), operation.word());
-    }
-    let mode_text = match mode {
-        NumberMode::Integer => include_str!("number/integer.wgsl"),
-        NumberMode::Native => {
-            let _ = writeln!(text, "const N_NATIVE: u32 = {}u;", native.bits());
-            for (name, flag) in NativeOperations::all().iter_names() {
-                let _ = writeln!(text, "const N_NATIVE_{name}: u32 = {}u;", flag.bits());
-            }
-            include_str!("number/native.wgsl")
-        }
-    };
-    for part in [
+pub fn library() -> String {
+    let constants =
+        NumberOperation::ALL.map(|operation| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()));
+    let parts = [
         include_str!("number/format.wgsl"),
         include_str!("number/arithmetic.wgsl"),
         include_str!("number/circle.wgsl"),
         include_str!("number/packing.wgsl"),
-        mode_text,
         include_str!("number/alu.wgsl"),
-        include_str!("number/named.wgsl"),
+        include_str!("number/dot.wgsl"),
         include_str!("number/single.wgsl"),
-    ] {
-        text.push_str(part);
-        text.push('\n');
-    }
-    text
+    ];
+    constants.concat() + &parts.join("\n")
 }

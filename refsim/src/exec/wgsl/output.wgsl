@@ -7,6 +7,19 @@ struct Exact {
     exponent: i32,
 }
 
+// What the program left in a lane.
+fn o_given(operand: u32, lane: u32) -> u32 {
+    return scratch[q_row(operand)][lane];
+}
+
+// Whether registers are in fixed point.
+fn o_main_is_fixed() -> bool {
+    if (HAS_FIXED) {
+        return draw[8u * MAIN] == 0u;
+    }
+    return false;
+}
+
 // The number behind a raw value of fixed point with `fraction` bits below the point, or of floating point.
 fn o_exact(raw: u32, fixed_point: bool, fraction: u32) -> Exact {
     let negative = (raw >> 31u) == 1u;
@@ -62,15 +75,15 @@ fn o_depth_float(number: Exact, bias: i32, mantissa: u32) -> u32 {
 
 // The pattern of a depth in the draw's depth buffer; below zero and NaN give 0.
 fn o_depth(raw: u32, in_main: bool) -> u32 {
-    var number = o_exact(raw, in_main && draw[8u * MAIN] == 0u, draw[8u * MAIN + 2u]);
+    var number = o_exact(raw, in_main && o_main_is_fixed(), draw[8u * MAIN + 2u]);
     if (number.negative) {
         number.significand = 0u;
     }
     switch draw[D_DEPTH_FORMAT] {
-        case 3u: {
+        case DEPTH_FLOAT32: {
             return o_depth_float(number, 127, 23u);
         }
-        case 4u: {
+        case DEPTH_FLOAT24: {
             return o_depth_float(number, 15, 20u);
         }
         default: {
@@ -101,7 +114,7 @@ fn o_holds(comparison: u32, below: bool, above: bool) -> bool {
 fn o_alpha_passes(alpha: u32) -> bool {
     let comparison = draw[D_ALPHA];
     let reference = draw[D_ALPHA + 1u];
-    if (draw[8u * MAIN] == 0u) {
+    if (o_main_is_fixed()) {
         return o_holds(comparison, (i32(alpha) < i32(reference)), (i32(alpha) > i32(reference)));
     }
     if (o_is_nan(alpha) || o_is_nan(reference)) {
@@ -132,7 +145,7 @@ fn o_low_bits(n: u32) -> u32 {
 
 // The bits of a channel of integers for a raw value of the main format.
 fn o_encode(channel: Channel, raw: u32) -> u32 {
-    let number = o_exact(raw, draw[8u * MAIN] == 0u, draw[8u * MAIN + 2u]);
+    let number = o_exact(raw, o_main_is_fixed(), draw[8u * MAIN + 2u]);
     if (number.negative && channel.kind == 0u) {
         return 0u;
     }
@@ -264,30 +277,23 @@ fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equa
     return select(code, 0u - code, negative) & o_low_bits(channel.bits);
 }
 
-// A sum or product in single precision, or a number of another format, rounded once into `to`.
-fn o_rounded(op: u32, to: Format, kind: u32, fraction: u32, a: u32, b: u32) -> u32 {
-    let x = n_unpack(kind, fraction, a);
-    var y = N_ONE;
-    var z = Number(0u, x.sign, -N_FAR, 0u);
-    if (op == N_ADD) {
-        z = n_unpack(N_FLOAT, 0u, b);
-    } else if (op == N_MUL) {
-        y = n_unpack(N_FLOAT, 0u, b);
-        z.sign ^= y.sign;
-    }
-    return n_finish(to, n_sum(to, x, y, z));
+// The bits of a channel of floats for a raw value of the main format.
+fn o_float(channel: Channel, raw: u32) -> u32 {
+    let into = format_of_draw(channel.format);
+    let kind = select(N_FLOAT, N_FIXED, o_main_is_fixed());
+    return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], raw, 0u)));
 }
 
-// The bits of a channel of floats for a raw value of the main format; blended in single precision. All roundings happen
+// The same, blended in single precision. All roundings happen
 // at one place, since each place costs a copy of the arithmetic.
-fn o_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32, blends: bool) -> u32 {
+fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32) -> u32 {
     let is_alpha = channel.component == 3u;
     let op = draw[equation + 2u];
     var values = Blend(raw, held, raw_alpha, held_alpha);
     var terms: vec2<u32>;
     var there: vec2<bool>;
     var result = raw;
-    for (var step = select(7u, 0u, blends); step < 8u; step++) {
+    for (var step = 0u; step < 8u; step++) {
         var code_of = N_CONVERT;
         var a = 0u;
         var b = 0u;
@@ -357,10 +363,11 @@ fn o_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u3
             }
         }
         // The program's values are of the main format.
-        let given = step < 2u || (step == 7u && !blends);
-        let kind = select(N_FLOAT, draw[8u * MAIN], given);
+        let given = step < 2u;
+        let kind = select(N_FLOAT, N_FIXED, given && o_main_is_fixed());
         let fraction = select(0u, draw[8u * MAIN + 2u], given);
-        let made = o_rounded(code_of, format(to), kind, fraction, a, b);
+        let into = format_of_draw(to);
+        let made = n_finish(into, n_term(code_of, into, kind, fraction, a, b));
         switch step {
             case 0u: {
                 values.source_alpha = made;
@@ -376,7 +383,7 @@ fn o_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u3
             }
         }
     }
-    return n_encode(format(channel.format), result);
+    return n_encode(format_of_draw(channel.format), result);
 }
 
 // Writes the colour of one lane into target `t`.
@@ -389,7 +396,7 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     let alpha_channel = draw[at + 11u];
     // A source whose alpha the target does not store is rounded to a channel all the same: the fifth in the table.
     let rounded_alpha = o_channel(at + 16u + 8u * min(alpha_channel, 4u));
-    let raw_alpha = q_color[t][3][lane];
+    let raw_alpha = o_given(ROW_COLORS + 4u * t + 3u, lane);
     var held_alpha = select(rounded_alpha.denominator, 0x3f800000u, floats);
     var made: array<u32, 4>;
     // One pass more, the first, for the alpha that the target holds.
@@ -399,30 +406,38 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
             continue;
         }
         let channel = o_channel(at + 16u + 8u * select(pass_number - 1u, alpha_channel, of_alpha));
-        var held = (video[texel + (channel.shift >> 5u)] >> (channel.shift & 31u)) & o_low_bits(channel.bits);
-        if (blends) {
+        let stored = (video[texel + (channel.shift >> 5u)] >> (channel.shift & 31u)) & o_low_bits(channel.bits);
+        let raw = o_given(ROW_COLORS + 4u * t + channel.component, lane);
+        let equation = D_BLEND + select(1u, 4u, channel.component == 3u);
+        var held = 0u;
+        var bits = 0u;
+        if (HAS_FLOAT_TARGETS) {
             if (floats) {
-                held = n_decode(format(channel.format), held);
-            } else {
-                held = u32(o_numerator(channel, held));
+                bits = o_float(channel, raw);
+            }
+        }
+        if (HAS_FLOAT_BLENDING) {
+            if (floats && blends) {
+                held = n_decode(format_of_draw(channel.format), stored);
+                bits = o_blend_float(channel, raw, raw_alpha, held, held_alpha, equation);
+            }
+        }
+        if (HAS_INTEGER_TARGETS) {
+            if (!floats) {
+                bits = o_encode(channel, raw);
+            }
+        }
+        if (HAS_INTEGER_BLENDING) {
+            if (!floats && blends) {
+                held = u32(o_numerator(channel, stored));
+                let alpha = u32(o_numerator(rounded_alpha, o_encode(rounded_alpha, raw_alpha)));
+                let values = Blend(u32(o_numerator(channel, bits)), held, alpha, held_alpha);
+                bits = o_blend_integer(channel, values, rounded_alpha.denominator, equation);
             }
         }
         if (of_alpha) {
             held_alpha = held;
             continue;
-        }
-        let raw = q_color[t][channel.component][lane];
-        let equation = D_BLEND + select(1u, 4u, channel.component == 3u);
-        var bits = 0u;
-        if (floats) {
-            bits = o_float(channel, raw, raw_alpha, held, held_alpha, equation, blends);
-        } else {
-            bits = o_encode(channel, raw);
-            if (blends) {
-                let alpha = u32(o_numerator(rounded_alpha, o_encode(rounded_alpha, raw_alpha)));
-                let values = Blend(u32(o_numerator(channel, bits)), held, alpha, held_alpha);
-                bits = o_blend_integer(channel, values, rounded_alpha.denominator, equation);
-            }
         }
         made[channel.shift >> 5u] |= bits << (channel.shift & 31u);
     }
@@ -435,16 +450,18 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
 // Takes one covered lane through the output stage; says what became of it, as `counts` has it: 0 shaded means nothing
 // more, 1 killed, 2 failed alpha, 3 failed depth, 4 passed.
 fn o_merge(lane: u32, x: u32, y: u32) -> u32 {
-    if (q_killed[lane]) {
+    if (o_given(ROW_KILLED, lane) != 0u) {
         return 1u;
     }
-    if (!o_alpha_passes(q_color[0][3][lane])) {
-        return 2u;
+    if (HAS_ALPHA_TEST) {
+        if (!o_alpha_passes(o_given(ROW_COLORS + 3u, lane))) {
+            return 2u;
+        }
     }
-    let comparison = draw[D_DEPTH];
-    if (comparison != NO_TEST) {
+    if (HAS_DEPTH_TEST) {
+        let comparison = draw[D_DEPTH];
         let at = draw[D_DEPTH_BASE] + y * draw[D_DEPTH_WIDTH] + x;
-        let made = o_depth(q_depth[lane], q_depth_is_main[lane]);
+        let made = o_depth(o_given(ROW_DEPTH, lane), o_given(ROW_DEPTH_IS_MAIN, lane) != 0u);
         let old = video[at];
         if (!o_holds(comparison, (made < old), (made > old))) {
             return 3u;

@@ -1,12 +1,13 @@
 //! Texture reads in WGSL: the sampler table, texels as words, and the text that reads them.
 //!
 //! The text defines `texture_read` and `texel_decode`. It takes from the rest of its module: the bindings `samplers`
-//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, and of the number library `Format`,
-//! `n_round`, `n_infinite`, `n_nan` and `s_alu`.
+//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result` for what goes
+//! in and out, and of the number library `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu`.
 //!
 //! Everything that a read depends on comes from the sampler table, so one module serves all textures and states. A
 //! sampler has [`SAMPLER_WORDS`] words; what is at which place the constants say, which the text has by the same names.
 
+use super::parts::Parts;
 use crate::exec::SamplerBinding;
 use crate::num::Format;
 use crate::texture::{
@@ -190,6 +191,18 @@ pub fn sampler_words(
         row.copy_from_slice(&[first_word.wrapping_add(offset as u32), level.width, level.height, level.slices]);
     }
     words
+}
+
+/// The parts of the text that reads through a sampler use.
+pub fn parts(sampler: &[u32], parts: &mut Parts) {
+    let flag = |at: usize| sampler[SAMPLER_FLAGS] >> at;
+    let is_cube = flag(FLAG_KIND) & 7 == KIND_CUBE as u32;
+    let floats = flag(FLAG_FLOAT) & 1 == 1;
+    let linear = (flag(FLAG_MIN) | flag(FLAG_MAG)) & 1 == 1 || flag(FLAG_MIP) & 3 == MIP_LINEAR as u32;
+    parts.add_if(is_cube, "HAS_CUBES");
+    parts.add_if(is_cube || flag(FLAG_DETAIL) & 1 == 1, "HAS_TEXTURE_DETAIL");
+    parts.add(if floats { "HAS_FLOAT_TEXELS" } else { "HAS_RATIO_TEXELS" });
+    parts.add_if(floats && linear, "HAS_FLOAT_FILTERS");
 }
 
 fn kind_word(kind: TextureKind) -> u32 {

@@ -13,7 +13,7 @@ struct Bin {
 
 /// One dispatch: the words of `tiles` (for each tile its column, its row, where its triangles begin and how many they
 /// are; then the triangles) and the number of tiles.
-pub(super) struct Dispatch {
+pub(super) struct TileBatch {
     pub(super) words: Vec<u32>,
     pub(super) tiles: usize,
 }
@@ -25,7 +25,7 @@ pub(super) fn dispatches(
     region: Region,
     most_tiles: usize,
     most_triangles: usize,
-) -> Vec<Dispatch> {
+) -> Vec<TileBatch> {
     let mut out = Vec::new();
     let mut parts: Vec<(u32, u32, &[u32])> = Vec::new();
     let mut total = 0;
@@ -50,7 +50,7 @@ pub(super) fn dispatches(
     out
 }
 
-fn dispatch(parts: &[(u32, u32, &[u32])]) -> Dispatch {
+fn dispatch(parts: &[(u32, u32, &[u32])]) -> TileBatch {
     let mut words = Vec::new();
     let mut first = 4 * parts.len();
     for (x, y, triangles) in parts {
@@ -60,7 +60,7 @@ fn dispatch(parts: &[(u32, u32, &[u32])]) -> Dispatch {
     for (_, _, triangles) in parts {
         words.extend_from_slice(triangles);
     }
-    Dispatch { words, tiles: parts.len() }
+    TileBatch { words, tiles: parts.len() }
 }
 
 /// The tiles that triangles touch, row by row.

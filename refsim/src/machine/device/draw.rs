@@ -1,15 +1,14 @@
 //! A draw on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
 
-use super::shader::shader;
+use super::shader::{DRAW, load};
 use super::{Card, batches};
 use crate::device::Profile;
 use crate::event::{DrawEvents, FragmentCounts};
 use crate::exec::batch::BatchExecutor;
 use crate::exec::budget::enforced;
-use crate::exec::gpu::{AdapterKind, Gpu, GpuError, Shader};
-use crate::exec::wgsl::NumberMode;
+use crate::exec::gpu::{AdapterKind, Gpu, GpuError, LoadedProgram};
 use crate::exec::wgsl::kernel::{
-    COUNT_WORDS, CUT, DepthPlace, Dispatch, DrawState, DrawWords, INVOCATIONS, OVERRUN, SAVED_ROWS, UNFINISHED,
+    COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawState, DrawWords, EXTRA_ROWS, INVOCATIONS, OVERRUN, UNFINISHED,
 };
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::{FlowMap, ResolvedConstants, colors_written, inputs_read, output_rules, program};
@@ -36,14 +35,13 @@ const PASSES: u32 = 1 << 22;
 const ROW: usize = 256;
 
 impl Machine {
-    /// A machine that draws on a GPU. The bits are the same in integer mode on every GPU; in native mode single precision is
-    /// the GPU's own, where a probe has found that exact.
+    /// A machine that draws on a GPU. The bits are the same on every GPU.
     ///
     /// # Errors
     /// [`MachineError::Gpu`] if the GPU has no memory for it.
-    pub fn with_gpu(profile: impl Into<Arc<Profile>>, gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, MachineError> {
+    pub fn with_gpu(profile: impl Into<Arc<Profile>>, gpu: Arc<Gpu>) -> Result<Self, MachineError> {
         let mut machine = Self::new(profile, ExecutorKind::Wgpu);
-        machine.memory.card = Some(Card::new(gpu, mode)?);
+        machine.memory.card = Some(Card::new(gpu)?);
         Ok(machine)
     }
 
@@ -67,7 +65,7 @@ impl Machine {
         }
         let mut card = match self.memory.card.take() {
             Some(card) => card,
-            None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
+            None => Card::new(Arc::new(Gpu::open(None)?))?,
         };
         let drawn = card.draw((&self.memory, &self.profile), &self.batch, call, plan, budget);
         self.memory.card = Some(card);
@@ -141,8 +139,8 @@ impl Card {
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, batch), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let mut words = self.place(memory, profile, call, step_budget)?;
-        let (shader, samplers) = shader(self, memory, profile, call, false)?;
-        self.board.start(&shader, &samplers, COUNT_WORDS)?;
+        let (program, samplers) = load(self, memory, profile, call, &mut words, &DRAW)?;
+        self.board.start(&program, &samplers, COUNT_WORDS)?;
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
         while first < plan.instance_count {
@@ -153,7 +151,7 @@ impl Card {
             let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
             events.primitives += primitives;
             for part in setups.chunks(ROUND) {
-                self.shade(&mut words, &shader, part, plan)?;
+                self.shade(&mut words, &program, part, plan)?;
             }
             first += count;
         }
@@ -220,17 +218,17 @@ impl Card {
     fn shade(
         &mut self,
         words: &mut DrawWords,
-        shader: &Shader,
+        program: &LoadedProgram,
         setups: &[TriangleSetup],
         plan: &Plan,
     ) -> Result<(), MachineError> {
         let mut packed = Vec::with_capacity(setups.len() * words.setup_words());
         setups.iter().for_each(|setup| words.setup(setup, &mut packed));
         self.board.set_setups(&packed)?;
-        let fit = self.board.gpu().most_words() / (4 * INVOCATIONS * (shader.registers + SAVED_ROWS));
+        let fit = self.board.gpu().most_words() / (4 * INVOCATIONS * (program.registers + EXTRA_ROWS));
         let dispatches = batches::dispatches(setups, plan.raster.scissor, MOST_TILES.min(fit), MOST_TRIANGLES);
         for part in dispatches {
-            self.dispatch(words, shader, &part)?;
+            self.dispatch(words, program, &part)?;
         }
         Ok(())
     }
@@ -239,18 +237,18 @@ impl Card {
     fn dispatch(
         &mut self,
         words: &mut DrawWords,
-        shader: &Shader,
-        part: &batches::Dispatch,
+        program: &LoadedProgram,
+        part: &batches::TileBatch,
     ) -> Result<(), MachineError> {
         let columns = part.tiles.min(ROW);
         let groups = [columns as u32, part.tiles.div_ceil(ROW) as u32, 1];
         let passes = passes(self.board.gpu());
-        let registers = shader.registers;
-        let mut dispatch = Dispatch { tiles: part.tiles, groups: columns, registers, resumes: false, passes };
+        let registers = program.registers;
+        let mut dispatch = DrawDispatch { tiles: part.tiles, groups: columns, registers, resumes: false, passes };
         loop {
             let draw = words.dispatch(&dispatch);
             let invocations = part.tiles * INVOCATIONS;
-            self.board.dispatch(shader, draw, &part.words, groups, (registers + SAVED_ROWS) * invocations)?;
+            self.board.dispatch(program, draw, &part.words, groups, (registers + EXTRA_ROWS) * invocations)?;
             if self.board.take_count(UNFINISHED)? == 0 {
                 return Ok(());
             }

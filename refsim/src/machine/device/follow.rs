@@ -3,14 +3,14 @@
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a dispatch,
 //! which is why this is no [`crate::exec::PixelTracer`].
 
-use super::shader::shader;
+use super::shader::{FOLLOW, load};
 use super::{Card, draw};
-use crate::exec::gpu::{Gpu, Shader};
-use crate::exec::wgsl::follow::{Dispatch, HEAD, JOB_WORDS, Record};
-use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, OVERRUN, SAVED_ROWS};
+use crate::exec::gpu::{Gpu, LoadedProgram};
+use crate::exec::wgsl::follow::{FollowDispatch, HEAD, JOB_WORDS, Record};
+use crate::exec::wgsl::kernel::{COUNT_WORDS, DepthPlace, DrawState, DrawWords, EXTRA_ROWS, OVERRUN};
 use crate::exec::wgsl::program::TRACE_WORDS;
 use crate::exec::wgsl::target::TargetPlace;
-use crate::exec::wgsl::{NumberMode, texture};
+use crate::exec::wgsl::texture;
 use crate::exec::{Shading, colors_written, inputs_read, output_rules, program};
 use crate::isa::OpcodeClass;
 use crate::machine::trace::PixelState;
@@ -43,7 +43,7 @@ pub(in crate::machine) struct Follower<'a> {
     pixels: Vec<(u32, u32)>,
     states: Vec<PixelState>,
     words: DrawWords,
-    shader: Shader,
+    shader: LoadedProgram,
     /// The targets of the followed pixels, a row, and one column more for what is run again.
     colors: Vec<(usize, Image)>,
     depth: Option<usize>,
@@ -71,10 +71,9 @@ impl<'a> Follower<'a> {
     ) -> Result<Self, MachineError> {
         let (memory, profile) = (&machine.memory, &machine.profile);
         let mut card = match &memory.card {
-            Some(card) => Card::new(Arc::clone(card.board.gpu()), card.mode)?,
-            None => Card::new(Arc::new(Gpu::open(None)?), NumberMode::Integer)?,
+            Some(card) => Card::new(Arc::clone(card.board.gpu()))?,
+            None => Card::new(Arc::new(Gpu::open(None)?))?,
         };
-        let (shader, samplers) = shader(&mut card, memory, profile, call, true)?;
         let width = pixels.len() as u32 + 1;
         let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
@@ -94,7 +93,7 @@ impl<'a> Follower<'a> {
             true => FLOW_STEPS,
             false => source.instructions.len() + INPUTS,
         };
-        let words = DrawWords::new(&DrawState {
+        let mut words = DrawWords::new(&DrawState {
             rules: &profile.rules,
             output: &call.output_state(),
             output_rules: &output_rules(&profile.rules),
@@ -104,6 +103,7 @@ impl<'a> Follower<'a> {
             depth,
             step_budget,
         });
+        let (shader, samplers) = load(&mut card, memory, profile, call, &mut words, &FOLLOW)?;
         let records = card.board.allocate(pixels.len() * (HEAD + TRACE_WORDS * room))?;
         card.board.start(&shader, &samplers, COUNT_WORDS)?;
         let depth = depth.map(|place| place.base as usize);
@@ -229,11 +229,12 @@ impl<'a> Follower<'a> {
         told.append(&mut lists);
         let (registers, passes) = (self.shader.registers, draw::passes(self.card.board.gpu()));
         let (records, room) = (self.records, self.room);
-        let mut dispatch = Dispatch { jobs: jobs.len(), registers, resumes: false, passes, records, room, skipped };
+        let mut dispatch =
+            FollowDispatch { jobs: jobs.len(), registers, resumes: false, passes, records, room, skipped };
         let size = dispatch.record_words();
         loop {
             let words = self.words.follow(&dispatch);
-            let rows = (registers + SAVED_ROWS) * jobs.len();
+            let rows = (registers + EXTRA_ROWS) * jobs.len();
             self.card.board.dispatch(&self.shader, words, &told, [jobs.len() as u32, 1, 1], rows)?;
             let found = self.card.board.read(records, jobs.len() * size)?;
             if !found.chunks_exact(size).any(|words| Record::new(words).is_some_and(|r| r.is_unfinished())) {

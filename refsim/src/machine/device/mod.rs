@@ -13,7 +13,7 @@ pub(super) use follow::Follower;
 
 use super::MachineError;
 use crate::exec::gpu::{Board, Gpu, GpuError};
-use crate::exec::wgsl::{NativeOperations, NumberMode, number, texture};
+use crate::exec::wgsl::texture;
 use crate::output::DepthSurface;
 use crate::texture::Image;
 use std::collections::BTreeMap;
@@ -23,11 +23,6 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub(super) struct Card {
     board: Board,
-    mode: NumberMode,
-    /// Its arithmetic.
-    library: String,
-    /// The pixel module.
-    text: String,
     textures: BTreeMap<usize, Held<Image>>,
     depths: BTreeMap<usize, Held<DepthSurface>>,
 }
@@ -108,14 +103,8 @@ fn surface_of(like: &DepthSurface, words: &[u32]) -> DepthSurface {
 }
 
 impl Card {
-    pub(super) fn new(gpu: Arc<Gpu>, mode: NumberMode) -> Result<Self, GpuError> {
-        let native = match mode {
-            NumberMode::Integer => NativeOperations::empty(),
-            NumberMode::Native => gpu.native()?,
-        };
-        let library = number::library(mode, native);
-        let text = shader::machine_text(&library);
-        Ok(Self { board: Board::new(gpu)?, mode, library, text, textures: BTreeMap::new(), depths: BTreeMap::new() })
+    pub(super) fn new(gpu: Arc<Gpu>) -> Result<Self, GpuError> {
+        Ok(Self { board: Board::new(gpu)?, textures: BTreeMap::new(), depths: BTreeMap::new() })
     }
 
     /// The contents of texture `number`, of which the host holds `host`.

@@ -3,21 +3,37 @@
 use super::Card;
 use crate::device::Profile;
 use crate::event::SAMPLERS;
-use crate::exec::gpu::Shader;
+use crate::exec::gpu::{BINDINGS, Kernel, LoadedProgram};
+use crate::exec::wgsl::kernel::DrawWords;
 use crate::exec::wgsl::program::{self, PixelShader};
 use crate::exec::wgsl::{follow, kernel, texture};
 use crate::exec::{PixelBindings, SamplerBinding, sample_rules};
 use crate::machine::memory::Memory;
 use crate::machine::{DrawCall, MachineError};
 
+/// Draws tiles.
+pub(super) const DRAW: Kernel = Kernel {
+    entry: kernel::ENTRY,
+    text: || kernel::text() + &program::machine() + program::NO_TRACE + &texture::library(),
+    bindings: &BINDINGS,
+};
+
+/// Follows pixels.
+pub(super) const FOLLOW: Kernel = Kernel {
+    entry: follow::ENTRY,
+    text: || follow::text() + &program::machine() + &texture::library(),
+    bindings: &BINDINGS,
+};
+
 /// Program and samplers of a draw, or of pixels that are followed through one; the textures are on the GPU then.
-pub(super) fn shader(
+pub(super) fn load(
     card: &mut Card,
     memory: &Memory,
     profile: &Profile,
     call: &DrawCall<'_>,
-    followed: bool,
-) -> Result<(Shader, Vec<u32>), MachineError> {
+    words: &mut DrawWords,
+    kernel: &Kernel,
+) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
     let rules = sample_rules(&profile.rules);
     let (bump, projections) = (call.bump, call.projections);
     let mut bindings = PixelBindings { bump, projections, ..PixelBindings::new(call.pixel_constants) };
@@ -31,28 +47,13 @@ pub(super) fn shader(
         }
         samplers.extend(texture::sampler_words(slot.as_ref(), &rules, first as u32));
     }
-    let prepare = if followed { PixelShader::traced } else { PixelShader::new };
-    let code = prepare(call.pixel_program, &profile.rules, &bindings)?.microcode()?;
-    let (text, entry) = match followed {
-        true => (followed_text(&card.library), follow::ENTRY),
-        false => (card.text.clone(), kernel::ENTRY),
-    };
-    Ok((Shader { text, entry, code: code.words, registers: code.slots }, samplers))
-}
-
-/// The module that runs every program.
-pub(super) fn machine_text(library: &str) -> String {
-    let mut text = kernel::text(library);
-    for part in [program::machine(), program::NO_OUTPUT, program::NO_TRACE, &texture::library()] {
-        text += part;
-        text.push('\n');
+    let traced = kernel.entry == follow::ENTRY;
+    let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced);
+    let code = shader.microcode(Some(words.interpolation()))?;
+    let mut parts = words.parts_with(&code);
+    for &sampler in &code.samplers {
+        texture::parts(&samplers[sampler * texture::SAMPLER_WORDS..], &mut parts);
     }
-    text
-}
-
-/// The module that follows pixels.
-fn followed_text(library: &str) -> String {
-    [&follow::text(library), program::machine(), program::NO_OUTPUT, &texture::library()]
-        .map(|part| part.to_owned() + "\n")
-        .concat()
+    let pipeline = card.board.gpu().kernel(kernel, &parts)?;
+    Ok((LoadedProgram { pipeline, code: code.words, registers: code.slots }, samplers))
 }

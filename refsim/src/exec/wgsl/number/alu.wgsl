@@ -57,17 +57,16 @@ fn n_integer(x: Number) -> u32 {
 
 // What orders raw values as their numbers; both zeros give 0.
 fn n_key(f: Format, a: u32) -> i32 {
-    let magnitude = i32(a & 0x7fffffffu);
-    return select(i32(a), select(magnitude, -magnitude, (a >> 31u) == 1u), n_is_float(f));
+    return select(i32(a), s_key(a), n_is_float(f));
 }
 
 fn n_is_nan(f: Format, a: u32) -> bool {
     return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// Everything that rounds. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed format it is of.
-// N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32. N_SPLIT_...: a a word, b the bit.
-fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
+// What rounds, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed format
+// it is of. N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32. N_SPLIT_...: a a word, b the bit.
+fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var kind = f.kind;
     var frac = f.frac;
     if op == N_CONVERT {
@@ -81,9 +80,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     var z = n_unpack(f.kind, f.frac, c);
     // Adds nothing, not even to the sign.
     let nothing = Number(0u, x.sign, -N_FAR, 0u);
-    var w: Real;
     switch op {
-        case N_DIV: {}
         case N_RCP: {
             y = x;
             x = N_ONE;
@@ -132,6 +129,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
         }
         default: {}
     }
+    var w: Real;
     switch op {
         case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS, N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
             w = n_quotient(op, f, x, y);
@@ -140,11 +138,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
         case N_SIN, N_COS: { w = n_circle(op, f, x); }
         default: { w = n_sum(f, x, y, z); }
     }
-    let result = n_finish(f, w);
-    if op == N_ADDRESS_FLOOR || op == N_ADDRESS_NEAREST {
-        return n_integer(n_unpack(f.kind, f.frac, result));
-    }
-    return result;
+    return w;
 }
 
 fn n_select(condition: bool, yes: u32, no: u32) -> u32 {
@@ -162,19 +156,21 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     let second = n_key(f, b);
     let unordered = n_is_nan(f, a) || n_is_nan(f, b);
     let sign = a & 0x80000000u;
+    var known = true;
+    var raw = 0u;
     switch op {
         case N_MIN, N_MAX: {
             let takes_first = !unordered && select((first < second), (first >= second), op == N_MAX);
-            return n_known(select(select(b, a, takes_first), N_NAN, unordered && f.special == 1u));
+            raw = select(select(b, a, takes_first), N_NAN, unordered && f.special == 1u);
         }
         case N_NEG, N_ABS: {
             let flips = op == N_NEG || sign != 0u;
-            if float {
-                return n_known(select(select(a, a ^ 0x80000000u, flips), N_NAN, n_is_nan(f, a)));
+            raw = select(select(a, a ^ 0x80000000u, flips), N_NAN, n_is_nan(f, a));
+            if !float {
+                let least = n_extreme(f, 1u);
+                let turned = select(0u - a, select(~least, least, f.overflow == 1u), a == least);
+                raw = select(a, turned, flips);
             }
-            let least = n_extreme(f, 1u);
-            let turned = select(0u - a, select(~least, least, f.overflow == 1u), a == least);
-            return n_known(select(a, turned, flips));
         }
         case N_SATURATE: {
             var one = 0x3f800000u;
@@ -182,55 +178,52 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
                 one = select(1u << f.frac, n_extreme(f, 0u), f.upper == 0u);
             }
             let clamped = select(select(a, one, first >= i32(one)), 0u, first <= 0);
-            return n_known(select(clamped, select(0u, N_NAN, f.special == 1u), n_is_nan(f, a)));
+            raw = select(clamped, select(0u, N_NAN, f.special == 1u), n_is_nan(f, a));
         }
         case N_FACTOR: {
             let ends = max(a & 0x7fffffffu, b & 0x7fffffffu) >= N_INFINITY;
             let zero = (a & 0x7fffffffu) == 0u || (b & 0x7fffffffu) == 0u;
-            return n_known(select(a, 0u, float && ends && zero));
+            raw = select(a, 0u, float && ends && zero);
         }
-        case N_SELECT_NON_NEGATIVE: { return n_known(n_select(first >= 0 && !n_is_nan(f, a), b, c)); }
+        case N_SELECT_NON_NEGATIVE: { raw = n_select(first >= 0 && !n_is_nan(f, a), b, c); }
         case N_SELECT_ABOVE_HALF: {
-            let half = select((1u << f.frac) >> 1u, 0x3f000000u, float);
-            return n_known(n_select(first > i32(half) && !n_is_nan(f, a), b, c));
+            let half = select((1u << (f.frac & 31u)) >> 1u, 0x3f000000u, float);
+            raw = n_select(first > i32(half) && !n_is_nan(f, a), b, c);
         }
-        case N_LESS: { return n_known(n_mask(first < second && !unordered)); }
-        case N_LESS_EQUAL: { return n_known(n_mask(first <= second && !unordered)); }
-        case N_EQUAL: { return n_known(n_mask(first == second && !unordered)); }
-        case N_SELECT: { return n_known((a & b) | (~a & c)); }
-        case N_AND: { return n_known(a & b); }
-        case N_OR: { return n_known(a | b); }
-        case N_AND_NOT: { return n_known(~a & b); }
-        case N_DECODE: { return n_known(n_decode(f, a)); }
-        case N_ENCODE: { return n_known(n_encode(f, a)); }
+        case N_LESS: { raw = n_mask(first < second && !unordered); }
+        case N_LESS_EQUAL: { raw = n_mask(first <= second && !unordered); }
+        case N_EQUAL: { raw = n_mask(first == second && !unordered); }
+        case N_DECODE: { raw = n_decode(f, a); }
+        case N_ENCODE: { raw = n_encode(f, a); }
         case N_JOIN_PATTERN, N_JOIN_SHORT, N_JOIN_BYTE, N_JOIN_SIGNED_BYTE: {
-            return n_known(a | (n_part(op, f, b) << (c & 31u)));
+            raw = a | (n_part(op, f, b) << (c & 31u));
         }
-        case N_SPLIT_PATTERN: { return n_known(n_decode(f, (a >> (b & 31u)) & 0xffffu)); }
-        default: { return Real(); }
+        case N_SPLIT_PATTERN: { raw = n_decode(f, (a >> (b & 31u)) & 0xffffu); }
+        default: { known = false; }
     }
+    return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
-// Any operation, by its number.
+// Any operation, by its number, before its rounding.
+fn n_exact(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
+    var exact = n_simple(op, f, a, b, c);
+    if !exact.known {
+        exact = n_arith(op, f, a, b, c);
+    }
+    return exact;
+}
+
+// The result of an operation, rounded.
+fn n_result(op: u32, f: Format, exact: Real) -> u32 {
+    var result = n_finish(f, exact);
+    switch op {
+        case N_ADDRESS_FLOOR, N_ADDRESS_NEAREST: { result = n_integer(n_unpack(f.kind, f.frac, result)); }
+        default: {}
+    }
+    return result;
+}
+
+// Any operation but N_MAD, which is a product and then a sum.
 fn n_alu(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
-    let simple = n_simple(op, f, a, b, c);
-    if simple.known {
-        return simple.raw;
-    }
-    if n_native(op, f) {
-        return n_native_alu(op, a, b, c);
-    }
-    // One operation, or a product and then a sum: a loop, so that the text is there once.
-    var step = select(op, N_MUL, op == N_MAD);
-    var first = a;
-    var second = b;
-    loop {
-        first = n_arith(step, f, first, second, c);
-        if op != N_MAD || step == N_ADD {
-            return first;
-        }
-        step = N_ADD;
-        second = c;
-    }
-    return first;
+    return n_result(op, f, n_exact(op, f, a, b, c));
 }

@@ -8,15 +8,9 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     let infinite = x.kind == 1u || y.kind == 1u;
     let zero = (x.kind == 0u && x.sig == 0u) || (y.kind == 0u && y.sig == 0u);
     let differ = sign != z.sign;
-    if x.kind == 2u || y.kind == 2u || z.kind == 2u || (infinite && (zero || (z.kind == 1u && differ))) {
-        return n_known(n_nan(f));
-    }
-    if infinite {
-        return n_known(n_infinite(f, sign));
-    }
-    if z.kind == 1u {
-        return n_known(n_infinite(f, z.sign));
-    }
+    let nan = x.kind == 2u || y.kind == 2u || z.kind == 2u || (infinite && (zero || (z.kind == 1u && differ)));
+    let known = nan || infinite || z.kind == 1u;
+    let raw = select(n_infinite(f, select(z.sign, sign, infinite)), n_nan(f), nan);
     let product = n_mul32(x.sig, y.sig);
     // The higher one's leading bit goes to place 94. What the lower one loses below place 0 lies under zeros of the higher.
     let first = x.exp + y.exp + 63;
@@ -24,22 +18,14 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     let top = max(first, second);
     let u = n_right(vec3<u32>(product.x, product.y, 0u), u32(top - first) + 1u);
     var v = n_right(vec3<u32>(z.sig, 0u, 0u), u32(top - second) + 1u);
-    if differ {
-        v = ~v;
-    }
+    v = select(v, ~v, differ);
     var total = n_add96(u, v, select(0u, 1u, differ));
-    var negative = sign;
-    if differ {
-        if (total.x >> 31u) == 1u {
-            total = n_add96(~total, vec3<u32>(), 1u);
-            negative = z.sign;
-        }
-        // An exact zero of different signs.
-        if (total.x | total.y | total.z) == 0u {
-            negative = select(0u, 1u, f.rounding == 3u);
-        }
-    }
-    return Real(false, 0u, negative, top - 94, total);
+    let turned = differ && (total.x >> 31u) == 1u;
+    total = n_add96(select(total, ~total, turned), vec3<u32>(), select(0u, 1u, turned));
+    // An exact zero of different signs.
+    let cancelled = differ && (total.x | total.y | total.z) == 0u;
+    let negative = select(select(sign, z.sign, turned), select(0u, 1u, f.rounding == 3u), cancelled);
+    return Real(known, raw, negative, top - 94, total);
 }
 
 // x / y, sqrt x, 1 / sqrt x: digits of a long division, two at a time, of which roots extract a digit each.

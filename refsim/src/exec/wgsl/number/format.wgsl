@@ -45,7 +45,10 @@ fn n_known(raw: u32) -> Real {
 }
 
 fn n_is_float(f: Format) -> bool {
-    return f.kind == N_FLOAT;
+    if (HAS_FIXED) {
+        return f.kind == N_FLOAT;
+    }
+    return true;
 }
 
 // No result: NaN, or zero where there is none.
@@ -98,23 +101,18 @@ fn n_shift(x: u32, s: i32) -> u32 {
 
 // m / 2^s, jammed.
 fn n_right(m: vec3<u32>, s: u32) -> vec3<u32> {
-    var y = m;
-    var lost = 0u;
-    if s >= 96u {
-        lost = y.x | y.y | y.z;
-        y = vec3<u32>();
-    } else if s >= 64u {
-        lost = y.y | y.z;
-        y = vec3<u32>(0u, 0u, y.x);
-    } else if s >= 32u {
-        lost = y.z;
-        y = vec3<u32>(0u, y.x, y.y);
-    }
-    let bits = s & 31u;
-    if bits != 0u {
-        lost |= y.z << (32u - bits);
-        y = (y >> vec3<u32>(bits)) | (vec3<u32>(0u, y.x, y.y) << vec3<u32>(32u - bits));
-    }
+    let one = (s >> 5u) == 1u;
+    let two = (s >> 5u) == 2u;
+    let more = s >= 96u;
+    var y = select(select(m, vec3<u32>(0u, m.x, m.y), one), vec3<u32>(0u, 0u, m.x), two);
+    y = select(y, vec3<u32>(), more);
+    var lost = select(select(0u, m.z, one), m.y | m.z, two);
+    lost = select(lost, m.x | m.y | m.z, more);
+    // Shifts by 32 less the bits in two parts, since no shift is by 32.
+    let bits = vec3<u32>(s & 31u);
+    let back = vec3<u32>(31u) - bits;
+    lost |= (y.z << 1u) << back.z;
+    y = (y >> bits) | ((vec3<u32>(0u, y.x, y.y) << vec3<u32>(1u)) << back);
     y.z |= select(0u, 1u, lost != 0u);
     return y;
 }
@@ -151,41 +149,38 @@ fn n_whole(x: u32) -> Number {
 // The number that a raw value of a format of this kind, with so many fraction bits if fixed, means.
 fn n_unpack(kind: u32, frac: u32, raw: u32) -> Number {
     let sign = raw >> 31u;
-    if kind == N_FIXED {
-        var n = n_whole(select(raw, 0u - raw, sign == 1u));
-        n.sign = sign;
-        n.exp -= i32(frac);
-        return n;
-    }
     let field = (raw >> 23u) & 0xffu;
     let mantissa = raw & 0x7fffffu;
-    if field == 255u {
-        return Number(select(1u, 2u, mantissa != 0u), sign, 0, 0x80000000u);
+    var size = mantissa | select(0u, 0x800000u, field != 0u);
+    var exp = i32(max(field, 1u)) - 150;
+    var special = field == 255u;
+    if (HAS_FIXED) {
+        if kind == N_FIXED {
+            size = select(raw, 0u - raw, sign == 1u);
+            exp = -i32(frac);
+            special = false;
+        }
     }
-    var n = n_whole(mantissa | select(0u, 0x800000u, field != 0u));
+    var n = n_whole(size);
     n.sign = sign;
-    n.exp += i32(max(field, 1u)) - 150;
+    n.exp += exp;
+    n.kind = select(0u, select(1u, 2u, mantissa != 0u), special);
     return n;
 }
 
-// (-1)^sign m 2^exp rounded once into the format.
+// (-1)^sign m 2^exp rounded once into the format. Without a return before its end: drivers make such text much longer.
 fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     var m = magnitude;
     var e = exp;
-    for (var i = 0u; i < 2u; i++) {
-        if m.x == 0u {
-            m = vec3<u32>(m.y, m.z, 0u);
-            e -= 32;
-        }
-    }
-    if m.x == 0u {
-        return n_zero(f, sign);
-    }
-    let zeros = countLeadingZeros(m.x);
-    if zeros != 0u {
-        m = (m << vec3<u32>(zeros)) | (vec3<u32>(m.y, m.z, 0u) >> vec3<u32>(32u - zeros));
-        e -= i32(zeros);
-    }
+    let first = m.x == 0u;
+    m = select(m, vec3<u32>(m.y, m.z, 0u), first);
+    e -= select(0, 32, first);
+    let second = m.x == 0u;
+    m = select(m, vec3<u32>(m.y, m.z, 0u), second);
+    e -= select(0, 32, second);
+    let zeros = countLeadingZeros(m.x) & 31u;
+    m = (m << vec3<u32>(zeros)) | ((vec3<u32>(m.y, m.z, 0u) >> vec3<u32>(1u)) >> vec3<u32>(31u - zeros));
+    e -= i32(zeros);
     let float = n_is_float(f);
     let top = e + 95;
     let places = i32(f.frac);
@@ -195,51 +190,40 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     let unit = select(-places, max(top, lowest) - places, float);
     let shift = unit - e;
     // Below two the integer ends in 32 zeros, in fixed point; a float never comes near.
-    var y = vec3<u32>();
-    if shift >= 2 {
-        y = n_right(m, u32(shift - 2));
-    }
+    var y = n_right(m, u32(max(shift, 2) - 2));
+    y = select(y, vec3<u32>(), shift < 2);
     let kept = (y.z >> 2u) | (y.y << 30u);
     let half = (y.z & 2u) != 0u;
     let below = (y.z & 1u) != 0u;
-    var up = false;
-    switch f.rounding {
-        case 0u: { up = half && (below || (kept & 1u) != 0u); }
-        case 1u: { up = half; }
-        case 3u: { up = sign == 1u && (half || below); }
-        default: {}
-    }
+    var up = f.rounding == 0u && half && (below || (kept & 1u) != 0u);
+    up = up || (f.rounding == 1u && half) || (f.rounding == 3u && sign == 1u && (half || below));
     let rounded = kept + select(0u, 1u, up);
-    if !float {
+    var result = 0u;
+    if (HAS_FIXED) {
         let bits = f.upper + f.frac;
         // One unit further on the negative side.
         let limit = (1u << bits) - 1u + sign;
         let over = shift < 2 || y.x != 0u || (y.y >> 2u) != 0u || rounded > limit || rounded < kept;
         let value = select(rounded, 0u - rounded, sign == 1u);
-        if over && f.overflow != 1u {
-            return n_extreme(f, sign);
+        let wrapped = u32(i32(value << (31u - bits)) >> (31u - bits));
+        result = select(wrapped, n_extreme(f, sign), over && f.overflow != 1u);
+    }
+    if float {
+        let flushed = rounded == 0u || (f.denormals == 1u && (rounded >> (f.frac & 31u)) == 0u);
+        let clear = countLeadingZeros(rounded) & 31u;
+        let exponent = 31 - i32(clear) + unit;
+        let normal = (u32(exponent + 127) << 23u) | (((rounded << clear) << 1u) >> 9u);
+        let size = select(normal, rounded << (u32(unit + 149) & 31u), exponent < -126);
+        result = (sign << 31u) | select(size, 0u, flushed);
+        if top > highest || (top == highest && (rounded >> ((f.frac + 1u) & 31u)) != 0u) {
+            result = n_overflow(f, sign, top > highest);
         }
-        return u32(i32(value << (31u - bits)) >> (31u - bits));
     }
-    if top > highest || (top == highest && (rounded >> (f.frac + 1u)) != 0u) {
-        return n_overflow(f, sign, top > highest);
-    }
-    if rounded == 0u || (f.denormals == 1u && (rounded >> f.frac) == 0u) {
-        return sign << 31u;
-    }
-    let clear = countLeadingZeros(rounded);
-    let exponent = 31 - i32(clear) + unit;
-    if exponent < -126 {
-        return (sign << 31u) | (rounded << u32(unit + 149));
-    }
-    return (sign << 31u) | (u32(exponent + 127) << 23u) | (((rounded << clear) << 1u) >> 9u);
+    return select(result, n_zero(f, sign), m.x == 0u);
 }
 
 fn n_finish(f: Format, x: Real) -> u32 {
-    if x.known {
-        return x.raw;
-    }
-    return n_round_real(f, x.sign, x.exp, x.m);
+    return select(n_round_real(f, x.sign, x.exp, x.m), x.raw, x.known);
 }
 
 // (-1)^negative v rounded into the format: v = sig 2^exponent (x the low word, y the high one), or with sticky strictly between

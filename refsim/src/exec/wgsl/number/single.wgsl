@@ -4,50 +4,37 @@ fn s_is_nan(a: u32) -> bool {
     return (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// N_ADD, N_SUB, N_MUL or N_DIV.
+// N_ADD, N_SUB, N_MUL, or N_DIV where there are cubes.
+const S_DIVIDE: u32 = N_DIV;
+
 fn s_alu(op: u32, a: u32, b: u32) -> u32 {
-    if n_native(op, N_FP32) {
-        return n_native_alu(op, a, b, 0u);
-    }
-    let x = n_unpack(N_FLOAT, 0u, a);
-    var y = n_unpack(N_FLOAT, 0u, b);
-    var z = Number(0u, x.sign ^ y.sign, -N_FAR, 0u);
     var w: Real;
-    if op == N_DIV {
-        w = n_quotient(op, N_FP32, x, y);
-    } else {
-        if op != N_MUL {
-            z = y;
-            z.sign ^= select(0u, 1u, op == N_SUB);
-            y = N_ONE;
-        }
-        w = n_sum(N_FP32, x, y, z);
+    switch op {
+        case S_DIVIDE: { w = n_quotient(op, N_FP32, n_unpack(N_FLOAT, 0u, a), n_unpack(N_FLOAT, 0u, b)); }
+        default: { w = n_term(op, N_FP32, N_FLOAT, 0u, a, b); }
     }
     return n_finish(N_FP32, w);
 }
 
-fn s_add(a: u32, b: u32) -> u32 { return s_alu(N_ADD, a, b); }
-fn s_sub(a: u32, b: u32) -> u32 { return s_alu(N_SUB, a, b); }
-fn s_mul(a: u32, b: u32) -> u32 { return s_alu(N_MUL, a, b); }
-fn s_div(a: u32, b: u32) -> u32 { return s_alu(N_DIV, a, b); }
+// N_ADD, N_SUB or N_MUL of a number of this kind and a single precision one; any other operation converts the first.
+fn n_term(op: u32, f: Format, kind: u32, fraction: u32, a: u32, b: u32) -> Real {
+    let x = n_unpack(kind, fraction, a);
+    let second = n_unpack(N_FLOAT, 0u, b);
+    let product = op == N_MUL;
+    var y = N_ONE;
+    var z = Number(0u, x.sign, -N_FAR, 0u);
+    if op == N_ADD || op == N_SUB {
+        z = second;
+        z.sign ^= select(0u, 1u, op == N_SUB);
+    }
+    if product {
+        y = second;
+        z.sign ^= y.sign;
+    }
+    return n_sum(f, x, y, z);
+}
 
 fn s_key(a: u32) -> i32 {
     let magnitude = i32(a & 0x7fffffffu);
     return select(magnitude, -magnitude, (a >> 31u) == 1u);
-}
-
-fn s_lt(a: u32, b: u32) -> bool { return s_key(a) < s_key(b) && !s_is_nan(a) && !s_is_nan(b); }
-fn s_le(a: u32, b: u32) -> bool { return s_key(a) <= s_key(b) && !s_is_nan(a) && !s_is_nan(b); }
-fn s_eq(a: u32, b: u32) -> bool { return s_key(a) == s_key(b) && !s_is_nan(a) && !s_is_nan(b); }
-
-// An integer in single precision.
-fn s_whole(x: i32) -> u32 {
-    return n_round(N_FP32, x < 0, vec2<u32>(u32(abs(x)), 0u), 0, false);
-}
-
-// The largest integer not above a 2^k, saturated to an i32; NaN gives 0.
-fn s_scaled_floor(a: u32, k: i32) -> i32 {
-    var x = n_unpack(N_FLOAT, 0u, a);
-    x.exp += k;
-    return i32(n_integer(n_integral(x, false)));
 }

@@ -4,7 +4,7 @@ use crate::device::Rules;
 use crate::exec::budget::loop_counter;
 use crate::exec::lower::{
     ACTIVE, Arith, DECIDED, Effect, Ends, Formats, Graph, KILLED, MaskedInstruction, MaskedProgram, NodeId, NodeKind,
-    RegisterComponent, Slot, TRUE, Translator, has_flow, translate_straight, translate_straight_vertex,
+    RegisterComponent, Slot, TRUE, Translator, has_flow, translate_straight,
 };
 use crate::exec::trace::{makes_step, written_mask};
 use crate::exec::usage::registers_delivered;
@@ -15,15 +15,13 @@ use std::collections::BTreeMap;
 
 /// What becomes of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Use {
+pub(super) enum SinkKind {
     /// A component of a colour: target, component.
     Color(u16, u16),
     /// The mask of killed lanes.
     Killed,
     /// Depth and the mask of lanes that have it.
     Depth(Arith),
-    /// A word of a vertex.
-    Output(u16),
     /// What an instruction wrote: up to four values and as many masks; which components they are.
     Trace(usize, Mask),
     /// Merged into the slot of a register where the mask holds: value, mask.
@@ -37,19 +35,19 @@ pub(super) enum Use {
 /// A use and the values that it takes.
 #[derive(Clone, Debug)]
 pub(super) struct Sink {
-    pub(super) what: Use,
+    pub(super) what: SinkKind,
     pub(super) nodes: Vec<NodeId>,
 }
 
 impl Sink {
-    fn new(what: Use, nodes: impl Into<Vec<NodeId>>) -> Self {
+    fn new(what: SinkKind, nodes: impl Into<Vec<NodeId>>) -> Self {
         Self { what, nodes: nodes.into() }
     }
 }
 
 /// An instruction of a program with flow control.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
+pub(super) struct MaskedStep {
     pub(super) opcode: Opcode,
     /// Where it leads, as in [`FlowMap::target`].
     pub(super) target: usize,
@@ -57,18 +55,16 @@ pub(super) struct Step {
     pub(super) sinks: Vec<Sink>,
     /// The sampler that it reads.
     pub(super) sampler: Option<usize>,
-    /// Slots that it counts for.
-    pub(super) cost: u32,
     /// The integer constant of a loop.
     pub(super) counter: [i32; 4],
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Body {
-    /// All values at once: what becomes of them; texture reads of each fragment by sampler; slots it counts for.
-    Straight { sinks: Vec<Sink>, fetches: Vec<usize>, cost: u32 },
+    /// All values at once: what becomes of them; texture reads of each fragment by sampler.
+    Straight { sinks: Vec<Sink>, fetches: Vec<usize> },
     /// Instruction by instruction, registers in the slots below `first_free`; and what is done before and at the end.
-    Flow { start: Vec<Sink>, steps: Vec<Step>, first_free: Slot, end: Vec<Sink> },
+    Flow { start: Vec<Sink>, steps: Vec<MaskedStep>, first_free: Slot, end: Vec<Sink> },
 }
 
 /// A program as values and their uses.
@@ -79,10 +75,6 @@ pub(super) struct Lowered {
     pub(super) body: Body,
     /// Float constants, raw, for relative numbers; empty if the program has none.
     pub(super) table: Vec<[u32; 4]>,
-}
-
-fn cost(instruction: &Instruction, program: &Program) -> u32 {
-    instruction.opcode.info().slot_cost(program.version).total().into()
 }
 
 impl Lowered {
@@ -105,28 +97,6 @@ impl Lowered {
             }
         };
         Self::finish(t, body, &constants, formats)
-    }
-
-    /// A vertex program.
-    pub(super) fn vertex(program: &Program, rules: &Rules, formats: Formats, constants: &ResolvedConstants) -> Self {
-        let mut t = Translator::new(program, rules, formats, constants, None);
-        let body = match has_flow(program) {
-            false => {
-                translate_straight_vertex(&mut t, program);
-                let known = t.registers.clone();
-                let sinks = output_sinks(&mut t, |_, place| known.get(&place).copied());
-                let cost = program.instructions.iter().map(|i| cost(i, program)).sum();
-                Body::Straight { sinks, fetches: Vec::new(), cost }
-            }
-            true => {
-                let parts = MaskedProgram::new(program, &mut t);
-                let end = output_sinks(&mut t, |t, place| {
-                    parts.registers.get(&place).map(|&slot| t.make.graph.node(NodeKind::Held(slot)))
-                });
-                flow(&mut t, program, parts, end, false)
-            }
-        };
-        Self::finish(t, body, constants, formats)
     }
 
     fn finish(t: Translator<'_>, body: Body, constants: &ResolvedConstants, formats: Formats) -> Self {
@@ -159,26 +129,25 @@ fn straight(t: &mut Translator<'_>, program: &Program, traced: bool) -> Body {
             let Some(instruction) = program.instructions.get(at).filter(|i| makes_step(i)) else { continue };
             let mask = written_mask(instruction, components.into_iter());
             nodes.extend(vec![all; nodes.len()]);
-            taps.push(Sink::new(Use::Trace(at, mask), nodes));
+            taps.push(Sink::new(SinkKind::Trace(at, mask), nodes));
         }
     }
     let mut sinks = end_sinks(t, &ends);
     sinks.append(&mut taps);
-    let cost = program.instructions.iter().map(|i| cost(i, program)).sum();
-    Body::Straight { sinks, fetches: std::mem::take(&mut t.fetches), cost }
+    Body::Straight { sinks, fetches: std::mem::take(&mut t.fetches) }
 }
 
 fn end_sinks(t: &mut Translator<'_>, ends: &Ends) -> Vec<Sink> {
     let mut sinks = Vec::new();
     for (target, color) in (0u16..).zip(&ends.colors) {
         for (component, &node) in (0u16..).zip(color.iter().flatten()) {
-            sinks.push(Sink::new(Use::Color(target, component), [node]));
+            sinks.push(Sink::new(SinkKind::Color(target, component), [node]));
         }
     }
-    sinks.extend(ends.killed.map(|mask| Sink::new(Use::Killed, [mask])));
+    sinks.extend(ends.killed.map(|mask| Sink::new(SinkKind::Killed, [mask])));
     if let Some((arith, value)) = ends.depth {
         let all = t.make.graph.constant(TRUE);
-        sinks.push(Sink::new(Use::Depth(arith), [value, all]));
+        sinks.push(Sink::new(SinkKind::Depth(arith), [value, all]));
     }
     sinks
 }
@@ -191,38 +160,15 @@ fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<R
         for component in 0u16..4 {
             if let Some(&slot) = registers.get(&(RegisterFile::ColorOut, target, component as u8)) {
                 let held = t.make.graph.node(NodeKind::Held(slot));
-                sinks.push(Sink::new(Use::Color(target, component), [held]));
+                sinks.push(Sink::new(SinkKind::Color(target, component), [held]));
             }
         }
     }
     let killed = t.make.graph.node(NodeKind::Held(KILLED));
-    sinks.push(Sink::new(Use::Killed, [killed]));
+    sinks.push(Sink::new(SinkKind::Killed, [killed]));
     if let Some(&slot) = registers.get(&(RegisterFile::DepthOut, 0, 0)) {
         let nodes = [slot, DECIDED].map(|slot| t.make.graph.node(NodeKind::Held(slot)));
-        sinks.push(Sink::new(Use::Depth(Arith::Main), nodes));
-    }
-    sinks
-}
-
-/// The words of a vertex: position, two colours clamped to [0, 1], eight sets of coordinates, fog, point size; single
-/// precision. What the program does not write stays zero.
-fn output_sinks(
-    t: &mut Translator<'_>,
-    mut held: impl FnMut(&mut Translator<'_>, RegisterComponent) -> Option<NodeId>,
-) -> Vec<Sink> {
-    let vector = |file, index: u16| (0u8..4).map(move |c| (file, index, c));
-    let places = vector(RegisterFile::PositionOut, 0)
-        .chain((0u16..2).flat_map(|i| vector(RegisterFile::DiffuseOut, i)))
-        .chain((0u16..8).flat_map(|i| vector(RegisterFile::TexCoordOut, i)))
-        .chain([(RegisterFile::FogOut, 0, 0), (RegisterFile::PointSizeOut, 0, 0)]);
-    let mut sinks = Vec::new();
-    for (word, place) in (0u16..).zip(places) {
-        let Some(mut node) = held(t, place) else { continue };
-        if place.0 == RegisterFile::DiffuseOut {
-            node = t.make.unary(Arith::Main, NumberOperation::Saturate, node);
-        }
-        let single = t.make.convert(Arith::Main, Arith::Single, node);
-        sinks.push(Sink::new(Use::Output(word), [single]));
+        sinks.push(Sink::new(SinkKind::Depth(Arith::Main), nodes));
     }
     sinks
 }
@@ -234,15 +180,14 @@ fn flow(t: &mut Translator<'_>, program: &Program, parts: MaskedProgram, end: Ve
     for (at, (instruction, part)) in program.instructions.iter().zip(parts).enumerate() {
         let sampler = part.sampler;
         let sinks = match instruction.opcode.info().class {
-            OpcodeClass::Flow => part.roots.iter().map(|&root| Sink::new(Use::Condition, [root])).collect(),
+            OpcodeClass::Flow => part.roots.iter().map(|&root| Sink::new(SinkKind::Condition, [root])).collect(),
             _ => merges(t, at, instruction, part, traced),
         };
-        steps.push(Step {
+        steps.push(MaskedStep {
             opcode: instruction.opcode,
             target: map.target(at),
             sinks,
             sampler,
-            cost: cost(instruction, program),
             counter: loop_counter(instruction, t.constants),
         });
     }
@@ -257,7 +202,7 @@ fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
     let sink = |(at, register)| {
         let mut nodes = [0, 1, 2, 3].map(|c| t.held(&register, c)).to_vec();
         nodes.extend([all; 4]);
-        Sink::new(Use::Trace(at, Mask::ALL), nodes)
+        Sink::new(SinkKind::Trace(at, Mask::ALL), nodes)
     };
     numbers.zip(registers_delivered(program)).map(sink).collect()
 }
@@ -277,9 +222,9 @@ fn merges(
             NodeKind::Compute(_, NumberOperation::Select, [mask, value, kept]) if kept == old => {
                 values.push(value);
                 masks.push(mask);
-                sinks.push(Sink::new(Use::Merge(to), [value, mask]));
+                sinks.push(Sink::new(SinkKind::Merge(to), [value, mask]));
             }
-            _ => sinks.push(Sink::new(Use::Move(to), [root])),
+            _ => sinks.push(Sink::new(SinkKind::Move(to), [root])),
         }
     }
     if traced && makes_step(instruction) {
@@ -287,7 +232,7 @@ fn merges(
         let components = instruction.destination.map_or(Mask(0), |d| d.mask);
         let mask = written_mask(instruction, components.components().take(values.len()).map(|c| c as u8));
         values.append(&mut masks);
-        sinks.insert(0, Sink::new(Use::Trace(at, mask), values));
+        sinks.insert(0, Sink::new(SinkKind::Trace(at, mask), values));
     }
     sinks
 }

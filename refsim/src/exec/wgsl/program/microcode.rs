@@ -1,20 +1,35 @@
 //! Programs as words for the machine of `vm.wgsl`, which says what they mean.
 
-use super::ProgramError;
-use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, Use};
+use super::lower::{ACTIVE_SLOT, Body, Lowered, Sink, SinkKind};
 use super::operations as op;
+use super::{Interpolation, ProgramError};
 use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, Slot};
 use crate::exec::wgsl::number::source_word;
-use crate::num::NumberOperation;
-use std::collections::BTreeMap;
+use crate::exec::wgsl::parts::Parts;
+use crate::num::{Format, NumberOperation};
+use crate::raster::POSITION_COMPONENT;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Operands from here on are constants, then input components.
+/// Operands from here on are constants, then words of a triangle's set-up, then rows of what goes in and out.
 const FIRST_CONSTANT: usize = 0x8000;
-const FIRST_INPUT: u16 = 0xff00;
+pub(super) const SETUP: u16 = 0xfe00;
+pub(super) const INPUT: u16 = 0xff00;
+/// Rows of results, as `interface.wgsl` has them: colours, killed lanes, depth, lanes whose depth is in the main format.
+const COLORS: u16 = INPUT + 47;
+const KILLED: u16 = COLORS + 16;
+const DEPTH: u16 = KILLED + 1;
+const DEPTH_IS_MAIN: u16 = DEPTH + 1;
+/// How many rows go in and out.
+pub(crate) const IN_OUT_ROWS: usize = (DEPTH_IS_MAIN - INPUT) as usize + 1;
 /// Words before the first instruction.
 const HEADER: usize = 8;
 /// No operand.
 pub(super) const NONE: u16 = 0xffff;
+/// Loop passes of a program without flow control that may run in one go; lavapipe ends all loops after 65,535.
+const MAX_PASSES: u32 = 40_000;
+/// Loop passes of an instruction, by the class that its word names in bits 14 and 15.
+const PASSES: [u32; 4] = [20, 600, 1000, 8000];
+
 /// A program for the machine of `vm.wgsl`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Microcode {
@@ -22,10 +37,16 @@ pub struct Microcode {
     pub words: Vec<u32>,
     /// Rows of `scratch` that an invocation needs: `scratch` has this many times `q_stride` entries.
     pub slots: usize,
+    /// The parts of the machine that run it.
+    pub parts: Parts,
+    /// The samplers that it reads.
+    pub samplers: BTreeSet<usize>,
+    /// Loop passes that it makes at most, unless it may be broken off.
+    pub passes: u32,
 }
 
 /// Words of a program.
-pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
+pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
     let first = match &program.body {
         Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
         Body::Flow { first_free, .. } => *first_free,
@@ -37,39 +58,48 @@ pub(super) fn assemble(program: &Lowered) -> Result<Microcode, ProgramError> {
         pool: BTreeMap::new(),
         first,
         next: first.into(),
+        parts: Parts::default(),
+        samplers: BTreeSet::new(),
+        passes: 0,
     };
     let mut frames = 0;
     maker.words[0] = HEADER as u32;
+    maker.format(Arith::Main);
+    maker.push(op::ZERO, 0);
+    maker.words.extend([COLORS, DEPTH_IS_MAIN - COLORS + 1].map(u32::from));
+    maker.emit(op::COPY, 0, DEPTH, [INPUT + POSITION_COMPONENT as u16 + 2; 3]);
     match &program.body {
-        Body::Straight { sinks, fetches, cost } => {
+        Body::Straight { sinks, fetches } => {
             maker.block(sinks);
             let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
             for &sampler in fetches {
                 *counts.entry(sampler).or_default() += 1;
             }
             for (sampler, count) in counts {
-                maker.words.extend([op::FETCHED | (sampler as u32) << 16, count]);
-            }
-            // A step tells of 65,535 slots at most.
-            let mut left = *cost;
-            while left > 0 {
-                let (here, told) = (maker.words.len() as u32, left.min(0xffff));
-                maker.words.extend([op::STEP, here + 3, told | u32::from(NONE) << 16]);
-                left -= told;
+                maker.push(op::FETCHED, (sampler as u32) << 16);
+                maker.words.push(count);
             }
         }
         Body::Flow { start, steps, first_free, end } => {
             // Slot 0 is the machine's own.
-            maker.words.extend([op::ZERO, 1, u32::from(*first_free) - 1]);
+            maker.push(op::ZERO, 0);
+            maker.words.extend([1, u32::from(*first_free) - 1]);
             maker.block(start);
             maker.steps(steps);
             maker.words[1] = maker.words.len() as u32;
             maker.block(end);
             frames = 2 * super::microcode_flow::deepest(steps);
+            maker.parts.add("HAS_SUSPENSION");
         }
     }
-    maker.words.push(op::END);
-    maker.finish(frames, &program.table)
+    maker.push(op::END, 0);
+    let passes = maker.passes;
+    maker.words[7] = maker.words.len() as u32;
+    if let Some(interpolation) = interpolation {
+        maker.interpolate(interpolation);
+    }
+    maker.push(op::ENTER, 0);
+    maker.finish(frames, &program.table, passes)
 }
 
 pub(super) struct Assembler<'g> {
@@ -81,7 +111,10 @@ pub(super) struct Assembler<'g> {
     /// The first slot that holds no register.
     first: Slot,
     /// Slots used.
-    next: usize,
+    pub(super) next: usize,
+    pub(super) parts: Parts,
+    samplers: BTreeSet<usize>,
+    passes: u32,
 }
 
 /// The values of one block on their way through slots.
@@ -108,10 +141,10 @@ impl Places {
 }
 
 impl Assembler<'_> {
-    fn finish(mut self, frames: usize, table: &[[u32; 4]]) -> Result<Microcode, ProgramError> {
+    fn finish(mut self, frames: usize, table: &[[u32; 4]], passes: u32) -> Result<Microcode, ProgramError> {
         let constants = self.pool.len();
         let slots = self.next + frames;
-        if slots > FIRST_CONSTANT || constants > usize::from(FIRST_INPUT) - FIRST_CONSTANT {
+        if slots > FIRST_CONSTANT || constants > usize::from(SETUP) - FIRST_CONSTANT {
             return Err(ProgramError::TooLarge { slots, constants });
         }
         self.words[2] = self.words.len() as u32;
@@ -125,14 +158,39 @@ impl Assembler<'_> {
         self.words.extend(table.iter().flatten());
         self.words[5] = self.next as u32;
         self.words[6] = slots as u32;
-        Ok(Microcode { words: self.words, slots })
+        self.parts.add_if(passes > MAX_PASSES, "HAS_SUSPENSION");
+        let passes = if self.parts.contains("HAS_SUSPENSION") { 0 } else { passes };
+        Ok(Microcode { words: self.words, slots, parts: self.parts, samplers: self.samplers, passes })
     }
 
-    fn constant(&mut self, raw: u32) -> u16 {
+    pub(super) fn constant(&mut self, raw: u32) -> u16 {
         let number = self.pool.len();
         let number = *self.pool.entry(raw).or_insert(number);
         // Too many are found out at the end.
-        (FIRST_CONSTANT + number).min(usize::from(FIRST_INPUT) - 1) as u16
+        (FIRST_CONSTANT + number).min(usize::from(SETUP) - 1) as u16
+    }
+
+    /// The first word of an instruction.
+    pub(super) fn push(&mut self, operation: u32, rest: u32) {
+        for name in op::with(operation) {
+            self.parts.add(&op::constant(name));
+        }
+        self.words.push(operation | rest);
+    }
+
+    /// The first word of an instruction that makes about so many loop passes.
+    fn push_costly(&mut self, operation: u32, rest: u32, passes: u32) {
+        let class = PASSES.iter().position(|&most| passes <= most).unwrap_or(PASSES.len() - 1);
+        self.passes += PASSES[class];
+        self.push(operation, rest | (class as u32) << 14);
+    }
+
+    /// The number of a format, which is used.
+    fn format(&mut self, k: Arith) -> u32 {
+        let format = self.formats.format(k);
+        self.parts.add_if(format != Format::FP32, "HAS_FORMATS");
+        self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+        k.number()
     }
 
     /// Computes what the sinks need and gives it to them, each as soon as it has everything.
@@ -159,8 +217,8 @@ impl Assembler<'_> {
         for sink in sinks {
             let mut last = sink.nodes.iter().copied().max();
             match sink.what {
-                Use::Merge(_) | Use::Move(_) | Use::Condition => last = Some(NodeId(u32::MAX)),
-                Use::Trace(..) => {
+                SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => last = Some(NodeId(u32::MAX)),
+                SinkKind::Trace(..) => {
                     last = last.max(traced);
                     traced = last;
                 }
@@ -180,7 +238,7 @@ impl Assembler<'_> {
         }
         let (last, early): (Vec<&Sink>, Vec<&Sink>) = waiting
             .map(|(_, sink)| sink)
-            .partition(|s| matches!(s.what, Use::Merge(_) | Use::Move(_) | Use::Condition));
+            .partition(|s| matches!(s.what, SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition));
         for sink in early {
             self.sink(sink, &mut places);
         }
@@ -193,7 +251,7 @@ impl Assembler<'_> {
         let at = match self.graph.kind(node) {
             NodeKind::Constant(raw) => self.constant(raw),
             NodeKind::Held(slot) => slot,
-            NodeKind::Input(component) => FIRST_INPUT + component,
+            NodeKind::Input(component) => INPUT + component,
             _ => return,
         };
         places.at.insert(node, at);
@@ -220,7 +278,8 @@ impl Assembler<'_> {
         self.release(&operands, places);
     }
 
-    /// A slot for the value, after its operands were read for the last time.
+    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other, so only
+    /// what reads no other lane may write where it reads.
     fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);
         let to = places.fresh();
@@ -228,12 +287,13 @@ impl Assembler<'_> {
         to
     }
 
-    fn emit(&mut self, word: u32, to: u16, [a, b, c]: [u16; 3]) {
-        self.words.extend([word, pair(to, a), pair(b, c)]);
-    }
-
-    fn bitwise(&mut self, variant: u32, to: u16, args: [u16; 3]) {
-        self.emit(op::BITWISE | variant << 16, to, args);
+    pub(super) fn emit(&mut self, operation: u32, rest: u32, to: u16, [a, b, c]: [u16; 3]) {
+        let passes = match (operation, rest >> 16) {
+            (op::ALU, code) => passes(code),
+            _ => PASSES[0],
+        };
+        self.push_costly(operation, rest, passes);
+        self.words.extend([pair(to, a), pair(b, c)]);
     }
 
     fn node(&mut self, node: NodeId, places: &mut Places) {
@@ -244,18 +304,25 @@ impl Assembler<'_> {
                 for i in 0..usize::from(terms.min(4)) {
                     (operands[2 * i], operands[2 * i + 1]) = (places.of(a[i]), places.of(b[i]));
                 }
+                let format = self.format(k);
                 let to = self.result(node, places);
                 let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
-                self.words.push(op::DOT | k.number() << 8 | u32::from(terms) << 16);
+                self.push_costly(op::DOT, format << 8 | u32::from(terms) << 16, 600);
                 self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
             }
             NodeKind::Difference(k, down, a) => {
-                let (a, quad) = (places.of(a), if down { 2 } else { 1 });
-                let to = self.result(node, places);
-                self.emit(op::ALU | k.number() << 8 | quad << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
+                let (a, other) = (places.of(a), if down { 2 } else { 1 });
+                let to = places.fresh();
+                places.at.insert(node, to);
+                self.release_operands(node, places);
+                self.parts.add_operation(NumberOperation::Sub);
+                let format = self.format(k);
+                self.emit(op::ALU, format << 8 | other << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
             }
             NodeKind::Convert(from, into, a) => {
-                let source = self.constant(source_word(&self.formats.format(from)));
+                let format = self.formats.format(from);
+                self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+                let source = self.constant(source_word(&format));
                 self.alu(node, into, NumberOperation::Convert, [places.of(a), source, source], places);
             }
             NodeKind::Steps(steps, a) => {
@@ -265,7 +332,8 @@ impl Assembler<'_> {
             NodeKind::Relative(base, component, a) => {
                 let a = places.of(a);
                 let to = self.result(node, places);
-                self.words.extend([op::RELATIVE | u32::from(component) << 16, pair(to, a), base.cast_unsigned()]);
+                self.push_costly(op::RELATIVE, u32::from(component) << 16, PASSES[0]);
+                self.words.extend([pair(to, a), base.cast_unsigned()]);
             }
             NodeKind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
             NodeKind::Circle(k, sine, a) => {
@@ -278,23 +346,39 @@ impl Assembler<'_> {
 
     fn alu(&mut self, node: NodeId, k: Arith, operation: NumberOperation, args: [u16; 3], places: &mut Places) {
         let to = self.result(node, places);
-        self.emit(op::ALU | k.number() << 8 | operation.word() << 16, to, args);
+        self.operation(k, operation, to, args);
+    }
+
+    fn operation(&mut self, k: Arith, operation: NumberOperation, to: u16, args: [u16; 3]) {
+        self.parts.add_operation(operation);
+        let format = self.format(k);
+        self.emit(op::ALU, format << 8 | operation.word() << 16, to, args);
     }
 
     fn compute(&mut self, node: NodeId, k: Arith, code: NumberOperation, args: [u16; 3], places: &mut Places) {
+        let [a, b, c] = args;
+        let bits = match code {
+            NumberOperation::And => Some(op::AND),
+            NumberOperation::Or => Some(op::OR),
+            NumberOperation::AndNot => Some(op::AND_NOT),
+            NumberOperation::Select => Some(op::SELECT),
+            _ => None,
+        };
+        if let Some(bits) = bits {
+            let to = self.result(node, places);
+            self.emit(bits, 0, to, args);
+            return;
+        }
         match code {
-            NumberOperation::And | NumberOperation::Or | NumberOperation::AndNot | NumberOperation::Select => {
-                let variant = match code {
-                    NumberOperation::And => op::AND,
-                    NumberOperation::Or => op::OR,
-                    NumberOperation::AndNot => op::AND_NOT,
-                    _ => op::SELECT,
-                };
-                let to = self.result(node, places);
-                self.bitwise(variant, to, args);
+            // The shader has no operation that rounds twice.
+            NumberOperation::Mad => {
+                let product = places.fresh();
+                self.operation(k, NumberOperation::Mul, product, [a, b, a]);
+                places.free.push(product);
+                self.alu(node, k, NumberOperation::Add, [product, c, product], places);
             }
             _ => {
-                let args = std::array::from_fn(|i| if i < code.operands() { args[i] } else { args[0] });
+                let args = std::array::from_fn(|i| if i < code.operands() { args[i] } else { a });
                 self.alu(node, k, code, args, places);
             }
         }
@@ -310,8 +394,6 @@ impl Assembler<'_> {
                 (2, all.chunks_exact(2).map(|p| pair(p[0], p[1])).collect())
             }
         };
-        // Coordinates are read before anything is written.
-        self.release_operands(node, places);
         let mut to = [NONE; 4];
         for (component, texel) in places.texels.remove(&node).unwrap_or_default() {
             let slot = places.fresh();
@@ -319,7 +401,10 @@ impl Assembler<'_> {
             to[usize::from(component & 3)] = slot;
         }
         places.at.insert(node, 0);
-        self.words.push(op::FETCH | u32::from(sampler) << 16 | number << 24);
+        // One lane's texel is written before the next one's coordinates are read.
+        self.release_operands(node, places);
+        self.samplers.insert(sampler.into());
+        self.push_costly(op::FETCH, u32::from(sampler) << 16 | number << 24, 8000);
         self.words.extend([pair(u, v), pair(w, q), pair(to[0], to[1]), pair(to[2], to[3])]);
         self.words.extend(more);
     }
@@ -328,26 +413,27 @@ impl Assembler<'_> {
         let operands: Vec<u16> = sink.nodes.iter().map(|&n| places.of(n)).collect();
         let first = operands.first().copied().unwrap_or(NONE);
         match sink.what {
-            Use::Color(target, c) => {
-                self.words.extend([op::COLOR | u32::from(4 * target + c) << 16, first.into()]);
-            }
-            Use::Killed => self.words.extend([op::KILLED, first.into()]),
-            Use::Depth(arith) => {
+            SinkKind::Color(target, c) => self.emit(op::COPY, 0, COLORS + 4 * target + c, [first; 3]),
+            SinkKind::Killed => self.emit(op::COPY, 0, KILLED, [first; 3]),
+            SinkKind::Depth(arith) => {
                 let decided = operands.get(1).copied().unwrap_or(first);
-                self.words.extend([op::DEPTH | (arith as u32) << 16, pair(first, decided)]);
+                self.emit(op::SELECT, 0, DEPTH, [decided, first, DEPTH]);
+                if arith == Arith::Main {
+                    self.emit(op::COPY, 0, DEPTH_IS_MAIN, [decided; 3]);
+                }
             }
-            Use::Output(word) => self.words.extend([op::OUTPUT | u32::from(word) << 16, first.into()]),
-            Use::Trace(at, mask) => {
+            SinkKind::Trace(at, mask) => {
                 let (mut values, mut masks) = ([NONE; 4], [NONE; 4]);
                 let half = operands.len() / 2;
                 for (i, c) in mask.components().enumerate() {
                     values[c] = operands.get(i).copied().unwrap_or(NONE);
                     masks[c] = operands.get(half + i).copied().unwrap_or(NONE);
                 }
-                self.words.extend([op::TRACE, at as u32]);
+                self.push_costly(op::TRACE, 0, PASSES[0]);
+                self.words.push(at as u32);
                 self.words.extend([values, masks].iter().flat_map(|o| [pair(o[0], o[1]), pair(o[2], o[3])]));
             }
-            Use::Merge(_) | Use::Move(_) | Use::Condition => {}
+            SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => {}
         }
         self.release(&sink.nodes, places);
     }
@@ -355,7 +441,7 @@ impl Assembler<'_> {
     /// Writes registers. A register that a later write reads is kept for it first.
     fn merge(&mut self, sinks: &[&Sink], places: &mut Places) {
         let target = |sink: &Sink| match sink.what {
-            Use::Merge(to) | Use::Move(to) => Some(to),
+            SinkKind::Merge(to) | SinkKind::Move(to) => Some(to),
             _ => None,
         };
         let mut operands: Vec<Vec<u16>> =
@@ -367,7 +453,7 @@ impl Assembler<'_> {
                 if sinks[..i].iter().any(|s| target(s) == Some(from)) {
                     operands[i][j] = *kept.entry(from).or_insert_with(|| {
                         let copy = places.fresh();
-                        self.bitwise(op::COPY, copy, [from; 3]);
+                        self.emit(op::COPY, 0, copy, [from; 3]);
                         copy
                     });
                 }
@@ -375,8 +461,8 @@ impl Assembler<'_> {
         }
         for (sink, operands) in sinks.iter().zip(&operands) {
             match (sink.what, operands.as_slice()) {
-                (Use::Merge(to), &[value, mask]) => self.bitwise(op::SELECT, to, [mask, value, to]),
-                (Use::Move(to), &[value]) => self.bitwise(op::COPY, to, [value; 3]),
+                (SinkKind::Merge(to), &[value, mask]) => self.emit(op::SELECT, 0, to, [mask, value, to]),
+                (SinkKind::Move(to), &[value]) => self.emit(op::COPY, 0, to, [value; 3]),
                 _ => {}
             }
         }
@@ -385,4 +471,15 @@ impl Assembler<'_> {
 
 fn pair(low: u16, high: u16) -> u32 {
     u32::from(low) | u32::from(high) << 16
+}
+
+/// Loop passes of an operation on numbers in four lanes.
+fn passes(operation: u32) -> u32 {
+    use NumberOperation as Op;
+    match Op::ALL.get(operation as usize) {
+        Some(Op::Exp2 | Op::Log2) => 1000,
+        Some(Op::Div | Op::Rcp | Op::Rsq | Op::Sqrt | Op::Steps | Op::Sin | Op::Cos) => 600,
+        Some(Op::SplitShort | Op::SplitByte | Op::SplitSignedByte) => 600,
+        _ => PASSES[0],
+    }
 }

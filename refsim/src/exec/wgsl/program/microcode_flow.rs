@@ -1,6 +1,6 @@
 //! Flow control in the words of the machine.
 
-use super::lower::{ACTIVE_SLOT, Sink, Step, Use};
+use super::lower::{ACTIVE_SLOT, MaskedStep, Sink, SinkKind};
 use super::microcode::{Assembler, NONE};
 use super::operations as op;
 use crate::exec::budget::MAX_LOOP_PASSES;
@@ -8,16 +8,17 @@ use crate::isa::{Opcode, OpcodeClass};
 
 impl Assembler<'_> {
     /// The instructions one after the other, jumps resolved.
-    pub(super) fn steps(&mut self, steps: &[Step]) {
+    pub(super) fn steps(&mut self, steps: &[MaskedStep]) {
         let (mut starts, mut jumps) = (Vec::with_capacity(steps.len()), Vec::new());
         for (at, step) in steps.iter().enumerate() {
             starts.push(self.words.len() as u32);
             let sampler = step.sampler.map_or(u32::from(NONE), |s| s as u32);
             let enter = self.words.len();
-            self.words.extend([op::STEP, 0, step.cost.min(0xffff) | sampler << 16]);
+            self.push(op::STEP, 0);
+            self.words.extend([0, sampler]);
             let places = self.block(&step.sinks);
             let condition = match step.sinks.first() {
-                Some(Sink { what: Use::Condition, nodes }) => places.of(nodes[0]),
+                Some(Sink { what: SinkKind::Condition, nodes }) => places.of(nodes[0]),
                 _ => ACTIVE_SLOT,
             };
             if let Some((jump, to)) = self.flow(step, at, steps.len(), condition) {
@@ -30,16 +31,20 @@ impl Assembler<'_> {
             }
         }
         starts.push(self.words.len() as u32);
-        self.words.extend([op::LABEL, 0, 0]);
+        self.push(op::LABEL, 0);
+        self.words.extend([0, 0]);
         for (word, to) in jumps {
             self.words[word] = starts[to.min(steps.len())];
         }
     }
 
     /// The flow control of an instruction; the word that holds its target, and the instruction that that is.
-    fn flow(&mut self, step: &Step, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
+    fn flow(&mut self, step: &MaskedStep, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
         let target_word = self.words.len() + 1;
-        let mut emit = |op: u32| self.words.extend([op, 0, condition.into()]);
+        let mut emit = |op: u32| {
+            self.push(op, 0);
+            self.words.extend([0, condition.into()]);
+        };
         match step.opcode {
             Opcode::If | Opcode::IfC => emit(op::IF),
             Opcode::Else => emit(op::ELSE),
@@ -52,8 +57,8 @@ impl Assembler<'_> {
                 let [passes, start, grows, _] = step.counter;
                 let grows = if counted { grows } else { 0 };
                 let passes = passes.clamp(0, MAX_LOOP_PASSES).cast_unsigned();
-                let words = [op::LOOP, 0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()];
-                self.words.extend(words);
+                self.push(op::LOOP, 0);
+                self.words.extend([0, passes, start.cast_unsigned(), grows.cast_unsigned(), counted.into()]);
                 return Some((target_word, step.target + 1));
             }
             Opcode::EndRep | Opcode::EndLoop => {
@@ -89,7 +94,7 @@ fn is_flow(opcode: Opcode) -> bool {
 }
 
 /// How many blocks and calls can be open at a time.
-pub(super) fn deepest(steps: &[Step]) -> usize {
+pub(super) fn deepest(steps: &[MaskedStep]) -> usize {
     // Calls lead forward: a subroutine's own need is known before that of its callers.
     let mut needs = vec![0; steps.len() + 1];
     let mut most = 0;

@@ -1,12 +1,11 @@
-// Programs as words: one machine for all of them, so that its arithmetic is compiled once and has few call sites.
+// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of operations that
+// the programs of a draw don't use are left out of the text (parts.rs).
 //
-// The words of a program start at code[q_code]: first word, words of the end, constants, table of the float constants and
-// their number, first slot of the frames, number of slots (offsets count from q_code). Operands are slots below 0x8000,
-// constants below 0xff00, then input components. program/microcode.rs writes what this reads.
+// The words of a program start at code[q_code]: first word, word of the end, constants, table of the float constants and
+// their number, first slot of the frames, number of slots, first word of interpolation (offsets count from q_code). Operands
+// are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then input components.
+// program/microcode.rs writes what this reads.
 
-const VM_IF: u32 = 0u;
-const VM_LOOP: u32 = 1u;
-const VM_CALL: u32 = 2u;
 
 var<private> vm_active: u32;
 var<private> vm_depth: u32;
@@ -14,43 +13,52 @@ var<private> vm_counter: u32;
 // Steps of each lane.
 var<private> vm_steps: vec4<u32>;
 
-fn vm_read(operand: u32) -> vec4<u32> {
-    if (operand < 0x8000u) {
-        return scratch[operand * q_stride + q_invocation];
+// The value of an operand in a lane. There are few calls, since each is a copy of the text for most drivers.
+fn vm_read(operand: u32, lane: u32) -> u32 {
+    var value: u32;
+    if (operand < 0x8000u || operand >= 0xff00u) {
+        value = scratch[q_row(operand)][lane];
+    } else if (operand < 0xfe00u) {
+        value = code[q_code + code[q_code + 2u] + operand - 0x8000u];
+    } else {
+        value = setups[q_setup + operand - 0xfe00u];
     }
-    if (operand < 0xff00u) {
-        return vec4<u32>(code[q_code + code[q_code + 2u] + operand - 0x8000u]);
-    }
-    return q_input[operand - 0xff00u];
+    return value;
 }
 
-fn vm_write(slot: u32, row: vec4<u32>) {
-    scratch[slot * q_stride + q_invocation] = row;
+// The operand in a half of a word: the lower one is number 0.
+fn vm_operand(at: u32, number: u32) -> u32 {
+    return (code[at + number / 2u] >> (16u * (number & 1u))) & 0xffffu;
 }
 
-fn vm_bits(mask: vec4<u32>) -> u32 {
-    let bits = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), mask != vec4<u32>(0u));
+// The lanes in which an operand is not zero.
+fn vm_lanes(operand: u32) -> u32 {
+    var bits = 0u;
+    for (var lane = 0u; lane < 4u; lane += 1u) {
+        bits |= select(0u, 1u, vm_read(operand, lane) != 0u) << lane;
+    }
+    return bits;
+}
+
+fn vm_bits(mask: vec4<bool>) -> u32 {
+    let bits = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), mask);
     return bits.x | bits.y | bits.z | bits.w;
 }
 
-fn vm_mask(bits: u32) -> vec4<u32> {
-    return select(vec4<u32>(0u), vec4<u32>(0xffffffffu), (vec4<u32>(bits) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u));
-}
-
-fn vm_covered() -> u32 {
-    return vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), q_covered));
+fn vm_mask(bits: u32) -> vec4<bool> {
+    return (vec4<u32>(bits) & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u);
 }
 
 // Slot 0 is the mask of active lanes.
 fn vm_activate(bits: u32) {
     vm_active = bits;
-    vm_write(0u, vm_mask(bits));
+    scratch[q_row(0u)] = select(vec4<u32>(0u), vec4<u32>(0xffffffffu), vm_mask(bits));
 }
 
 // Slot 3 is the loop counter.
 fn vm_count(counter: u32) {
     vm_counter = counter;
-    vm_write(3u, vec4<u32>(counter));
+    scratch[q_row(3u)] = vec4<u32>(counter);
 }
 
 // A frame is two rows: kind, lanes to run afterwards, lanes of `else` or still in the loop, passes left or way back; then
@@ -96,14 +104,14 @@ fn vm_leave_loop(lanes: u32) {
 
 // Counts a step for every active lane, and cuts off the lanes that have none left.
 fn vm_charge() {
-    let lanes = vm_mask(vm_active) != vec4<u32>(0u);
+    let lanes = vm_mask(vm_active);
     let spent = lanes & (vm_steps == vec4<u32>(q_step_budget));
     vm_steps += select(vec4<u32>(0u), vec4<u32>(1u), lanes & !spent);
     if (!any(spent)) {
         return;
     }
     q_cut |= spent;
-    let cut = vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), spent));
+    let cut = vm_bits(spent);
     vm_activate(vm_active & ~cut);
     for (var i = 0u; i < vm_depth; i += 1u) {
         let at = vm_frame(i);
@@ -146,14 +154,18 @@ fn vm_return() -> u32 {
 // Flow control; `at` is the word of the instruction. Returns where the program goes on, from q_code.
 fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
     let target_word = code[at + 1u];
+    var lanes = 0u;
     switch op {
-        case 32u: { // if
-            let taken = vm_bits(vm_read(code[at + 2u]));
-            vm_push(vec4<u32>(VM_IF, vm_active, vm_active & ~taken, 0u), vec4<u32>(0u));
-            vm_activate(taken);
-            return select(target_word, next, taken != 0u);
+        case VM_IF, VM_BREAK, VM_CALL: { lanes = vm_lanes(code[at + 2u]); }
+        default: {}
+    }
+    switch op {
+        case VM_IF: { // if
+            vm_push(vec4<u32>(VM_IF, vm_active, vm_active & ~lanes, 0u), vec4<u32>(0u));
+            vm_activate(lanes);
+            return select(target_word, next, lanes != 0u);
         }
-        case 33u: { // else
+        case VM_ELSE: { // else
             if (vm_depth > 0u) {
                 let frame = scratch[vm_frame(vm_depth - 1u)];
                 if (frame.x == VM_IF) {
@@ -162,7 +174,7 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
             }
             return select(target_word, next, vm_active != 0u);
         }
-        case 34u: { // endif
+        case VM_END_IF: { // endif
             if (vm_depth > 0u) {
                 let frame = scratch[vm_frame(vm_depth - 1u)];
                 if (frame.x == VM_IF) {
@@ -172,7 +184,7 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
             }
             return next;
         }
-        case 35u: { // rep, loop: target past the end, passes, start, step, whether it counts
+        case VM_LOOP: { // rep, loop: target past the end, passes, start, step, whether it counts
             let passes = code[at + 2u];
             if (passes == 0u || vm_active == 0u) {
                 return target_word;
@@ -183,7 +195,7 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
             }
             return next;
         }
-        case 36u: { // endrep, endloop
+        case VM_END_LOOP: { // endrep, endloop
             if (vm_depth == 0u) {
                 return next;
             }
@@ -205,20 +217,19 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
             vm_count(second.y);
             return next;
         }
-        case 37u: { // break; the lanes are those of the operand
-            vm_leave_loop(vm_bits(vm_read(code[at + 2u])));
+        case VM_BREAK: { // break; the lanes are those of the operand
+            vm_leave_loop(lanes);
             return next;
         }
-        case 38u: { // call
-            let entering = vm_bits(vm_read(code[at + 2u]));
-            if (entering == 0u || target_word == 0u) {
+        case VM_CALL: { // call
+            if (lanes == 0u || target_word == 0u) {
                 return next;
             }
             vm_push(vec4<u32>(VM_CALL, vm_active, 0u, next), vec4<u32>(0u));
-            vm_activate(entering);
+            vm_activate(lanes);
             return target_word;
         }
-        case 39u: { // ret
+        case VM_RET: { // ret
             if (vm_depth == 0u) {
                 return code[q_code + 1u];
             }
@@ -234,30 +245,16 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
     }
 }
 
-// A texture read: sampler, detail, coordinates, destinations, bias or gradients.
-fn vm_fetch(at: u32, sampler_number: u32, detail: u32) {
-    var coordinates: array<vec4<u32>, 4>;
-    var gradients: array<vec4<u32>, 8>;
-    for (var i = 0u; i < 4u; i += 1u) {
-        coordinates[i] = vm_read((code[at + 1u + i / 2u] >> (16u * (i & 1u))) & 0xffffu);
-    }
-    var bias = vec4<u32>(0u);
-    if (detail == 1u) {
-        bias = vm_read(code[at + 5u]);
-    }
-    if (detail == 2u) {
-        for (var i = 0u; i < 8u; i += 1u) {
-            gradients[i] = vm_read((code[at + 5u + i / 2u] >> (16u * (i & 1u))) & 0xffffu);
-        }
-    }
-    var texel = texture_read(
-        sampler_number, coordinates[0], coordinates[1], coordinates[2], coordinates[3], detail, bias, gradients, q_run,
-    );
-    for (var i = 0u; i < 4u; i += 1u) {
-        let to = (code[at + 3u + i / 2u] >> (16u * (i & 1u))) & 0xffffu;
-        if (to != 0xffffu) {
-            vm_write(to, texel[i]);
-        }
+// What the texture library asks for, of the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w along x,
+// then along y); and where it puts a texel's components.
+fn texture_operand(number: u32, lane: u32) -> u32 {
+    return vm_read(vm_operand(q_read + 1u + select(0u, 2u, number >= 4u), number), lane);
+}
+
+fn texture_result(component: u32, lane: u32, value: u32) {
+    let to = vm_operand(q_read + 3u, component);
+    if (to != 0xffffu) {
+        scratch[q_row(to)][lane] = value;
     }
 }
 
@@ -268,15 +265,12 @@ fn vm_trace(at: u32) {
     }
     var mask = 0u;
     for (var i = 0u; i < 4u; i += 1u) {
-        let shift = 16u * (i & 1u);
-        let allowed = (code[at + 4u + i / 2u] >> shift) & 0xffffu;
+        let allowed = vm_operand(at + 4u, i);
         var value = 0u;
         if (allowed != 0xffffu) {
-            let row = vm_read(allowed);
-            if (row[q_trace - 1u] != 0u) {
+            if (vm_read(allowed, q_trace - 1u) != 0u) {
                 mask |= 1u << i;
-                let held = vm_read((code[at + 2u + i / 2u] >> shift) & 0xffffu);
-                value = held[q_trace - 1u];
+                value = vm_read(vm_operand(at + 2u, i), q_trace - 1u);
             }
         }
         trace_put(q_traced + 2u + i, value);
@@ -286,119 +280,70 @@ fn vm_trace(at: u32) {
     q_traced += 6u;
 }
 
-fn vm_alu(word: u32, at: u32) {
-    let second = code[at + 2u];
-    var a = vm_read(code[at + 1u] >> 16u);
-    var b = vm_read(second & 0xffffu);
-    var c = vm_read(second >> 16u);
-    switch (word >> 12u) & 3u {
-        case 1u: { // right neighbour less left one
-            b = a.xxzz;
-            a = a.yyww;
-        }
-        case 2u: { // lower less upper
-            b = a.xyxy;
-            a = a.zwzw;
-        }
-        default: {}
+// A float constant with a relative number.
+fn vm_relative(word: u32, base: i32, address: i32) -> u32 {
+    let count = bitcast<i32>(code[q_code + 4u]);
+    var result = 0u;
+    // Without overflow: 0 <= base < 2^16.
+    if (address >= -base && address < count - base) {
+        result = code[q_code + code[q_code + 3u] + 4u * u32(base + address) + (word >> 16u)];
     }
+    return result;
+}
+
+// The sum of up to four products.
+fn vm_dot(at: u32, f: Format, terms: u32, lane: u32) -> Real {
+    var a: vec4<u32>;
+    var b: vec4<u32>;
+    for (var k = 0u; k < terms; k += 1u) {
+        a[k] = vm_read(vm_operand(at + 1u, 2u * k + 1u), lane);
+        b[k] = vm_read(vm_operand(at + 1u, 2u * k + 2u), lane);
+    }
+    return n_dot(f, terms, a, b);
+}
+
+// What is computed lane by lane: result, up to three operands.
+fn vm_compute(op: u32, word: u32, at: u32) {
     let f = format((word >> 8u) & 15u);
     let operation = word >> 16u;
-    var result: vec4<u32>;
-    for (var i = 0u; i < 4u; i += 1u) {
-        result[i] = n_alu(operation, f, a[i], b[i], c[i]);
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-fn vm_dot(word: u32, at: u32) {
-    var rows: array<vec4<u32>, 8>;
-    let terms = word >> 16u;
-    for (var i = 0u; i < 2u * terms; i += 1u) {
-        rows[i] = vm_read((code[at + 1u + (i + 1u) / 2u] >> (16u * ((i + 1u) & 1u))) & 0xffffu);
-    }
-    let f = format((word >> 8u) & 15u);
-    var result: vec4<u32>;
-    for (var i = 0u; i < 4u; i += 1u) {
-        let a = vec4<u32>(rows[0][i], rows[2][i], rows[4][i], rows[6][i]);
-        let b = vec4<u32>(rows[1][i], rows[3][i], rows[5][i], rows[7][i]);
-        result[i] = n_dot(f, terms, a, b);
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-fn vm_bitwise(word: u32, at: u32) {
-    let second = code[at + 2u];
-    let a = vm_read(code[at + 1u] >> 16u);
-    let b = vm_read(second & 0xffffu);
-    var result = a;
-    switch word >> 16u {
-        case 1u: {
-            result = a & b;
-        }
-        case 2u: {
-            result = a | b;
-        }
-        case 3u: {
-            result = b & ~a;
-        }
-        case 4u: {
-            result = (a & b) | (~a & vm_read(second >> 16u));
-        }
-        default: {}
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-fn vm_relative(word: u32, at: u32) {
-    let address = bitcast<vec4<i32>>(vm_read(code[at + 1u] >> 16u));
-    let base = bitcast<i32>(code[at + 2u]);
-    let count = bitcast<i32>(code[q_code + 4u]);
-    var result = vec4<u32>(0u);
-    for (var i = 0u; i < 4u; i += 1u) {
-        // Without overflow: 0 <= base < 2^16.
-        if (address[i] >= -base && address[i] < count - base) {
-            result[i] = code[q_code + code[q_code + 3u] + 4u * u32(base + address[i]) + (word >> 16u)];
-        }
-    }
-    vm_write(code[at + 1u] & 0xffffu, result);
-}
-
-// Loop passes of an instruction at most.
-fn vm_cost(op: u32, word: u32, at: u32) -> u32 {
-    switch op {
-        case 1u: {
-            switch (word >> 16u) & 0x7fffu {
-                case N_DIV, N_RCP, N_RSQ, N_SQRT, N_STEPS, N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
-                    return 450u;
-                }
-                case N_SIN, N_COS: {
-                    return 500u;
-                }
-                case N_EXP2, N_LOG2: {
-                    return 1000u;
-                }
-                default: {
-                    return 20u;
-                }
+    // Differences within the quad: bit 1 right neighbour less left one, bit 2 lower less upper.
+    let other = (word >> 12u) & 3u;
+    let to = q_row(vm_operand(at + 1u, 0u));
+    for (var lane = 0u; lane < 4u; lane += 1u) {
+        let a = vm_read(vm_operand(at + 1u, 1u), lane | other);
+        var b = 0u;
+        var c = 0u;
+        switch op {
+            case VM_RELATIVE: {}
+            default: {
+                b = vm_read(vm_operand(at + 1u, 2u), lane & ~other);
+                c = vm_read(vm_operand(at + 1u, 3u), lane);
             }
         }
-        case 3u: {
-            return 600u;
+        var result = a;
+        switch op {
+            case VM_COPY: {}
+            case VM_AND: { result = a & b; }
+            case VM_OR: { result = a | b; }
+            case VM_AND_NOT: { result = b & ~a; }
+            case VM_SELECT: { result = (a & b) | (~a & c); }
+            case VM_RELATIVE: { result = vm_relative(word, bitcast<i32>(code[at + 2u]), bitcast<i32>(a)); }
+            default: {
+                var exact: Real;
+                switch op {
+                    case VM_DOT: { exact = vm_dot(at, f, operation, lane); }
+                    default: { exact = n_exact(operation, f, a, b, c); }
+                }
+                result = n_result(operation, f, exact);
+            }
         }
-        case 5u: {
-            return 450u;
-        }
-        case 7u: {
-            return 8000u;
-        }
-        case 13u: {
-            return code[at + 2u] + 1u;
-        }
-        default: {
-            return 20u;
-        }
+        scratch[to][lane] = result;
     }
+}
+
+// Loop passes of an instruction at most, by the class that its word names.
+fn vm_cost(word: u32) -> u32 {
+    return vec4<u32>(20u, 600u, 1000u, 8000u)[(word >> 14u) & 3u];
 }
 
 fn vm_saved(row: u32) -> u32 {
@@ -409,133 +354,95 @@ fn vm_saved(row: u32) -> u32 {
 fn vm_suspend(next: u32) {
     q_suspended = true;
     scratch[vm_saved(0u)] = vec4<u32>(next, vm_active, vm_depth, vm_counter);
-    scratch[vm_saved(1u)] = vec4<u32>(q_killed);
-    scratch[vm_saved(2u)] = vec4<u32>(q_depth_is_main);
-    scratch[vm_saved(3u)] = q_depth;
-    for (var i = 0u; i < 16u; i += 1u) {
-        scratch[vm_saved(4u + i)] = q_color[i >> 2u][i & 3u];
-    }
-    scratch[vm_saved(20u)] = vm_steps;
-    scratch[vm_saved(21u)] = vec4<u32>(q_cut);
+    scratch[vm_saved(1u)] = vm_steps;
+    scratch[vm_saved(2u)] = vec4<u32>(q_cut);
 }
 
 // Takes it up again; returns where the program goes on.
 fn vm_resume() -> u32 {
     q_suspended = false;
     let state = scratch[vm_saved(0u)];
-    vm_active = state.y;
+    vm_activate(state.y);
     vm_depth = state.z;
     vm_counter = state.w;
-    q_killed = scratch[vm_saved(1u)] != vec4<u32>(0u);
-    q_depth_is_main = scratch[vm_saved(2u)] != vec4<u32>(0u);
-    q_depth = scratch[vm_saved(3u)];
-    for (var i = 0u; i < 16u; i += 1u) {
-        q_color[i >> 2u][i & 3u] = scratch[vm_saved(4u + i)];
-    }
-    vm_steps = scratch[vm_saved(20u)];
-    q_cut = scratch[vm_saved(21u)] != vec4<u32>(0u);
+    vm_steps = scratch[vm_saved(1u)];
+    q_cut = scratch[vm_saved(2u)] != vec4<u32>(0u);
     return state.x;
 }
 
 fn vm_begin() -> u32 {
-    q_color = array<array<vec4<u32>, 4>, 4>();
-    q_killed = vec4<bool>(false);
-    q_depth_is_main = vec4<bool>(false);
-    q_executed = 0u;
     q_cut = vec4<bool>(false);
     vm_steps = vec4<u32>(0u);
     vm_depth = 0u;
-    vm_activate(vm_bits(select(vec4<u32>(0u), vec4<u32>(1u), q_run)));
+    vm_activate(vm_bits(q_run));
     return code[q_code];
 }
 
+// Interpolates and runs the program.
 fn shade() {
-    var next: u32;
-    if (q_suspended) {
-        next = vm_resume();
-    } else {
-        next = vm_begin();
-    }
+    var next = code[q_code + 7u];
     loop {
         let at = q_code + next;
         let word = code[at];
         let op = word & 0xffu;
-        let cost = vm_cost(op, word, at);
-        if (q_passes < cost) {
-            vm_suspend(next);
-            return;
-        }
-        q_passes -= cost;
-        if (op >= 32u) {
-            next = vm_flow(op, at, next + select(3u, 6u, op == 35u));
-            continue;
+        if (HAS_SUSPENSION) {
+            let cost = vm_cost(word);
+            // Interpolation is part of what a triangle costs.
+            if (q_passes < cost && next < code[q_code + 7u]) {
+                vm_suspend(next);
+                return;
+            }
+            q_passes -= select(0u, cost, next < code[q_code + 7u]);
         }
         switch op {
-            case 1u: {
-                vm_alu(word, at);
-                next += 3u;
+            case VM_ENTER: { // the program begins, or goes on
+                next = vm_begin();
+                if (HAS_SUSPENSION) {
+                    if (q_suspended) {
+                        next = vm_resume();
+                    }
+                }
             }
-            case 2u: {
-                vm_bitwise(word, at);
-                next += 3u;
+            case VM_UNLESS: { // goes on elsewhere if a bit of a word of the set-up is 1
+                let bits = setups[q_setup + (word >> 16u)];
+                next = select(next + 2u, code[at + 1u], ((bits >> ((word >> 8u) & 31u)) & 1u) == 1u);
             }
-            case 3u: {
-                vm_dot(word, at);
-                next += 6u;
+            case VM_ALU, VM_DOT, VM_COPY, VM_AND, VM_OR, VM_AND_NOT, VM_SELECT, VM_RELATIVE: {
+                vm_compute(op, word, at);
+                next += select(3u, 6u, op == VM_DOT);
             }
-            case 6u: {
-                vm_relative(word, at);
-                next += 3u;
+            case VM_FETCH: { // a texture read: sampler, detail
+                q_read = at;
+                texture_read((word >> 16u) & 0xffu, word >> 24u, q_run);
+                next += 5u + select(word >> 24u, 4u, word >> 24u == 2u);
             }
-            case 7u: {
-                let detail = word >> 24u;
-                vm_fetch(at, (word >> 16u) & 0xffu, detail);
-                next += 5u + select(detail, 4u, detail == 2u);
-            }
-            case 8u: { // a component of a colour
-                let number = word >> 16u;
-                q_color[number >> 2u][number & 3u] = vm_read(code[at + 1u]);
+            case VM_FETCHED: { // texture reads of every covered lane
+                q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_bits(q_covered));
                 next += 2u;
             }
-            case 9u: { // killed lanes
-                q_killed = vm_read(code[at + 1u]) != vec4<u32>(0u);
-                next += 2u;
-            }
-            case 10u: { // depth, in the main format or single, where decided
-                let decided = vm_read(code[at + 1u] >> 16u) != vec4<u32>(0u);
-                q_depth = select(q_depth, vm_read(code[at + 1u] & 0xffffu), decided);
-                q_depth_is_main = decided & vec4<bool>(word >> 16u == MAIN);
-                next += 2u;
-            }
-            case 11u: { // texture reads of every covered lane
-                q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_covered());
-                next += 2u;
-            }
-            case 12u: { // a step: slots of an instruction; where to go on if no lane runs; the sampler it reads
-                if (q_counts_steps) {
+            case VM_STEP: { // an instruction: where to go on if no lane runs; the sampler it reads
+                if (HAS_STEP_BUDGET) {
                     vm_charge();
                 }
-                let lanes = countOneBits(vm_covered() & vm_active);
-                q_executed += (code[at + 2u] & 0xffffu) * lanes;
-                let sampler_number = code[at + 2u] >> 16u;
+                let lanes = countOneBits(vm_bits(q_covered) & vm_active);
+                let sampler_number = code[at + 2u];
                 if (sampler_number != 0xffffu && lanes != 0u) {
                     q_fetched[sampler_number] += lanes;
                 }
                 next = select(next + 3u, code[at + 1u], vm_active == 0u);
             }
-            case 13u: { // zeros in so many slots
+            case VM_ZERO: { // zeros in so many slots
                 for (var i = 0u; i < code[at + 2u]; i += 1u) {
-                    vm_write(code[at + 1u] + i, vec4<u32>(0u));
+                    scratch[q_row(code[at + 1u] + i)] = vec4<u32>(0u);
                 }
                 next += 3u;
             }
-            case 14u: {
+            case VM_TRACE: {
                 vm_trace(at);
                 next += 6u;
             }
-            case 15u: { // an output of a vertex
-                output_put(word >> 16u, vm_read(code[at + 1u]));
-                next += 2u;
+            case VM_IF, VM_ELSE, VM_END_IF, VM_LOOP, VM_END_LOOP, VM_BREAK, VM_CALL, VM_RET, VM_LABEL: {
+                next = vm_flow(op, at, next + select(3u, 6u, op == VM_LOOP));
             }
             default: {
                 return;

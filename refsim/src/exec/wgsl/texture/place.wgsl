@@ -84,22 +84,20 @@ const TEXTURE_STEP_SHIFT: u32 = 16u;
 const TEXTURE_STEP_FACE: u32 = 17u;
 const TEXTURE_STEP_END: u32 = 18u;
 
-// Derivatives that the program gives: x, y, z and w along x, then along y.
-var<private> texture_gradients: array<vec4<u32>, 8>;
-
 // All single precision arithmetic before the texels are read goes through the one s_alu below: an inlining compiler
 // then makes one copy of it.
-fn texture_place(
-    s: TextureState, lane: u32, u: vec4<u32>, v: vec4<u32>, w: vec4<u32>, detail: u32, bias: vec4<u32>,
-) -> TexturePlace {
-    let at = vec3<u32>(u[lane], v[lane], w[lane]);
+fn texture_place(s: TextureState, lane: u32, detail: u32) -> TexturePlace {
+    var at = vec3<u32>(0u);
+    for (var i = 0u; i < 3u; i++) { at[i] = texture_operand(i, lane); }
     let cube = texture_flag(s, FLAG_KIND, 3u) == KIND_CUBE;
     let axes = texture_flag(s, FLAG_AXES, 2u);
     let start = vec3<u32>(texture_finite(at.x), texture_finite(at.y), texture_finite(at.z));
     let face = texture_face(start);
     let own = texture_face_axes(face, start); // of a cube: both minor axes and the magnitude of the major one
     var place = TexturePlace(at, 0u, s.lod_bias);
-    if (cube) { place = TexturePlace(vec3<u32>(own.x, own.y, 0u), face, place.wanted); }
+    if (HAS_CUBES) {
+        if (cube) { place = TexturePlace(vec3<u32>(own.x, own.y, 0u), face, place.wanted); }
+    }
 
     var change = vec3<u32>(0u);
     var moved = vec3<u32>(0u);
@@ -111,97 +109,101 @@ fn texture_place(
     var largest = 0u;
     var x = 0u;
     var y = 0u;
-    var step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, cube);
-    if (texture_flag(s, FLAG_DETAIL, 1u) != 0u) { step = TEXTURE_STEP_AXES; }
-    loop {
-        if (step == TEXTURE_STEP_AXES) {
-            sum = 0u;
-            axis = 0u;
-            if (detail == DETAIL_GRADIENTS) {
-                let first = 4u * direction;
-                for (var i = 0u; i < 3u; i++) { change[i] = texture_gradients[first + i][lane]; }
-                step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_MOVE, cube);
-            } else {
-                let from_lane = lane & ~(1u << direction);
-                let to_lane = lane | (1u << direction);
-                low = vec3<u32>(u[from_lane], v[from_lane], w[from_lane]);
-                high = vec3<u32>(u[to_lane], v[to_lane], w[to_lane]);
-                step = TEXTURE_STEP_CHANGE;
-            }
-        }
-        if (step == TEXTURE_STEP_END) { break; }
-        var op = N_MUL;
-        var a = x;
-        var b = x;
-        switch step {
-            case TEXTURE_STEP_CHANGE: { op = N_SUB; a = high[axis]; b = low[axis]; }
-            case TEXTURE_STEP_MOVE: { op = N_ADD; a = start[axis]; b = change[axis]; }
-            case TEXTURE_STEP_QUOTIENT: { op = N_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_MINOR: { op = N_SUB; a = moved[axis]; b = own[axis]; }
-            case TEXTURE_STEP_MAJOR: { op = N_SUB; a = moved.z; b = own.z; }
-            case TEXTURE_STEP_TURN: { a = y; b = low.x; }
-            case TEXTURE_STEP_SLOPE: { op = N_SUB; a = x; b = y; }
-            case TEXTURE_STEP_SHRINK: { op = N_DIV; b = own.z; }
-            case TEXTURE_STEP_HALVE: { b = TEXTURE_HALF; }
-            case TEXTURE_STEP_SCALE: { a = select(change[axis], x, cube); b = samplers[s.base + SAMPLER_SCALES + axis]; }
-            case TEXTURE_STEP_SQUARE: { }
-            case TEXTURE_STEP_SUM: { op = N_ADD; a = sum; }
-            case TEXTURE_STEP_BIAS: { op = N_ADD; a = place.wanted; b = bias[lane]; }
-            case TEXTURE_STEP_STATE: { op = N_ADD; a = place.wanted; b = s.lod_bias; }
-            case TEXTURE_STEP_DIVIDE: { op = N_DIV; a = own[axis]; b = own.z; }
-            case TEXTURE_STEP_SHIFT: { op = N_ADD; b = TEXTURE_ONE; }
-            default: { b = TEXTURE_HALF; }
-        }
-        let r = s_alu(op, a, b);
-        switch step {
-            case TEXTURE_STEP_CHANGE: {
-                change[axis] = r;
-                axis++;
-                if (axis == 3u) {
-                    axis = 0u;
+    if (HAS_TEXTURE_DETAIL) {
+        var step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, cube);
+        if (texture_flag(s, FLAG_DETAIL, 1u) != 0u) { step = TEXTURE_STEP_AXES; }
+        loop {
+            if (step == TEXTURE_STEP_AXES) {
+                sum = 0u;
+                axis = 0u;
+                if (detail == DETAIL_GRADIENTS) {
+                    let first = 4u * direction;
+                    for (var i = 0u; i < 3u; i++) { change[i] = texture_operand(4u + first + i, lane); }
                     step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_MOVE, cube);
-                }
-            }
-            case TEXTURE_STEP_MOVE: {
-                moved[axis] = r;
-                axis++;
-                if (axis == 3u) {
-                    axis = 0u;
-                    moved = texture_face_axes(face, moved);
-                    step = TEXTURE_STEP_QUOTIENT;
-                }
-            }
-            case TEXTURE_STEP_QUOTIENT: { y = r; step = TEXTURE_STEP_MINOR; }
-            case TEXTURE_STEP_MAJOR: { low.x = r; step = TEXTURE_STEP_TURN; }
-            case TEXTURE_STEP_TURN: { y = r; step = TEXTURE_STEP_SLOPE; }
-            case TEXTURE_STEP_SUM: {
-                sum = r;
-                axis++;
-                if (axis < axes) {
-                    step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_QUOTIENT, cube);
                 } else {
-                    // Patterns of numbers >= 0 order as the numbers, the canonical NaN above them all.
-                    largest = max(largest, sum);
-                    direction++;
-                    axis = 0u;
-                    step = TEXTURE_STEP_AXES;
-                    if (direction == 2u) {
-                        place.wanted = texture_half_log2(largest, texture_flag(s, FLAG_LOD_BITS, 4u));
-                        step = select(TEXTURE_STEP_STATE, TEXTURE_STEP_BIAS, detail == DETAIL_BIASED);
+                    let from_lane = lane & ~(1u << direction);
+                    let to_lane = lane | (1u << direction);
+                    for (var i = 0u; i < 3u; i++) {
+                        low[i] = texture_operand(i, from_lane);
+                        high[i] = texture_operand(i, to_lane);
+                    }
+                    step = TEXTURE_STEP_CHANGE;
+                }
+            }
+            if (step == TEXTURE_STEP_END) { break; }
+            var op = N_MUL;
+            var a = x;
+            var b = x;
+            switch step {
+                case TEXTURE_STEP_CHANGE: { op = N_SUB; a = high[axis]; b = low[axis]; }
+                case TEXTURE_STEP_MOVE: { op = N_ADD; a = start[axis]; b = change[axis]; }
+                case TEXTURE_STEP_QUOTIENT: { op = N_DIV; a = own[axis]; b = own.z; }
+                case TEXTURE_STEP_MINOR: { op = N_SUB; a = moved[axis]; b = own[axis]; }
+                case TEXTURE_STEP_MAJOR: { op = N_SUB; a = moved.z; b = own.z; }
+                case TEXTURE_STEP_TURN: { a = y; b = low.x; }
+                case TEXTURE_STEP_SLOPE: { op = N_SUB; a = x; b = y; }
+                case TEXTURE_STEP_SHRINK: { op = N_DIV; b = own.z; }
+                case TEXTURE_STEP_HALVE: { b = TEXTURE_HALF; }
+                case TEXTURE_STEP_SCALE: { a = select(change[axis], x, cube); b = samplers[s.base + SAMPLER_SCALES + axis]; }
+                case TEXTURE_STEP_SQUARE: { }
+                case TEXTURE_STEP_SUM: { op = N_ADD; a = sum; }
+                case TEXTURE_STEP_BIAS: { op = N_ADD; a = place.wanted; b = texture_operand(4u, lane); }
+                case TEXTURE_STEP_STATE: { op = N_ADD; a = place.wanted; b = s.lod_bias; }
+                case TEXTURE_STEP_DIVIDE: { op = N_DIV; a = own[axis]; b = own.z; }
+                case TEXTURE_STEP_SHIFT: { op = N_ADD; b = TEXTURE_ONE; }
+                default: { b = TEXTURE_HALF; }
+            }
+            let r = s_alu(op, a, b);
+            switch step {
+                case TEXTURE_STEP_CHANGE: {
+                    change[axis] = r;
+                    axis++;
+                    if (axis == 3u) {
+                        axis = 0u;
+                        step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_MOVE, cube);
                     }
                 }
+                case TEXTURE_STEP_MOVE: {
+                    moved[axis] = r;
+                    axis++;
+                    if (axis == 3u) {
+                        axis = 0u;
+                        moved = texture_face_axes(face, moved);
+                        step = TEXTURE_STEP_QUOTIENT;
+                    }
+                }
+                case TEXTURE_STEP_QUOTIENT: { y = r; step = TEXTURE_STEP_MINOR; }
+                case TEXTURE_STEP_MAJOR: { low.x = r; step = TEXTURE_STEP_TURN; }
+                case TEXTURE_STEP_TURN: { y = r; step = TEXTURE_STEP_SLOPE; }
+                case TEXTURE_STEP_SUM: {
+                    sum = r;
+                    axis++;
+                    if (axis < axes) {
+                        step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_QUOTIENT, cube);
+                    } else {
+                        // Patterns of numbers >= 0 order as the numbers, the canonical NaN above them all.
+                        largest = max(largest, sum);
+                        direction++;
+                        axis = 0u;
+                        step = TEXTURE_STEP_AXES;
+                        if (direction == 2u) {
+                            place.wanted = texture_half_log2(largest, texture_flag(s, FLAG_LOD_BITS, 4u));
+                            step = select(TEXTURE_STEP_STATE, TEXTURE_STEP_BIAS, detail == DETAIL_BIASED);
+                        }
+                    }
+                }
+                case TEXTURE_STEP_BIAS: { place.wanted = r; step = TEXTURE_STEP_STATE; }
+                case TEXTURE_STEP_STATE: {
+                    place.wanted = r;
+                    step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, cube);
+                }
+                case TEXTURE_STEP_FACE: {
+                    place.coordinates[axis] = r;
+                    axis++;
+                    step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, axis == 1u);
+                }
+                default: { x = r; step++; }
             }
-            case TEXTURE_STEP_BIAS: { place.wanted = r; step = TEXTURE_STEP_STATE; }
-            case TEXTURE_STEP_STATE: {
-                place.wanted = r;
-                step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, cube);
-            }
-            case TEXTURE_STEP_FACE: {
-                place.coordinates[axis] = r;
-                axis++;
-                step = select(TEXTURE_STEP_END, TEXTURE_STEP_DIVIDE, axis == 1u);
-            }
-            default: { x = r; step++; }
         }
     }
     return place;

@@ -141,9 +141,10 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
             var single = vec4<u32>(0u);
             for (var c = 0u; c < 4u; c++) {
                 let bits = texel_bits(components[c], words);
-                if (floats) {
+                if (HAS_FLOAT_TEXELS) {
                     single[c] = texel_single(components[c], bits);
-                } else {
+                }
+                if (HAS_RATIO_TEXELS) {
                     let numerator = texel_numerator(components[c], bits); // at most 2^16
                     let size = u32(abs(numerator));
                     var product = texture_wide(weight.x, size);
@@ -157,39 +158,40 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     }
     let f = format(MAIN);
     var out = texels[0];
-    if (floats) {
-        if (any((weights[0] | weights[1]) != vec3<u32>(0u)) || levels.weight != 0u) {
+    if (HAS_FLOAT_FILTERS) {
+        if (floats && (any((weights[0] | weights[1]) != vec3<u32>(0u)) || levels.weight != 0u)) {
             texture_blend(s, weights, levels.weight, &texels);
             out = texels[0];
         }
-        // Single precision keeps what is single precision.
-        if (f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return out; }
     }
+    // Single precision keeps what is single precision.
+    if (floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return out; }
     for (var c = 0u; c < 4u; c++) {
         var parts: TexelParts;
-        if (floats) {
+        if (HAS_FLOAT_TEXELS) {
             parts = texel_parts_of_single(out[c]);
-        } else {
-            parts = texel_parts_of_ratio(sums[c], texel_denominator(components[c]), 3u * filter_bits + lod_bits);
+        }
+        if (HAS_RATIO_TEXELS) {
+            if (!floats) {
+                parts = texel_parts_of_ratio(sums[c], texel_denominator(components[c]), 3u * filter_bits + lod_bits);
+            }
         }
         out[c] = texel_rounded(f, parts);
     }
     return out;
 }
 
-// A texture read of the lanes that run: components by lanes, raw in the main format; 0 in the other lanes. Coordinates,
-// bias and gradients (x, y, z, w along x, then along y) are single precision.
-fn texture_read(
-    number: u32, u: vec4<u32>, v: vec4<u32>, w: vec4<u32>, q: vec4<u32>, detail: u32, bias: vec4<u32>,
-    gradients: array<vec4<u32>, 8>, run: vec4<bool>,
-) -> array<vec4<u32>, 4> {
+// A texture read of the lanes that run: components in the main format, raw; 0 in the other lanes. `texture_operand` gives
+// coordinates and whatever the detail takes, all in single precision.
+fn texture_read(number: u32, detail: u32, run: vec4<bool>) {
     let s = texture_state(number);
-    if (detail == DETAIL_GRADIENTS) { texture_gradients = gradients; }
-    var out = array<vec4<u32>, 4>();
     for (var lane = 0u; lane < 4u; lane++) {
-        if (!run[lane]) { continue; }
-        let texel = texture_texel(s, texture_place(s, lane, u, v, w, detail, bias));
-        for (var c = 0u; c < 4u; c++) { out[c][lane] = texel[c]; }
+        var texel = vec4<u32>(0u);
+        if (run[lane]) {
+            texel = texture_texel(s, texture_place(s, lane, detail));
+        }
+        for (var c = 0u; c < 4u; c++) {
+            texture_result(c, lane, texel[c]);
+        }
     }
-    return out;
 }

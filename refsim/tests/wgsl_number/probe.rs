@@ -1,12 +1,12 @@
-//! The device's own single precision: the probe, and native mode.
+//! The adapter's own single precision: what the probe sees, and what WGSL allows.
 
 use refsim::exec::gpu::probe;
 use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
 
-use crate::device::{adapter, check_native};
+use crate::device::adapter;
 
 #[test]
-fn the_probe_finds_nothing_outside_the_standard_and_native_mode_is_exact_where_it_says_so() {
+fn the_probe_finds_nothing_outside_the_standard() {
     let Some(gpu) = adapter() else { return };
     let count = if std::env::var("CROSSBAR_LONG").is_ok() { refsim::exec::gpu::FULL_PROBE } else { 1 << 14 };
     let report = probe(&gpu, count).expect("the probe runs");
@@ -21,8 +21,6 @@ fn the_probe_finds_nothing_outside_the_standard_and_native_mode_is_exact_where_i
         );
     }
     assert!(report.conforms(), "results outside what WGSL allows");
-    println!("native: {:?}", report.native());
-    check_native(&gpu, report.native());
 }
 
 #[test]
@@ -45,6 +43,9 @@ fn the_intervals_are_those_of_the_standard() {
     // Subnormal operands and results may be zeros, and may be themselves; nothing between.
     assert!(within(Op::Add, [5, 0, 0], 5) && within(Op::Add, [5, 0, 0], 0) && !within(Op::Add, [5, 0, 0], 3));
     assert!(within(Op::Mul, [0x0080_0000, 0x3f00_0000, 0], 0));
+    // A subnormal product may be flushed on its way into a sum; no other may.
+    assert!(within(Op::MulAdd, [0x8080_0000, 0x3f00_0000, 0x80b7_66e5], 0x80b7_66e5));
+    assert!(!within(Op::MulAdd, [0x8100_0000, 0x3f80_0000, 0x81b7_66e5], 0x81b7_66e5));
     // Overflow, infinities and NaN are indeterminate.
     assert_eq!(allowed(Op::Mul, [0x7f00_0000, 0x7f00_0000, 0]), Allowed::Any);
     assert_eq!(allowed(Op::Max, [one, 0x7fc0_0000, 0]), Allowed::Any);

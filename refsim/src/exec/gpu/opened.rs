@@ -2,11 +2,11 @@
 
 use super::adapter::{Adapter, describe, pick};
 use super::error::GpuError;
-use super::probe::ProbeReport;
-use crate::exec::wgsl::NativeOperations;
+use crate::exec::wgsl::parts::Parts;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 /// How a shader uses a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,7 +17,7 @@ pub enum Access {
     ReadWrite,
 }
 
-/// Words on the device.
+/// Words on the adapter.
 #[derive(Clone, Debug)]
 pub struct Buffer {
     inner: wgpu::Buffer,
@@ -42,14 +42,39 @@ pub struct Pipeline {
 /// What pipelines are known by: shader text, entry point, bindings.
 type PipelineKey = (String, String, Vec<Access>);
 
+/// A kernel that is compiled with no more parts than draws use.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel {
+    /// Its entry point, by which it is known.
+    pub entry: &'static str,
+    /// Its text with all parts.
+    pub text: fn() -> String,
+    /// Its bindings.
+    pub bindings: &'static [Access],
+}
+
+/// Texts of a kernel that are compiled for the very parts that a draw uses, and then for what any draw used so far. The next
+/// one has all parts: random programs would have one each.
+const MAX_EXACT: usize = 6;
+const MAX_GROWING: usize = 9;
+
+/// Told before a pipeline is compiled, which takes seconds; what it gives is dropped afterwards.
+pub type CompileObserver = Box<dyn Fn() -> Box<dyn std::any::Any> + Send + Sync>;
+
 /// An adapter that is open.
-#[derive(Debug)]
 pub struct Gpu {
     adapter: Adapter,
     device: wgpu::Device,
     queue: wgpu::Queue,
     pipelines: Mutex<BTreeMap<PipelineKey, Pipeline>>,
-    probed: OnceLock<ProbeReport>,
+    kernels: Mutex<BTreeMap<&'static str, Vec<(Parts, Pipeline)>>>,
+    observer: Option<CompileObserver>,
+}
+
+impl fmt::Debug for Gpu {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Gpu").field("adapter", &self.adapter).finish_non_exhaustive()
+    }
 }
 
 impl Gpu {
@@ -70,7 +95,8 @@ impl Gpu {
         let wanted = wgpu::DeviceDescriptor { label: Some("refsim"), required_limits, ..Default::default() };
         let (device, queue) = pollster::block_on(raw.request_device(&wanted))
             .map_err(|e| GpuError::Open { adapter: adapter.name.clone(), reason: e.to_string() })?;
-        Ok(Self { adapter, device, queue, pipelines: Mutex::default(), probed: OnceLock::new() })
+        let (pipelines, kernels) = (Mutex::default(), Mutex::default());
+        Ok(Self { adapter, device, queue, pipelines, kernels, observer: None })
     }
 
     /// What it is.
@@ -78,24 +104,11 @@ impl Gpu {
         &self.adapter
     }
 
-    /// What a full probe of the adapter's own floats saw; made once.
-    ///
-    /// # Errors
-    /// As [`super::probe()`].
-    pub fn probed(&self) -> Result<&ProbeReport, GpuError> {
-        if let Some(known) = self.probed.get() {
-            return Ok(known);
-        }
-        let found = super::probe(self, super::FULL_PROBE)?;
-        Ok(self.probed.get_or_init(|| found))
-    }
-
-    /// The single precision operations whose results are exact here, in the adapter's own floats.
-    ///
-    /// # Errors
-    /// As [`super::probe()`].
-    pub fn native(&self) -> Result<NativeOperations, GpuError> {
-        Ok(self.probed()?.native())
+    /// Has somebody told of every compilation.
+    #[must_use]
+    pub fn observed(mut self, observer: CompileObserver) -> Self {
+        self.observer = Some(observer);
+        self
     }
 
     /// Words of the largest buffer that a shader can use.
@@ -103,7 +116,7 @@ impl Gpu {
         usize::try_from(self.adapter.largest_buffer / 4).unwrap_or(usize::MAX)
     }
 
-    /// Runs `work` and tells what the device found wrong with it.
+    /// Runs `work` and tells what the driver found wrong with it.
     fn guarded<T>(&self, filter: wgpu::ErrorFilter, work: impl FnOnce() -> T) -> Result<T, String> {
         let scope = self.device.push_error_scope(filter);
         let done = work();
@@ -133,6 +146,34 @@ impl Gpu {
         let pipeline = made.map_err(refused)?;
         known.insert(key, pipeline.clone());
         Ok(pipeline)
+    }
+
+    /// A kernel with at least these parts: one that was compiled before, if there is one.
+    ///
+    /// # Errors
+    /// As [`Self::pipeline`].
+    pub fn kernel(&self, kernel: &Kernel, parts: &Parts) -> Result<Pipeline, GpuError> {
+        let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = known.entry(kernel.entry).or_default();
+        let fitting = made.iter().filter(|(there, _)| there.covers(parts)).min_by_key(|(there, _)| there.count());
+        if let Some((_, pipeline)) = fitting {
+            return Ok(pipeline.clone());
+        }
+        let mut parts = if made.len() < MAX_GROWING { parts.clone() } else { Parts::all() };
+        if made.len() >= MAX_EXACT {
+            made.iter().for_each(|(there, _)| parts.extend(there));
+        }
+        let told = self.observer.as_ref().map(|observer| observer());
+        let text = parts.of(&(kernel.text)(), kernel.entry);
+        let pipeline = self.pipeline(&text, kernel.entry, kernel.bindings)?;
+        drop(told);
+        made.push((parts, pipeline.clone()));
+        Ok(pipeline)
+    }
+
+    /// How many texts of all kernels were compiled.
+    pub fn compiled(&self) -> usize {
+        self.kernels.lock().unwrap_or_else(PoisonError::into_inner).values().map(Vec::len).sum()
     }
 
     fn make_pipeline(&self, text: &str, entry: &str, bindings: &[Access]) -> Pipeline {
