@@ -26,13 +26,6 @@ pub struct TileDraw<'a> {
     pub step_budget: u32,
 }
 
-impl TileDraw<'_> {
-    /// What the device says about targets.
-    pub fn output_rules(&self) -> OutputRules {
-        output_rules(self.rules)
-    }
-}
-
 /// What a device says about targets, out of its rules.
 pub fn output_rules(rules: &Rules) -> OutputRules {
     OutputRules { format: rules.format, target_rounding: rules.target_rounding, depth_rounding: rules.depth_rounding }

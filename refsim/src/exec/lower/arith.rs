@@ -4,7 +4,7 @@ use super::formats::Formats;
 use super::graph::TRUE;
 use super::graph::{Arith, Graph, NodeId, NodeKind};
 use crate::device::{LrpMode, MadMode, Rules};
-use crate::num::{self, DotOrder, NumberOperation};
+use crate::num::{self, DotOrder, NumberOperation as Op};
 
 /// Four components.
 pub(crate) type NodeVector = [NodeId; 4];
@@ -42,7 +42,7 @@ impl<'a> Maker<'a> {
         self.pattern(k, num::from_ratio(self.formats.format(k), false, 1, 2).bits)
     }
 
-    pub(crate) fn compute(&mut self, k: Arith, code: NumberOperation, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
+    pub(crate) fn compute(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         if let Some(known) = self.known_mask(k, code, a, b) {
             return known;
         }
@@ -50,46 +50,46 @@ impl<'a> Maker<'a> {
     }
 
     /// A mask that needs no computing: of constants, or of masks that say nothing new.
-    fn known_mask(&mut self, k: Arith, code: NumberOperation, a: NodeId, b: NodeId) -> Option<NodeId> {
+    fn known_mask(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> Option<NodeId> {
         let constant = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Constant(raw) => Some(raw),
             _ => None,
         };
         match code {
-            NumberOperation::Less | NumberOperation::LessEqual | NumberOperation::Equal => {
+            Op::Less | Op::LessEqual | Op::Equal => {
                 let holds = self.formats.compares(k, code, constant(a)?, constant(b)?);
                 Some(self.graph.constant(if holds { TRUE } else { 0 }))
             }
-            NumberOperation::Or if constant(b) == Some(0) || self.graph.includes(a, b) => Some(a),
-            NumberOperation::Or if constant(a) == Some(0) => Some(b),
-            NumberOperation::And if constant(b) == Some(TRUE) => Some(a),
-            NumberOperation::And if constant(a) == Some(TRUE) => Some(b),
+            Op::Or if constant(b) == Some(0) || self.graph.includes(a, b) => Some(a),
+            Op::Or if constant(a) == Some(0) => Some(b),
+            Op::And if constant(b) == Some(TRUE) => Some(a),
+            Op::And if constant(a) == Some(TRUE) => Some(b),
             _ => None,
         }
     }
 
-    pub(crate) fn unary(&mut self, k: Arith, code: NumberOperation, a: NodeId) -> NodeId {
+    pub(crate) fn unary(&mut self, k: Arith, code: Op, a: NodeId) -> NodeId {
         self.compute(k, code, a, a, a)
     }
 
     /// An operation whose second operand is an immediate.
-    pub(crate) fn immediate(&mut self, k: Arith, code: NumberOperation, a: NodeId, word: u32) -> NodeId {
+    pub(crate) fn immediate(&mut self, k: Arith, code: Op, a: NodeId, word: u32) -> NodeId {
         let word = self.graph.constant(word);
         self.binary(k, code, a, word)
     }
 
     /// A word with a part more, at this bit.
-    pub(crate) fn join(&mut self, k: Arith, code: NumberOperation, word: NodeId, part: NodeId, bit: u32) -> NodeId {
+    pub(crate) fn join(&mut self, k: Arith, code: Op, word: NodeId, part: NodeId, bit: u32) -> NodeId {
         let bit = self.graph.constant(bit);
         self.compute(k, code, word, part, bit)
     }
 
     /// Times two to a power.
     pub(crate) fn scale(&mut self, k: Arith, a: NodeId, power: i8) -> NodeId {
-        self.immediate(k, NumberOperation::Scale, a, i32::from(power).cast_unsigned())
+        self.immediate(k, Op::Scale, a, i32::from(power).cast_unsigned())
     }
 
-    pub(crate) fn binary(&mut self, k: Arith, code: NumberOperation, a: NodeId, b: NodeId) -> NodeId {
+    pub(crate) fn binary(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         self.compute(k, code, a, b, a)
     }
 
@@ -115,34 +115,34 @@ impl<'a> Maker<'a> {
         if !self.legacy_zero || k == Arith::Single {
             return (a, b);
         }
-        (self.binary(k, NumberOperation::Factor, a, b), self.binary(k, NumberOperation::Factor, b, a))
+        (self.binary(k, Op::Factor, a, b), self.binary(k, Op::Factor, b, a))
     }
 
     pub(crate) fn add(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        self.binary(k, NumberOperation::Add, a, b)
+        self.binary(k, Op::Add, a, b)
     }
 
     pub(crate) fn sub(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        self.binary(k, NumberOperation::Sub, a, b)
+        self.binary(k, Op::Sub, a, b)
     }
 
     pub(crate) fn mul(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
         let (a, b) = self.factors(k, a, b);
-        self.binary(k, NumberOperation::Mul, a, b)
+        self.binary(k, Op::Mul, a, b)
     }
 
     pub(crate) fn div(&mut self, k: Arith, a: NodeId, b: NodeId) -> NodeId {
-        self.binary(k, NumberOperation::Div, a, b)
+        self.binary(k, Op::Div, a, b)
     }
 
     pub(crate) fn neg(&mut self, k: Arith, a: NodeId) -> NodeId {
-        self.unary(k, NumberOperation::Neg, a)
+        self.unary(k, Op::Neg, a)
     }
 
     /// A product rounded, and a sum rounded.
     fn mul_add(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         let (a, b) = self.factors(k, a, b);
-        self.compute(k, NumberOperation::Mad, a, b, c)
+        self.compute(k, Op::Mad, a, b, c)
     }
 
     pub(crate) fn mad(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
@@ -150,7 +150,7 @@ impl<'a> Maker<'a> {
             MadMode::TwoRoundings => self.mul_add(k, a, b, c),
             MadMode::Fused => {
                 let (a, b) = self.factors(k, a, b);
-                self.compute(k, NumberOperation::FusedMad, a, b, c)
+                self.compute(k, Op::FusedMad, a, b, c)
             }
         }
     }
@@ -202,11 +202,11 @@ impl<'a> Maker<'a> {
 
     /// `condition ? a : b` of a mask.
     pub(crate) fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
-        self.compute(Arith::Single, NumberOperation::Select, condition, a, b)
+        self.compute(Arith::Single, Op::Select, condition, a, b)
     }
 
     /// The mask of a comparison with both operands in `k`.
-    pub(crate) fn holds(&mut self, k: Arith, code: NumberOperation, a: NodeId, b: NodeId) -> NodeId {
+    pub(crate) fn holds(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         self.binary(k, code, a, b)
     }
 
@@ -220,9 +220,9 @@ impl<'a> Maker<'a> {
         match modifier {
             M::None | M::Dz | M::Dw | M::Not => x,
             M::Negate => self.neg(k, x),
-            M::Absolute => self.unary(k, NumberOperation::Abs, x),
+            M::Absolute => self.unary(k, Op::Abs, x),
             M::AbsoluteNegate => {
-                let magnitude = self.unary(k, NumberOperation::Abs, x);
+                let magnitude = self.unary(k, Op::Abs, x);
                 self.neg(k, magnitude)
             }
             M::Invert => {

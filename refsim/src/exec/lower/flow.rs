@@ -7,7 +7,7 @@ use super::graph::{Arith, NodeId, NodeKind, Slot};
 use super::program::translate_instruction;
 use super::translate::{Effect, RegisterComponent, Translator};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 
 /// Slots with a fixed meaning; registers follow.
 pub(crate) const ACTIVE: Slot = 0;
@@ -77,7 +77,7 @@ fn part(
     if instruction.opcode.info().class == OpcodeClass::Flow {
         if matches!(instruction.opcode, Opcode::If | Opcode::IfC | Opcode::BreakC | Opcode::BreakP | Opcode::CallNz) {
             let condition = t.condition(instruction);
-            part.roots.push(t.make.binary(MASK, NumberOperation::And, active, condition));
+            part.roots.push(t.make.binary(MASK, Op::And, active, condition));
         }
         return part;
     }
@@ -89,24 +89,24 @@ fn part(
         match effect {
             Effect::Write(place, value, predicate) => {
                 let Some(&slot) = registers.get(&place) else { continue };
-                let allowed = predicate.map_or(active, |p| t.make.binary(MASK, NumberOperation::And, active, p));
+                let allowed = predicate.map_or(active, |p| t.make.binary(MASK, Op::And, active, p));
                 let old = t.make.graph.node(NodeKind::Held(slot));
                 part.roots.push(t.make.select(allowed, value, old));
                 part.to.push(slot);
                 if place.0 == RegisterFile::DepthOut {
                     let decided = t.make.graph.node(NodeKind::Held(DECIDED));
-                    part.roots.push(t.make.binary(MASK, NumberOperation::Or, decided, allowed));
+                    part.roots.push(t.make.binary(MASK, Op::Or, decided, allowed));
                     part.to.push(DECIDED);
                 }
             }
             Effect::Kill(mask) => {
                 // Several components of one instruction: the masks add up before they reach the slot.
-                let killing = t.make.binary(MASK, NumberOperation::And, active, mask);
+                let killing = t.make.binary(MASK, Op::And, active, mask);
                 let before = match part.to.iter().position(|&s| s == KILLED) {
                     Some(i) => part.roots[i],
                     None => t.make.graph.node(NodeKind::Held(KILLED)),
                 };
-                let all = t.make.binary(MASK, NumberOperation::Or, before, killing);
+                let all = t.make.binary(MASK, Op::Or, before, killing);
                 match part.to.iter().position(|&s| s == KILLED) {
                     Some(i) => part.roots[i] = all,
                     None => {

@@ -4,7 +4,7 @@ use super::graph::Arith;
 use super::raw;
 use crate::device::Rules;
 use crate::exec::FragmentFormats;
-use crate::num::{Format, NumberOperation, Overflow};
+use crate::num::{Format, NumberOperation as Op, Overflow};
 
 /// The format of each [`Arith`].
 #[derive(Clone, Copy, Debug)]
@@ -47,15 +47,15 @@ impl Formats {
     }
 
     /// Whether `a < b`, `a <= b` or `a == b`, as the operation says, of raw values.
-    pub(crate) fn compares(&self, arith: Arith, operation: NumberOperation, a: u32, b: u32) -> bool {
+    pub(crate) fn compares(&self, arith: Arith, operation: Op, a: u32, b: u32) -> bool {
         let order = if self.format(arith).is_fixed() {
             Some(a.cast_signed().cmp(&b.cast_signed()))
         } else {
             f32::from_bits(a).partial_cmp(&f32::from_bits(b))
         };
         match operation {
-            NumberOperation::Less => order.is_some_and(|o| o.is_lt()),
-            NumberOperation::LessEqual => order.is_some_and(|o| o.is_le()),
+            Op::Less => order.is_some_and(|o| o.is_lt()),
+            Op::LessEqual => order.is_some_and(|o| o.is_le()),
             _ => order.is_some_and(|o| o.is_eq()),
         }
     }

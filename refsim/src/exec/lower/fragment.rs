@@ -8,7 +8,7 @@ use super::translate::{CodeNodes, Effect, Translator};
 use crate::isa::{
     Condition, ConditionTest, Instruction, Modifier, Opcode, OpcodeClass, Precision, RegisterFile, Source, Version,
 };
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 
 /// The arithmetic of a precision.
 fn arith(precision: Precision) -> Arith {
@@ -72,7 +72,7 @@ impl Translator<'_> {
 
     /// The bits of what a full precision register holds.
     fn word(&mut self, node: NodeId) -> NodeId {
-        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, NumberOperation::Encode, node) }
+        if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, Op::Encode, node) }
     }
 
     /// Whether full precision registers hold any 32 bits.
@@ -109,8 +109,8 @@ impl Translator<'_> {
         }
         let mask = self.make.formats.format(Arith::Main).mask();
         let mask = self.make.graph.constant(mask);
-        let low = self.make.binary(Arith::Single, NumberOperation::And, word, mask);
-        self.make.unary(Arith::Main, NumberOperation::Decode, low)
+        let low = self.make.binary(Arith::Single, Op::And, word, mask);
+        self.make.unary(Arith::Main, Op::Decode, low)
     }
 
     /// The word that a packing instruction makes.
@@ -120,14 +120,14 @@ impl Translator<'_> {
         if opcode == Opcode::Pk2h {
             for (i, shift) in [0, 16].into_iter().enumerate() {
                 let half = self.make.convert(Arith::Main, Arith::Half, value[i]);
-                word = self.make.join(Arith::Half, NumberOperation::JoinPattern, word, half, shift);
+                word = self.make.join(Arith::Half, Op::JoinPattern, word, half, shift);
             }
             return word;
         }
         let (parts, code) = match opcode {
-            Opcode::Pk2us => (2, NumberOperation::JoinShort),
-            Opcode::Pk4ub => (4, NumberOperation::JoinByte),
-            _ => (4, NumberOperation::JoinSignedByte),
+            Opcode::Pk2us => (2, Op::JoinShort),
+            Opcode::Pk4ub => (4, Op::JoinByte),
+            _ => (4, Op::JoinSignedByte),
         };
         for (i, &number) in (0u32..parts).zip(&value) {
             let single = self.make.convert(Arith::Main, Arith::Single, number);
@@ -145,20 +145,20 @@ impl Translator<'_> {
             }
             false => {
                 let value = self.fragment_operand(source, Arith::Main, 0)[0];
-                self.make.unary(Arith::Main, NumberOperation::Encode, value)
+                self.make.unary(Arith::Main, Op::Encode, value)
             }
         };
         let mut part = |code, shift| self.make.immediate(Arith::Main, code, word, shift);
         match opcode {
             Opcode::Up2us => {
-                let (x, y) = (part(NumberOperation::SplitShort, 0), part(NumberOperation::SplitShort, 16));
+                let (x, y) = (part(Op::SplitShort, 0), part(Op::SplitShort, 16));
                 [x, y, x, y]
             }
-            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(NumberOperation::SplitByte, shift)),
-            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(NumberOperation::SplitSignedByte, shift)),
+            Opcode::Up4ub => [0, 8, 16, 24].map(|shift| part(Op::SplitByte, shift)),
+            Opcode::Up4b => [0, 8, 16, 24].map(|shift| part(Op::SplitSignedByte, shift)),
             _ => {
                 let [x, y] = [0, 16].map(|shift| {
-                    let half = self.make.immediate(Arith::Half, NumberOperation::SplitPattern, word, shift);
+                    let half = self.make.immediate(Arith::Half, Op::SplitPattern, word, shift);
                     self.make.convert(Arith::Half, Arith::Main, half)
                 });
                 [x, y, x, y]
@@ -173,7 +173,7 @@ impl Translator<'_> {
         let raw = self.fragment_raw(instruction, k);
         let to = of_file(destination.register.file);
         raw.map(|x| {
-            let clamped = if destination.saturate { self.make.unary(k, NumberOperation::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.unary(k, Op::Saturate, x) } else { x };
             self.make.convert(k, to, clamped)
         })
     }
@@ -199,13 +199,13 @@ impl Translator<'_> {
             *slot = self.fragment_operand(source, k, instruction.fragment.negate);
         }
         if opcode == Opcode::Rsq && self.program.version == Version::ArbFp1_0 {
-            s[0] = s[0].map(|x| self.make.unary(k, NumberOperation::Abs, x));
+            s[0] = s[0].map(|x| self.make.unary(k, Op::Abs, x));
         }
         match opcode {
             Opcode::Dsx => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, false, x))),
             Opcode::Dsy => s[0].map(|x| self.make.graph.node(NodeKind::Difference(k, true, x))),
             Opcode::Cmp => std::array::from_fn(|i| {
-                let below = self.make.holds(k, NumberOperation::Less, s[0][i], zero);
+                let below = self.make.holds(k, Op::Less, s[0][i], zero);
                 self.make.select(below, s[1][i], s[2][i])
             }),
             _ => self.make.operation(k, opcode, &s, &[zero; 4]),
@@ -232,8 +232,7 @@ impl Translator<'_> {
         let texel = self.fetch(usize::from(sampler.register.index), coordinates, detail);
         let to = of_file(destination.register.file);
         texel.map(|x| {
-            let clamped =
-                if destination.saturate { self.make.unary(Arith::Main, NumberOperation::Saturate, x) } else { x };
+            let clamped = if destination.saturate { self.make.unary(Arith::Main, Op::Saturate, x) } else { x };
             self.make.convert(Arith::Main, to, clamped)
         })
     }
@@ -254,7 +253,7 @@ impl Translator<'_> {
     fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);
-        let mut either = |a, b| self.make.binary(Arith::Single, NumberOperation::Or, a, b);
+        let mut either = |a, b| self.make.binary(Arith::Single, Op::Or, a, b);
         match condition.test {
             ConditionTest::Eq => code.equal,
             ConditionTest::Lt => code.less,
@@ -326,9 +325,9 @@ impl Translator<'_> {
         let value = self.number(value);
         let zero = self.make.zero();
         let new = CodeNodes {
-            less: self.make.holds(k, NumberOperation::Less, value, zero),
-            equal: self.make.holds(k, NumberOperation::Equal, value, zero),
-            greater: self.make.holds(k, NumberOperation::Less, zero, value),
+            less: self.make.holds(k, Op::Less, value, zero),
+            equal: self.make.holds(k, Op::Equal, value, zero),
+            greater: self.make.holds(k, Op::Less, zero, value),
         };
         let old = self.codes[component];
         self.codes[component] = CodeNodes {
@@ -355,7 +354,7 @@ impl Translator<'_> {
             let zero = self.make.zero();
             let k = of_file(source.register.file);
             for x in self.loaded(source, 0) {
-                let below = self.make.holds(k, NumberOperation::Less, x, zero);
+                let below = self.make.holds(k, Op::Less, x, zero);
                 effects.push(Effect::Kill(below));
             }
         }

@@ -3,7 +3,7 @@
 //! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
 //! results and moves cost nothing at run time.
 
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 use std::collections::BTreeMap;
 
 /// Index of a slot: where an executor keeps a value for all its lanes.
@@ -68,7 +68,7 @@ pub(crate) enum NodeKind {
     /// An interpolated component, or a component of a vertex attribute; single precision.
     Input(u16),
     /// An operation; what it does not take is no operand. Immediates are constants.
-    Compute(Arith, NumberOperation, [NodeId; 3]),
+    Compute(Arith, Op, [NodeId; 3]),
     /// A difference across the quad: right less left, or (if true) lower less upper.
     Difference(Arith, bool, NodeId),
     /// A dot product of so many terms, rounded once.
@@ -139,8 +139,8 @@ impl Graph {
     pub(crate) fn includes(&self, mut a: NodeId, b: NodeId) -> bool {
         while a != b {
             match self.kind(a) {
-                NodeKind::Compute(_, NumberOperation::Or, [_, right, _]) if right == b => return true,
-                NodeKind::Compute(_, NumberOperation::Or, [left, ..]) => a = left,
+                NodeKind::Compute(_, Op::Or, [_, right, _]) if right == b => return true,
+                NodeKind::Compute(_, Op::Or, [left, ..]) => a = left,
                 _ => return false,
             }
         }

@@ -3,7 +3,7 @@
 use super::arith::{Maker, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
 use crate::isa::Opcode;
-use crate::num::{self, NumberOperation};
+use crate::num::{self, NumberOperation as Op};
 
 impl Maker<'_> {
     /// What an arithmetic operation makes of its operands; operands that it lacks are zeros.
@@ -22,27 +22,24 @@ impl Maker<'_> {
                 let dot = self.dot(k, 2, &a, &b);
                 [self.add(k, dot, c[0]); 4]
             }
-            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, NumberOperation::SelectAboveHalf, a[i], b[i], c[i])),
-            Opcode::Cmp => {
-                std::array::from_fn(|i| self.compute(k, NumberOperation::SelectNonNegative, a[i], b[i], c[i]))
-            }
+            Opcode::Cnd => std::array::from_fn(|i| self.compute(k, Op::SelectAboveHalf, a[i], b[i], c[i])),
+            Opcode::Cmp => std::array::from_fn(|i| self.compute(k, Op::SelectNonNegative, a[i], b[i], c[i])),
             Opcode::Bem => self.bem(k, &a, &b, bump),
-            Opcode::Abs => a.map(|x| self.unary(k, NumberOperation::Abs, x)),
-            Opcode::Min => std::array::from_fn(|i| self.binary(k, NumberOperation::Min, a[i], b[i])),
-            Opcode::Max => std::array::from_fn(|i| self.binary(k, NumberOperation::Max, a[i], b[i])),
-            Opcode::Sge => std::array::from_fn(|i| self.flag(k, NumberOperation::LessEqual, b[i], a[i])),
-            Opcode::Slt => std::array::from_fn(|i| self.flag(k, NumberOperation::Less, a[i], b[i])),
-            Opcode::Frc => a.map(|x| self.unary(k, NumberOperation::Frc, x)),
-            Opcode::Rcp => [self.unary(k, NumberOperation::Rcp, a[0]); 4],
-            Opcode::Rsq => [self.unary(k, NumberOperation::Rsq, a[0]); 4],
-            Opcode::Exp => [self.unary(k, NumberOperation::Exp2, a[0]); 4],
-            Opcode::Log => [self.unary(k, NumberOperation::Log2, a[0]); 4],
+            Opcode::Abs => a.map(|x| self.unary(k, Op::Abs, x)),
+            Opcode::Min => std::array::from_fn(|i| self.binary(k, Op::Min, a[i], b[i])),
+            Opcode::Max => std::array::from_fn(|i| self.binary(k, Op::Max, a[i], b[i])),
+            Opcode::Sge => std::array::from_fn(|i| self.flag(k, Op::LessEqual, b[i], a[i])),
+            Opcode::Slt => std::array::from_fn(|i| self.flag(k, Op::Less, a[i], b[i])),
+            Opcode::Frc => a.map(|x| self.unary(k, Op::Frc, x)),
+            Opcode::Rcp => [self.unary(k, Op::Rcp, a[0]); 4],
+            Opcode::Rsq => [self.unary(k, Op::Rsq, a[0]); 4],
+            Opcode::Exp => [self.unary(k, Op::Exp2, a[0]); 4],
+            Opcode::Log => [self.unary(k, Op::Log2, a[0]); 4],
             Opcode::Pow => [self.pow(k, a[0], b[0]); 4],
             Opcode::Expp => {
-                let floor = self.unary(k, NumberOperation::Floor, a[3]);
+                let floor = self.unary(k, Op::Floor, a[3]);
                 let [x, y, z] =
-                    [(NumberOperation::Exp2, floor), (NumberOperation::Frc, a[3]), (NumberOperation::Exp2, a[3])]
-                        .map(|(code, n)| self.unary(k, code, n));
+                    [(Op::Exp2, floor), (Op::Frc, a[3]), (Op::Exp2, a[3])].map(|(code, n)| self.unary(k, code, n));
                 [x, y, z, self.one(k)]
             }
             Opcode::Logp => self.logp(k, a[3]),
@@ -52,7 +49,7 @@ impl Maker<'_> {
             Opcode::SinCos => self.sincos(k, a[0], &b, &c),
             Opcode::Dst => [self.one(k), self.mul(k, a[1], b[1]), a[2], b[3]],
             Opcode::Lit => self.lit(k, &a),
-            Opcode::Flr => a.map(|x| self.unary(k, NumberOperation::Floor, x)),
+            Opcode::Flr => a.map(|x| self.unary(k, Op::Floor, x)),
             Opcode::Cos => [self.circle(k, false, a[0]); 4],
             Opcode::Sin => [self.circle(k, true, a[0]); 4],
             Opcode::Scs => [self.circle(k, false, a[0]), self.circle(k, true, a[0]), self.zero(), self.zero()],
@@ -61,14 +58,14 @@ impl Maker<'_> {
                 [self.add(k, dot, b[3]); 4]
             }
             Opcode::Swz => a,
-            Opcode::Seq => std::array::from_fn(|i| self.flag(k, NumberOperation::Equal, a[i], b[i])),
+            Opcode::Seq => std::array::from_fn(|i| self.flag(k, Op::Equal, a[i], b[i])),
             Opcode::Sne => std::array::from_fn(|i| {
-                let same = self.holds(k, NumberOperation::Equal, a[i], b[i]);
+                let same = self.holds(k, Op::Equal, a[i], b[i]);
                 let (one, zero) = (self.one(k), self.zero());
                 self.select(same, zero, one)
             }),
-            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, NumberOperation::Less, b[i], a[i])),
-            Opcode::Sle => std::array::from_fn(|i| self.flag(k, NumberOperation::LessEqual, a[i], b[i])),
+            Opcode::Sgt => std::array::from_fn(|i| self.flag(k, Op::Less, b[i], a[i])),
+            Opcode::Sle => std::array::from_fn(|i| self.flag(k, Op::LessEqual, a[i], b[i])),
             Opcode::Str => [self.one(k); 4],
             Opcode::Rfl => self.rfl(k, &a, &b),
             Opcode::X2d => self.x2d(k, &a, &b, &c),
@@ -77,7 +74,7 @@ impl Maker<'_> {
     }
 
     /// One where a comparison holds, else zero.
-    fn flag(&mut self, k: Arith, code: NumberOperation, a: NodeId, b: NodeId) -> NodeId {
+    fn flag(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         let holds = self.holds(k, code, a, b);
         let (one, zero) = (self.one(k), self.zero());
         self.select(holds, one, zero)
@@ -93,20 +90,20 @@ impl Maker<'_> {
     }
 
     fn pow(&mut self, k: Arith, base: NodeId, exponent: NodeId) -> NodeId {
-        let log = self.unary(k, NumberOperation::Log2, base);
+        let log = self.unary(k, Op::Log2, base);
         let product = self.mul(k, exponent, log);
-        self.unary(k, NumberOperation::Exp2, product)
+        self.unary(k, Op::Exp2, product)
     }
 
     fn logp(&mut self, k: Arith, w: NodeId) -> NodeVector {
-        let magnitude = self.unary(k, NumberOperation::Abs, w);
-        let log = self.unary(k, NumberOperation::Log2, magnitude);
-        let exponent = self.unary(k, NumberOperation::Floor, log);
+        let magnitude = self.unary(k, Op::Abs, w);
+        let log = self.unary(k, Op::Log2, magnitude);
+        let exponent = self.unary(k, Op::Floor, log);
         let back = self.neg(k, exponent);
-        let scale = self.unary(k, NumberOperation::Exp2, back);
+        let scale = self.unary(k, Op::Exp2, back);
         let mantissa = self.mul(k, magnitude, scale);
         let (zero, one) = (self.zero(), self.one(k));
-        let is_zero = self.holds(k, NumberOperation::Equal, magnitude, zero);
+        let is_zero = self.holds(k, Op::Equal, magnitude, zero);
         [self.select(is_zero, log, exponent), self.select(is_zero, one, mantissa), log, one]
     }
 
@@ -123,9 +120,9 @@ impl Maker<'_> {
     fn nrm(&mut self, k: Arith, a: &NodeVector) -> NodeVector {
         let d = self.dot(k, 3, a, a);
         let zero = self.zero();
-        let is_zero = self.holds(k, NumberOperation::Equal, d, zero);
+        let is_zero = self.holds(k, Op::Equal, d, zero);
         let largest = self.pattern(k, self.formats.format(k).max_finite());
-        let root = self.unary(k, NumberOperation::Rsq, d);
+        let root = self.unary(k, Op::Rsq, d);
         let factor = self.select(is_zero, largest, root);
         a.map(|x| self.mul(k, x, factor))
     }
@@ -133,8 +130,8 @@ impl Maker<'_> {
     fn sgn(&mut self, k: Arith, a: NodeId) -> NodeId {
         let (zero, one) = (self.zero(), self.one(k));
         let minus = self.neg(k, one);
-        let above = self.holds(k, NumberOperation::Less, zero, a);
-        let below = self.holds(k, NumberOperation::Less, a, zero);
+        let above = self.holds(k, Op::Less, zero, a);
+        let below = self.holds(k, Op::Less, a, zero);
         let rest = self.select(below, minus, zero);
         self.select(above, one, rest)
     }
@@ -185,12 +182,12 @@ impl Maker<'_> {
         let limit_bits = num::from_ratio(self.formats.format(k), false, 32767, 256).bits;
         let limit = self.pattern(k, limit_bits);
         let lowest = self.neg(k, limit);
-        let clamped = self.binary(k, NumberOperation::Max, a[3], lowest);
-        let exponent = self.binary(k, NumberOperation::Min, clamped, limit);
+        let clamped = self.binary(k, Op::Max, a[3], lowest);
+        let exponent = self.binary(k, Op::Min, clamped, limit);
         let (zero, one) = (self.zero(), self.one(k));
-        let lit = self.holds(k, NumberOperation::Less, zero, a[0]);
-        let shines = self.holds(k, NumberOperation::Less, zero, a[1]);
-        let both = self.binary(Arith::Single, NumberOperation::And, lit, shines);
+        let lit = self.holds(k, Op::Less, zero, a[0]);
+        let shines = self.holds(k, Op::Less, zero, a[1]);
+        let both = self.binary(Arith::Single, Op::And, lit, shines);
         let power = self.pow(k, a[1], exponent);
         [one, self.select(lit, a[0], zero), self.select(both, power, zero), one]
     }

@@ -3,7 +3,7 @@
 use super::graph::{Arith, NodeId};
 use super::translate::{Effect, Translator};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 
 /// What a straight pixel program leaves behind.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ pub(crate) fn translate_straight(
                     t.registers.insert(place, value);
                 }
                 Effect::Kill(mask) => {
-                    killed = Some(killed.map_or(mask, |k| t.make.binary(Arith::Single, NumberOperation::Or, k, mask)));
+                    killed = Some(killed.map_or(mask, |k| t.make.binary(Arith::Single, Op::Or, k, mask)));
                 }
                 Effect::Depth(arith, value) => depth = Some((arith, value)),
             }
@@ -106,7 +106,7 @@ fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4
     if program.version.is_ps_1_x() {
         colors[0] = Some(std::array::from_fn(|c| {
             let value = t.registers.get(&(RegisterFile::Temp, 0, c as u8)).copied().unwrap_or(zero);
-            t.make.unary(Arith::Main, NumberOperation::Saturate, value)
+            t.make.unary(Arith::Main, Op::Saturate, value)
         }));
         return colors;
     }

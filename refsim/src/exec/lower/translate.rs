@@ -11,7 +11,7 @@ use crate::exec::{BumpStage, PixelBindings, ResolvedConstants};
 use crate::isa::{
     Comparison, Destination, Instruction, Modifier, Opcode, Program, Register, RegisterFile, Relative, Source, Stage,
 };
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 use crate::raster::{COLOR_COMPONENT, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
 /// A component of a register: file, number, component.
@@ -122,7 +122,7 @@ impl<'a> Translator<'a> {
                 self.make.graph.node(NodeKind::Steps(steps, node))
             }
             ColorIterator::Full => {
-                let clamped = self.make.unary(Arith::Single, NumberOperation::Saturate, node);
+                let clamped = self.make.unary(Arith::Single, Op::Saturate, node);
                 self.make.convert(Arith::Single, Arith::Main, clamped)
             }
         }
@@ -200,8 +200,7 @@ impl<'a> Translator<'a> {
     /// A component of a result on its way into a register.
     fn finished(&mut self, k: Arith, destination: &Destination, x: NodeId) -> NodeId {
         let shifted = if destination.shift == 0 { x } else { self.make.scale(k, x, destination.shift) };
-        let clamped =
-            if destination.saturate { self.make.unary(k, NumberOperation::Saturate, shifted) } else { shifted };
+        let clamped = if destination.saturate { self.make.unary(k, Op::Saturate, shifted) } else { shifted };
         self.make.convert(k, Arith::Main, clamped)
     }
 
@@ -216,7 +215,7 @@ impl<'a> Translator<'a> {
     /// The complement of a mask.
     pub(crate) fn inverted(&mut self, mask: NodeId) -> NodeId {
         let all = self.make.graph.constant(TRUE);
-        self.make.binary(Arith::Single, NumberOperation::AndNot, mask, all)
+        self.make.binary(Arith::Single, Op::AndNot, mask, all)
     }
 
     /// A result on its way into a pixel register, clamped to [-1, 1] where the rules ask for it.
@@ -226,8 +225,8 @@ impl<'a> Translator<'a> {
         }
         let one = self.make.one(Arith::Main);
         let minus = self.make.neg(Arith::Main, one);
-        let below = self.make.binary(Arith::Main, NumberOperation::Min, x, one);
-        self.make.binary(Arith::Main, NumberOperation::Max, below, minus)
+        let below = self.make.binary(Arith::Main, Op::Min, x, one);
+        self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
     /// Writes of the components in the destination's mask.
@@ -269,11 +268,7 @@ impl<'a> Translator<'a> {
                 return self.writes(instruction, value, effects);
             }
             opcode if opcode == Opcode::Mova || destination.register.file == RegisterFile::Address => {
-                let code = if opcode == Opcode::Mova {
-                    NumberOperation::AddressNearest
-                } else {
-                    NumberOperation::AddressFloor
-                };
+                let code = if opcode == Opcode::Mova { Op::AddressNearest } else { Op::AddressFloor };
                 let value = s[0].map(|x| self.make.unary(Arith::Main, code, x));
                 return self.writes(instruction, value, effects);
             }
@@ -321,11 +316,11 @@ impl<'a> Translator<'a> {
     /// The mask of a comparison of two numbers.
     pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
         let (code, a, b) = match comparison {
-            Comparison::Gt => (NumberOperation::Less, b, a),
-            Comparison::Lt => (NumberOperation::Less, a, b),
-            Comparison::Ge => (NumberOperation::LessEqual, b, a),
-            Comparison::Le => (NumberOperation::LessEqual, a, b),
-            Comparison::Eq | Comparison::Ne => (NumberOperation::Equal, a, b),
+            Comparison::Gt => (Op::Less, b, a),
+            Comparison::Lt => (Op::Less, a, b),
+            Comparison::Ge => (Op::LessEqual, b, a),
+            Comparison::Le => (Op::LessEqual, a, b),
+            Comparison::Eq | Comparison::Ne => (Op::Equal, a, b),
         };
         let holds = self.make.holds(k, code, a, b);
         if comparison == Comparison::Ne { self.inverted(holds) } else { holds }

@@ -6,7 +6,7 @@ use super::translate::{Effect, Translator};
 use crate::device::{TexcrdOverflow, TexdepthDenominator, TexkillComponents};
 use crate::exec::Projection;
 use crate::isa::{Destination, Instruction, Modifier, Opcode, Register, RegisterFile, Source, Version};
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 use crate::texture::TextureKind;
 use crate::texture::unbound;
 
@@ -74,7 +74,7 @@ impl Translator<'_> {
             _ => return [x, y, z, w],
         };
         let (zero, one) = (self.make.zero(), self.make.one(S));
-        let is_zero = self.make.holds(S, NumberOperation::Equal, divisor, zero);
+        let is_zero = self.make.holds(S, Op::Equal, divisor, zero);
         let [x, y] = [x, y].map(|c| {
             let quotient = self.make.div(S, c, divisor);
             self.make.select(is_zero, one, quotient)
@@ -246,7 +246,7 @@ impl Translator<'_> {
             }
             _ => {
                 let [x, y, z, _] = self.set(stage).map(|x| {
-                    let clamped = self.make.unary(S, NumberOperation::Saturate, x);
+                    let clamped = self.make.unary(S, Op::Saturate, x);
                     self.main(clamped)
                 });
                 [x, y, z, self.make.one(Arith::Main)]
@@ -259,7 +259,7 @@ impl Translator<'_> {
         let w = self.row(destination.register.index, source);
         let (zero, one) = (self.make.zero(), self.make.one(S));
         let quotient = self.make.div(S, self.padded[0], w);
-        let is_zero = self.make.holds(S, NumberOperation::Equal, w, zero);
+        let is_zero = self.make.holds(S, Op::Equal, w, zero);
         effects.push(Effect::Depth(S, self.make.select(is_zero, one, quotient)));
         self.pads = 0;
     }
@@ -271,10 +271,10 @@ impl Translator<'_> {
         let (zero, one) = (self.make.zero(), self.make.one(k));
         let divisor = match self.make.rules.texdepth_denominator {
             TexdepthDenominator::Raw => g,
-            TexdepthDenominator::Min1 => self.make.binary(k, NumberOperation::Min, g, one),
+            TexdepthDenominator::Min1 => self.make.binary(k, Op::Min, g, one),
         };
         let quotient = self.make.div(k, r, divisor);
-        let is_zero = self.make.holds(k, NumberOperation::Equal, divisor, zero);
+        let is_zero = self.make.holds(k, Op::Equal, divisor, zero);
         effects.push(Effect::Depth(k, self.make.select(is_zero, one, quotient)));
     }
 
@@ -290,9 +290,9 @@ impl Translator<'_> {
             } else {
                 (Arith::Main, self.held(&register, c))
             };
-            let mut below = self.make.holds(k, NumberOperation::Less, value, zero);
+            let mut below = self.make.holds(k, Op::Less, value, zero);
             if let Some(allowed) = self.predicate(instruction, c) {
-                below = self.make.binary(S, NumberOperation::And, below, allowed);
+                below = self.make.binary(S, Op::And, below, allowed);
             }
             effects.push(Effect::Kill(below));
         }

@@ -16,6 +16,17 @@ enum OpenBlock {
     Call { restore: Box<LaneRow>, back: usize },
 }
 
+impl OpenBlock {
+    /// The lanes that it remembers.
+    fn masks(&mut self) -> impl Iterator<Item = &mut Box<LaneRow>> {
+        let (restore, more) = match self {
+            Self::If { restore, otherwise: more } | Self::Loop { restore, live: more, .. } => (restore, Some(more)),
+            Self::Call { restore, .. } => (restore, None),
+        };
+        std::iter::once(restore).chain(more)
+    }
+}
+
 /// Called around every executed instruction but flow control. The default does nothing.
 pub(crate) trait FlowObserver {
     /// An instruction is about to run.
@@ -134,15 +145,7 @@ impl<'p> FlowRun<'p> {
             return;
         }
         remove(slots.row_mut(ACTIVE), &cut);
-        for block in &mut self.open {
-            match block {
-                OpenBlock::If { restore, otherwise: more } | OpenBlock::Loop { restore, live: more, .. } => {
-                    remove(restore, &cut);
-                    remove(more, &cut);
-                }
-                OpenBlock::Call { restore, .. } => remove(restore, &cut),
-            }
-        }
+        self.open.iter_mut().flat_map(OpenBlock::masks).for_each(|mask| remove(mask, &cut));
         let lanes = cut.iter().zip(self.covered).enumerate();
         self.cut.extend(lanes.filter(|(_, (cut, covered))| **cut & **covered != 0).map(|(lane, _)| (lane, at)));
     }
@@ -281,19 +284,8 @@ impl<'p> FlowRun<'p> {
         }
         let done = *slots.row(ACTIVE);
         slots.fill(ACTIVE, 0);
-        for block in self.open.iter_mut().rev() {
-            match block {
-                OpenBlock::If { restore, otherwise } => {
-                    remove(restore, &done);
-                    remove(otherwise, &done);
-                }
-                OpenBlock::Loop { live, restore, .. } => {
-                    remove(live, &done);
-                    remove(restore, &done);
-                }
-                OpenBlock::Call { .. } => break,
-            }
-        }
+        let in_call = self.open.iter_mut().rev().take_while(|block| !matches!(block, OpenBlock::Call { .. }));
+        in_call.flat_map(OpenBlock::masks).for_each(|mask| remove(mask, &done));
         Some(at + 1)
     }
 

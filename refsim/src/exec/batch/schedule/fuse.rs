@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::code::{LaneCode, OPERANDS};
 use crate::exec::lower::{Arith, Graph, NodeId, NodeKind};
-use crate::num::NumberOperation;
+use crate::num::NumberOperation as Op;
 
 /// An operation as it is carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,7 +112,7 @@ impl<'g> Fusion<'g> {
     }
 
     /// An operation of the table with its immediate, if it has one.
-    fn code(&self, operation: NumberOperation, args: &[NodeId; 3]) -> LaneCode {
+    fn code(&self, operation: Op, args: &[NodeId; 3]) -> LaneCode {
         match self.graph.kind(args[operation.operands() - 1]) {
             NodeKind::Constant(word) if operation.has_immediate() => LaneCode::Immediate(operation, word as i8),
             _ => LaneCode::Plain(operation),
@@ -123,25 +123,22 @@ impl<'g> Fusion<'g> {
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         match plain.code {
-            LaneCode::Plain(NumberOperation::Mad) => {
+            LaneCode::Plain(Op::Mad) => {
                 if let Some(products) = self.products(k, args[2], given) {
                     return sum(k, &products, &[args[0], args[1]]);
                 }
                 // a b - c d
-                let negated =
-                    self.part(k, args[2], given).filter(|part| part.code == LaneCode::Plain(NumberOperation::Neg))?;
-                let product = self
-                    .part(k, negated.args[0], given)
-                    .filter(|part| part.code == LaneCode::Plain(NumberOperation::Mul))?;
+                let negated = self.part(k, args[2], given).filter(|part| part.code == LaneCode::Plain(Op::Neg))?;
+                let product =
+                    self.part(k, negated.args[0], given).filter(|part| part.code == LaneCode::Plain(Op::Mul))?;
                 Some(Fused::new(k, LaneCode::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
             }
-            LaneCode::Plain(NumberOperation::Add) => {
+            LaneCode::Plain(Op::Add) => {
                 let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
                 if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
             }
-            LaneCode::Plain(NumberOperation::Or) => {
-                let less =
-                    |n: NodeId| self.alone(n, given).filter(|part| part.code == LaneCode::Plain(NumberOperation::Less));
+            LaneCode::Plain(Op::Or) => {
+                let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == LaneCode::Plain(Op::Less));
                 let (mask, part) = match less(args[1]) {
                     Some(part) => (args[0], part),
                     None => (args[1], less(args[0])?),
@@ -166,7 +163,7 @@ impl<'g> Fusion<'g> {
     /// The factors of the products behind an operand that nothing else reads.
     fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
         let part = self.part(arith, node, given)?;
-        matches!(part.code, LaneCode::Plain(NumberOperation::Mul) | LaneCode::Sum(_)).then(|| part.operands().to_vec())
+        matches!(part.code, LaneCode::Plain(Op::Mul) | LaneCode::Sum(_)).then(|| part.operands().to_vec())
     }
 }
 
@@ -181,7 +178,7 @@ fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
     let of = |code, operands: &[NodeId]| Fused::new(k, code, operands);
     match fused.code {
-        LaneCode::Plain(NumberOperation::Mul) | LaneCode::Sum(_) => {
+        LaneCode::Plain(Op::Mul) | LaneCode::Sum(_) => {
             let mut sorted = *fused;
             for pair in sorted.args.chunks_exact_mut(2) {
                 if !shared(pair[0]) {
@@ -192,12 +189,12 @@ fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
             let all = (0..terms).all(|i| shared(sorted.args[2 * i]));
             if all { Fused { code: LaneCode::SumBy(terms as u8), ..sorted } } else { *fused }
         }
-        LaneCode::Plain(NumberOperation::Add) if shared(args[0]) => of(LaneCode::AddTo, &args[..2]),
-        LaneCode::Plain(NumberOperation::Add) if shared(args[1]) => of(LaneCode::AddTo, &[args[1], args[0]]),
-        LaneCode::Plain(NumberOperation::Sub) if shared(args[0]) => of(LaneCode::SubFrom, &args[..2]),
-        LaneCode::Plain(NumberOperation::Sub) if shared(args[1]) => of(LaneCode::SubOff, &[args[1], args[0]]),
-        LaneCode::Plain(NumberOperation::Mad) if shared(args[0]) => of(LaneCode::MadBy, &args[..3]),
-        LaneCode::Plain(NumberOperation::Mad) if shared(args[1]) => of(LaneCode::MadBy, &[args[1], args[0], args[2]]),
+        LaneCode::Plain(Op::Add) if shared(args[0]) => of(LaneCode::AddTo, &args[..2]),
+        LaneCode::Plain(Op::Add) if shared(args[1]) => of(LaneCode::AddTo, &[args[1], args[0]]),
+        LaneCode::Plain(Op::Sub) if shared(args[0]) => of(LaneCode::SubFrom, &args[..2]),
+        LaneCode::Plain(Op::Sub) if shared(args[1]) => of(LaneCode::SubOff, &[args[1], args[0]]),
+        LaneCode::Plain(Op::Mad) if shared(args[0]) => of(LaneCode::MadBy, &args[..3]),
+        LaneCode::Plain(Op::Mad) if shared(args[1]) => of(LaneCode::MadBy, &[args[1], args[0], args[2]]),
         _ => *fused,
     }
 }

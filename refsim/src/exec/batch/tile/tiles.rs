@@ -19,7 +19,7 @@ use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPla
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
-use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, sample_rules};
+use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, output_rules, sample_rules};
 use crate::output::{DepthFormat, TargetTile};
 use crate::raster::{ComponentMask, POSITION_COMPONENT, TriangleSetup};
 use crate::texture::Region;
@@ -97,7 +97,11 @@ impl<'a> BatchTiles<'a> {
         Some(Self {
             textures,
             constants: raw_constants(&constants.float, &formats),
-            output: OutputStage { state: draw.output, rules: draw.output_rules(), written: colors_written(program) },
+            output: OutputStage {
+                state: draw.output,
+                rules: output_rules(draw.rules),
+                written: colors_written(program),
+            },
             inputs: inputs_read(program),
             program: code,
             formats,
