@@ -74,7 +74,8 @@ pub enum Operation {
     Sqrt,
     /// `a` of another format into this one; `b` is [`source_word`] of that format.
     Convert,
-    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the format.
+    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the
+    /// format.
     Steps,
     /// Bit pattern to raw value.
     Decode,
