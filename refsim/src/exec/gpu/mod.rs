@@ -2,7 +2,8 @@
 //!
 //! - `adapter`: which adapters there are, and picking one by name; `error`: what can go wrong.
 //! - `opened`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
-//! - `probe`: what the adapter's own single precision gives, beside IEEE 754 and WGSL. `testing`: what tests do without an adapter.
+//! - `probe`: what the adapter's own single precision gives, beside IEEE 754 and WGSL. `testing`: what tests do
+//!   without an adapter.
 //! - `board`: the buffers of an emulated card.
 //!
 //! Nothing here decides a bit: the shaders do (`refsim::exec::wgsl`), from storage buffers of 32-bit words.

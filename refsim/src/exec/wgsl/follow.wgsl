@@ -1,4 +1,5 @@
-// Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in its
+// Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in
+// its
 // record what the rasteriser gave there, what every instruction wrote, what the program left and what became of it. One
 // invocation a workgroup: lanes that go different ways would spend each other's loop passes.
 //

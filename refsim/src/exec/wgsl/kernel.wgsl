@@ -10,7 +10,8 @@ fn k_count(word: u32, more: u32) {
     }
 }
 
-// Loop passes of eight invocations at a time: lavapipe runs so many in step, and counts the passes that any of them makes.
+// Loop passes of eight invocations at a time: lavapipe runs so many in step, and counts the passes that any of them
+// makes.
 // How many there were, the triangle (from 1) last charged for, and what its program cost at most.
 var<workgroup> k_spent: array<atomic<u32>, 8>;
 var<workgroup> k_last: array<atomic<u32>, 8>;

@@ -18,7 +18,8 @@ pub(super) struct TileBatch {
     pub(super) tiles: usize,
 }
 
-/// Cuts a round into dispatches of at most so many tiles and so many triangles over all tiles. A tile is at most once in
+/// Cuts a round into dispatches of at most so many tiles and so many triangles over all tiles. A tile is at most once
+/// in
 /// a dispatch, and its triangles come in order over the dispatches.
 pub(super) fn dispatches(
     setups: &[TriangleSetup],

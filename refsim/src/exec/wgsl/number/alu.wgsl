@@ -64,7 +64,8 @@ fn n_is_nan(f: Format, a: u32) -> bool {
     return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// What rounds, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed format
+// What rounds, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed
+// format
 // it is of. N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32. N_SPLIT_...: a a word, b the bit.
 fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var kind = f.kind;

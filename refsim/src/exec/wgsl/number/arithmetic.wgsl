@@ -12,7 +12,8 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     let known = nan || infinite || z.kind == 1u;
     let raw = select(n_infinite(f, select(z.sign, sign, infinite)), n_nan(f), nan);
     let product = n_mul32(x.sig, y.sig);
-    // The higher one's leading bit goes to place 94. What the lower one loses below place 0 lies under zeros of the higher.
+    // The higher one's leading bit goes to place 94. What the lower one loses below place 0 lies under zeros of the
+    // higher.
     let first = x.exp + y.exp + 63;
     let second = z.exp + 31;
     let top = max(first, second);
@@ -149,7 +150,8 @@ fn n_div96(p: vec3<u32>, k: u32) -> vec3<u32> {
     return to;
 }
 
-// 2^x and log2 x, good to 2^-90 and 2^-84. Both are irrational where they aren't exact, and no format has an operand whose
+// 2^x and log2 x, good to 2^-90 and 2^-84. Both are irrational where they aren't exact, and no format has an operand
+// whose
 // result is expected nearer than 2^-64 to a place where rounding turns.
 fn n_power(op: u32, f: Format, x: Number) -> Real {
     let exponential = op == N_EXP2;
@@ -193,7 +195,8 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
             return Real(false, 0u, select(0u, 1u, whole < 0), 0, vec3<u32>(0u, 0u, u32(abs(whole))));
         }
     }
-    // Exponential: the first step makes t = u ln 2, each of the others 1 + t v / k, k from 27 down: e^t in units of 2^-94.
+    // Exponential: the first step makes t = u ln 2, each of the others 1 + t v / k, k from 27 down: e^t in units of
+    // 2^-94.
     // Logarithm: squaring doubles it, so each square that passes 2 is a binary digit.
     let one = vec3<u32>(0x40000000u, 0u, 0u);
     var v = select(u, vec3<u32>(0xb17217f7u, 0xd1cf79abu, 0xc9e3b398u), exponential);

@@ -14,7 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const FIRST_CONSTANT: usize = 0x8000;
 pub(super) const SETUP: u16 = 0xfe00;
 pub(super) const INPUT: u16 = 0xff00;
-/// Rows of results, as `interface.wgsl` has them: colours, killed lanes, depth, lanes whose depth is in the main format.
+/// Rows of results, as `interface.wgsl` has them: colours, killed lanes, depth, lanes whose depth is in the main
+/// format.
 const COLORS: u16 = INPUT + 47;
 const KILLED: u16 = COLORS + 16;
 const DEPTH: u16 = KILLED + 1;
@@ -278,7 +279,8 @@ impl Assembler<'_> {
         self.release(&operands, places);
     }
 
-    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other, so only
+    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other,
+    /// so only
     /// what reads no other lane may write where it reads.
     fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);

@@ -1,8 +1,11 @@
-// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of operations that
+// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of
+// operations that
 // the programs of a draw don't use are left out of the text (parts.rs).
 //
-// The words of a program start at code[q_code]: first word, word of the end, constants, table of the float constants and
-// their number, first slot of the frames, number of slots, first word of interpolation (offsets count from q_code). Operands
+// The words of a program start at code[q_code]: first word, word of the end, constants, table of the float constants
+// and
+// their number, first slot of the frames, number of slots, first word of interpolation (offsets count from q_code).
+// Operands
 // are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then input components.
 // program/microcode.rs writes what this reads.
 
@@ -61,7 +64,8 @@ fn vm_count(counter: u32) {
     scratch[q_row(3u)] = vec4<u32>(counter);
 }
 
-// A frame is two rows: kind, lanes to run afterwards, lanes of `else` or still in the loop, passes left or way back; then
+// A frame is two rows: kind, lanes to run afterwards, lanes of `else` or still in the loop, passes left or way back;
+// then
 // of loops what the counter grows by and what it was.
 fn vm_frame(number: u32) -> u32 {
     return (code[q_code + 5u] + 2u * number) * q_stride + q_invocation;
@@ -245,7 +249,8 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
     }
 }
 
-// What the texture library asks for, of the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w along x,
+// What the texture library asks for, of the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w
+// along x,
 // then along y); and where it puts a texel's components.
 fn texture_operand(number: u32, lane: u32) -> u32 {
     return vm_read(vm_operand(q_read + 1u + select(0u, 2u, number >= 4u), number), lane);

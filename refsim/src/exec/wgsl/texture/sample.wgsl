@@ -181,7 +181,8 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     return out;
 }
 
-// A texture read of the lanes that run: components in the main format, raw; 0 in the other lanes. `texture_operand` gives
+// A texture read of the lanes that run: components in the main format, raw; 0 in the other lanes. `texture_operand`
+// gives
 // coordinates and whatever the detail takes, all in single precision.
 fn texture_read(number: u32, detail: u32, run: vec4<bool>) {
     let s = texture_state(number);

@@ -88,7 +88,8 @@ fn texel_parts_of_single(bits: u32) -> TexelParts {
     );
 }
 
-// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, the denominator of at most 16 bits.
+// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, the denominator of at most 16
+// bits.
 fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> TexelParts {
     let negative = (numerator.y >> 31u) == 1u;
     var magnitude = numerator;
