@@ -1,6 +1,8 @@
-//! Other people's intersectors before the oracle: the crates `bvh`, `obvhs` and `parry3d`, and this project's own host tracer.
+//! Other people's intersectors before the oracle: the crates `bvh`, `obvhs` and `parry3d`, and this project's own host
+//! tracer.
 //!
-//! `cargo run --release -p crossbar-benches --example foreign_intersector` prints the tables of foreign_intersector.md; a test holds the page to them.
+//! `cargo run --release -p crossbar-benches --example foreign_intersector` prints the tables of foreign_intersector.md;
+//! a test holds the page to them.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::fmt::Write as _;
@@ -173,8 +175,8 @@ pub(crate) fn walls() -> Mesh {
     Mesh::new((0..side * side * side).map(point).collect(), triangles).expect("indices in range")
 }
 
-/// Rays along the axes from the middle of every cell: free of all walls, in the plane of one, along the line of two. The zeros have these
-/// signs, the first component's before the second's.
+/// Rays along the axes from the middle of every cell: free of all walls, in the plane of one, along the line of two.
+/// The zeros have these signs, the first component's before the second's.
 pub(crate) fn wall_rays(free: [bool; 2], minus: [bool; 2]) -> Vec<Ray> {
     let mut rays = Vec::new();
     for cell in 0..CELLS * CELLS * CELLS {

@@ -159,8 +159,8 @@ fn the_first_fragment_that_needs_too_much_is_named() {
     }
     assert!(found.iter().all(|error| *error == found[0]), "{found:?}");
     let (ProgramPlace::Pixel { x, y }, instruction, _) = place(&found[0]) else { panic!("{found:?}") };
-    // From row 11 on nobody breaks off soon. The first triangle has the upper right half with the diagonal. Three passes of
-    // eight steps after the first two, and four more.
+    // From row 11 on nobody breaks off soon. The first triangle has the upper right half with the diagonal. Three
+    // passes of eight steps after the first two, and four more.
     assert_eq!((x, y, instruction), (11, 11, 6));
 }
 

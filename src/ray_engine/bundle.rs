@@ -78,7 +78,8 @@ impl Bundle {
 
     fn may_meet(&self, corners: &[DVec3; 3]) -> bool {
         let [Some(a), Some(b), Some(c)] = corners.map(|p| self.project(p - self.origin)) else {
-            // A triangle that reaches behind the plane has no outline on it. It is out of reach only if all of it is behind.
+            // A triangle that reaches behind the plane has no outline on it. It is out of reach only if all of it is
+            // behind.
             return corners.iter().any(|p| (p - self.origin).dot(self.forward) > 0.0);
         };
         (0..2).all(|axis| {

@@ -32,7 +32,8 @@ pub struct RenderedPicture {
 }
 
 impl RenderedPicture {
-    /// Color in single precision, and of what is first hit `t` (infinite for nothing) and `triangle` (`u32::MAX` for nothing).
+    /// Color in single precision, and of what is first hit `t` (infinite for nothing) and `triangle` (`u32::MAX` for
+    /// nothing).
     ///
     /// # Errors
     /// If the picture has no pixels.

@@ -39,7 +39,8 @@ impl Executor {
         Ok(machine)
     }
 
-    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for everybody.
+    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for
+    /// everybody.
     pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
         turn.is_multiple_of(self.every)
     }

@@ -1,4 +1,5 @@
-//! The tools themselves: a difference that was planted is found, cut down to what makes it, and blamed on its instruction.
+//! The tools themselves: a difference that was planted is found, cut down to what makes it, and blamed on its
+//! instruction.
 
 use crate::blame::{Side, blame};
 use crate::executors::REFERENCE;

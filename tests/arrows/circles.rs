@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::source::Crate;
 
 /// Rooms, and folders of rooms, that still have circles.
-const EXEMPT: &[&str] = &["cli", "exec", "geom", "io", "machine/device", "oracle", "radiosity", "ray_engine", "study"];
+const EXEMPT: &[&str] = &[];
 
 type Graph = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 

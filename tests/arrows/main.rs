@@ -63,6 +63,7 @@ const CROSSBAR: Law = (
                 "report",
                 "picture",
                 "card",
+                "tracer",
                 "elementary",
                 "geom",
                 "scene",

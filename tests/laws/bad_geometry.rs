@@ -1,4 +1,5 @@
-//! Meshes and rays at the ends of what f32 holds: nobody panics, hangs or invents numbers; and zeros of both signs are one direction.
+//! Meshes and rays at the ends of what f32 holds: nobody panics, hangs or invents numbers; and zeros of both signs are
+//! one direction.
 
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
@@ -94,7 +95,8 @@ fn walls() -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh")
 }
 
-/// All rays of a direction with zeros, from points between walls, in them, on their edges and outside, with the zeros' signs by bits.
+/// All rays of a direction with zeros, from points between walls, in them, on their edges and outside, with the zeros'
+/// signs by bits.
 fn rays_with_zeros(direction: [f32; 3], signs: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     let mut zeros = 0;

@@ -167,8 +167,8 @@ fn every_stage_in_its_order() {
     assert!(matches!(shorter.stage, TraceStage::Coverage { left: Some(_), right: None }), "{shorter:?}");
 }
 
-/// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and with it whether it
-/// covers the centre of column 3.
+/// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and with it
+/// whether it covers the centre of column 3.
 #[test]
 fn vertices_come_before_what_they_cause() {
     let mut setup = example("transform.toml");
@@ -191,8 +191,8 @@ fn a_mask_is_a_difference() {
     assert_eq!(found.stage, TraceStage::Mask { index: 1, left: Mask::ALL, right: Mask(0b0101) });
 }
 
-/// What an instruction read is put together from what was written before: through `phase`, which loses alpha, and for both of
-/// a pair from before the pair.
+/// What an instruction read is put together from what was written before: through `phase`, which loses alpha, and for
+/// both of a pair from before the pair.
 #[test]
 fn operands_are_what_was_read() {
     let text = r#"shader_model = "ps_1_4"

@@ -1,4 +1,5 @@
-//! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything finds.
+//! Culling in the vertex program loses no hit: a pass that culls finds, bit for bit, what a pass that draws everything
+//! finds.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;

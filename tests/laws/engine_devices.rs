@@ -37,7 +37,8 @@ fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
     hits.iter().map(|hit| hit.map(|h| (h.triangle, h.t.to_bits()))).collect()
 }
 
-/// One GPU cell, the whole scene, and one pass of as many rays as the list has: then program, rays and units are those of the crossbar.
+/// One GPU cell, the whole scene, and one pass of as many rays as the list has: then program, rays and units are those
+/// of the crossbar.
 #[test]
 fn a_pass_of_the_engine_finds_what_the_crossbar_finds() {
     let (mesh, rays) = scene();

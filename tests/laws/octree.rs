@@ -71,7 +71,8 @@ proptest! {
             let (expected, all) = whole.nearest(&ray);
             prop_assert!(all.tests <= mesh.len() as u64);
             if found != expected {
-                // Rounding can make a hit of a triangle that the ray misses, and then no cell on the ray's way need hold it.
+                // Rounding can make a hit of a triangle that the ray misses, and then no cell on the ray's way need
+                // hold it.
                 let false_hit = expected.expect("what is found in cells is found among all").triangle;
                 let corners = mesh.corners(false_hit).expect("a triangle");
                 prop_assert!(exact::intersect(&ray, &corners, sides).is_none(), "lost {:?}, found {:?}", expected, found);

@@ -1,4 +1,5 @@
-//! Golden clocks: what every kernel costs on every card that runs it. A change of a figure or of a formula shows here first.
+//! Golden clocks: what every kernel costs on every card that runs it. A change of a figure or of a formula shows here
+//! first.
 
 use crossbar::ray_engine::kernels;
 use refsim::asm::assemble;

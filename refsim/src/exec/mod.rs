@@ -1,12 +1,13 @@
 //! Executors of checked programs, which compute the same bits by different means.
 //!
 //! - [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
-//! - [`batch`] runs whole tiles in vector code of the host; [`wgsl`] writes shaders, which `gpu` runs on a GPU of the host.
+//! - [`batch`] runs whole tiles in vector code of the host; [`wgsl`] writes shaders, which `gpu` runs on a GPU of the
+//!   host.
 //!   Both start from `lower`: a program as a graph of values.
 //!
-//! `tests/agree` holds them together. What they all share is no arithmetic: the jump structure ([`FlowMap`]), constants as
-//! registers hold them ([`ResolvedConstants`]), bindings, what the machine says of a draw ([`TileDraw`]), and what is
-//! reported of a fragment ([`FragmentResult`], [`Shading`]).
+//! `tests/agree` holds them together. What they all share is no arithmetic: the jump structure ([`FlowMap`]), constants
+//! as registers hold them ([`ResolvedConstants`]), bindings, what the machine says of a draw ([`TileDraw`]), and what
+//! is reported of a fragment ([`FragmentResult`], [`Shading`]).
 
 pub mod batch;
 mod bindings;

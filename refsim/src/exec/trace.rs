@@ -1,7 +1,7 @@
 //! Per-pixel execution traces: the [`PixelTracer`] interface between the machine and the executors.
 //!
-//! A trace is made beside a draw, never during one, so that drawing pays nothing for it: the machine finds the triangles
-//! that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets.
+//! A trace is made beside a draw, never during one, so that drawing pays nothing for it: the machine finds the
+//! triangles that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets.
 
 use super::{FragmentResult, Overrun, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};

@@ -3,8 +3,8 @@
 use refsim::exec::unorm_steps;
 use refsim::num::{Format, FormatKind, NumberOperation, Unpacked, from_ratio, ops, unpack};
 
-/// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for what
-/// is no operation on numbers.
+/// The operation on bit patterns of `format`, as a bit pattern; masks and addresses as the shader has them. `None` for
+/// what is no operation on numbers.
 pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: u32, c: u32) -> Option<u32> {
     use NumberOperation as Op;
     let plain = operation.evaluate(format, [a, b, c]).map(|outcome| outcome.bits);

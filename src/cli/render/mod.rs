@@ -35,8 +35,8 @@ Examples:
 
 /// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
 ///
-/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a scene
-/// file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
+/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a
+/// scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

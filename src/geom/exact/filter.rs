@@ -120,7 +120,8 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     if edges.contains(&Sense::Unknown) {
         return Guess::Unclear;
     }
-    // Numerator and denominator are certain in sign, so |value| > error, unless the height is exactly zero (and t with it).
+    // Numerator and denominator are certain in sign, so |value| > error, unless the height is exactly zero (and t with
+    // it).
     let low = (height.value.abs() - height.error) / (facing.value.abs() + facing.error);
     let high = (height.value.abs() + height.error) / (facing.value.abs() - facing.error);
     Guess::Hit { low: below(low), high: above(high) }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | 0, 1, 2, 10, none | diffuse `Kd`; glossy with `Ks` and `Ns` where `Ks` is not zero |
 //! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
-//! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (where there is none, 1 - `d`; where that is missing too, 1) |
+//! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
 //!
 //! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above
 //! 0) needs glass.

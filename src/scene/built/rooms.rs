@@ -100,7 +100,8 @@ pub fn cornell(what: CornellBox) -> Scene {
         block(&mut room, [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]], 3.3);
     }
     let eye = if what.open { [2.75, -8.0, 2.75] } else { [2.75, 0.05, 2.6] };
-    // From inside wide enough to have the light in the picture, and a little low, so that no pixel looks into a corner exactly.
+    // From inside wide enough to have the light in the picture, and a little low, so that no pixel looks into a corner
+    // exactly.
     let target = [2.75, 2.75, if what.open { 2.75 } else { 2.6 }];
     room.scene(eye, target, if what.open { 0.345 } else { 1.2 })
 }

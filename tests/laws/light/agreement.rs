@@ -6,8 +6,8 @@ use crossbar::scene::{Scene, Surface};
 
 use super::{host, of, room, room_camera, settings, white};
 
-/// At most so many standard deviations between two pixels: by a normal law one of 1.7 million channels lies further off, so a right
-/// picture of 16 x 16 fails once in 2,000 seeds.
+/// At most so many standard deviations between two pixels: by a normal law one of 1.7 million channels lies further
+/// off, so a right picture of 16 x 16 fails once in 2,000 seeds.
 const PIXEL_FAR: f64 = 5.0;
 
 fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
@@ -24,7 +24,8 @@ const FEW: u32 = 4;
 /// As many samples as 96 of each of 16 x 16 pixels.
 const MANY: u32 = 96 * 16;
 
-/// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2), wider for long tails.
+/// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2),
+/// wider for long tails.
 fn agree(a: &RenderedPicture, b: &RenderedPicture) {
     let (mut squares, mut count, mut sum, mut spread) = (0.0, 0.0, 0.0, 0.0);
     for pixel in 0..a.color.len() {

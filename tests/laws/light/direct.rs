@@ -11,8 +11,8 @@ use glam::DVec3;
 
 use super::{Builder, host, lamp, needle, settings, white, within_chance};
 
-/// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle at which it is
-/// seen times the cosine between z and the normal of the plane through it and the origin.
+/// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle
+/// at which it is seen times the cosine between z and the normal of the plane through it and the origin.
 fn lambert(corners: &[DVec3]) -> f64 {
     let side = |i: usize| {
         let (a, b) = (corners[i].normalize(), corners[(i + 1) % corners.len()].normalize());
@@ -21,7 +21,8 @@ fn lambert(corners: &[DVec3]) -> f64 {
     ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
 }
 
-/// The same for a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of its height.
+/// The same for a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of its
+/// height.
 fn parallel_corner(a: f64, b: f64) -> f64 {
     let (x, y) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
     (a / x * libm::atan(b / x) + b / y * libm::atan(a / y)) / (2.0 * PI)

@@ -22,8 +22,8 @@ fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
     sums.map(|[sum, variance]| [sum / count, variance / (count * count)])
 }
 
-/// Both renderers' means of a room differ by at most this share: what chance may do (3 standard deviations) is left out of it. The photons
-/// themselves are chance too, and the same for all pixels; they are part of the share.
+/// Both renderers' means of a room differ by at most this share: what chance may do (3 standard deviations) is left out
+/// of it. The photons themselves are chance too, and the same for all pixels; they are part of the share.
 fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let scene = room(1.0, block);
     let camera = room_camera(12, 12);
@@ -50,8 +50,8 @@ fn gathered_photons_agree_with_paths() {
     assert_bias_below(0.03, &of(Surface::Mirror { reflectance: [0.9; 3] }), 6);
 }
 
-/// Glass lights the floor by caustics alone, which the caustic map blurs over at most 0.3 of a room of 2. The floor that it stands on
-/// counts too: there flux and radiance differ by the square of the index.
+/// Glass lights the floor by caustics alone, which the caustic map blurs over at most 0.3 of a room of 2. The floor
+/// that it stands on counts too: there flux and radiance differ by the square of the index.
 #[test]
 fn caustics_keep_their_energy() {
     assert_bias_below(0.03, &of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] }), 6);

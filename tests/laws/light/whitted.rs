@@ -71,7 +71,8 @@ fn fresnel(cosine: f64, index: f64) -> (f64, f64) {
 
 #[test]
 fn a_prism_turns_light_by_total_internal_reflection() {
-    // Right angle at the origin, legs along x and z, hypotenuse from (2, 0) to (0, 2): 45 degrees are beyond the critical 41.8.
+    // Right angle at the origin, legs along x and z, hypotenuse from (2, 0) to (0, 2): 45 degrees are beyond the
+    // critical 41.8.
     let mut builder = Builder::default();
     let (low, high) = (-5.0, 10.0);
     builder.quad([0.0, low, 0.0], [2.0, 0.0, 0.0], [0.0, -high, 0.0].map(|x: f32| -x), of(glass()));
@@ -127,7 +128,8 @@ fn shadows_end_where_the_light_says() {
 
 #[test]
 fn lit_surfaces_have_no_spots() {
-    // Rays that start on a surface must not meet it again, however far from the origin of coordinates it lies and however flat they leave it.
+    // Rays that start on a surface must not meet it again, however far from the origin of coordinates it lies and
+    // however flat they leave it.
     for shift in [0.0, 100.0, 3000.0] {
         let mut builder = Builder::default();
         builder.quad([shift, shift, 0.1 * shift], [8.0, 0.0, 1.7], [0.0, 7.0, 0.9], white(1.0));

@@ -15,7 +15,8 @@ use refsim::machine::{Executor, ExecutorKind, Machine};
 use refsim::texture::TexelFormat;
 
 const FLOATS: DisplayOptions = DisplayOptions { vector: VectorTexture::Row, target: TexelFormat::Rgba32f };
-/// Corners are snapped to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 32 of one, and rounding adds a little.
+/// Corners are snapped to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 32 of one, and rounding adds a
+/// little.
 const SNAPPED: f64 = 0.05;
 
 fn card(device: &str) -> Machine {
@@ -69,7 +70,8 @@ fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<
     rays.iter().zip(hits).map(found).collect()
 }
 
-/// The patch of each pixel if its centre is farther than [`SNAPPED`] from any other; the outer `None` marks those that are not.
+/// The patch of each pixel if its centre is farther than [`SNAPPED`] from any other; the outer `None` marks those that
+/// are not.
 fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, DVec3)>>> {
     let around = [[0.0, 0.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let pixels = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| [x, y]));
@@ -147,7 +149,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
             let want: f64 = weights.iter().zip(values).map(|(w, corner)| w * corner[c]).sum();
             let spread =
                 values.iter().map(|x| x[c]).fold(0.0, f64::max) - values.iter().map(|x| x[c]).fold(9.0, f64::min);
-            // The nearest patches are 12 pixels wide or more, the farthest 10: snapped corners shift what is inside by half a hundredth.
+            // The nearest patches are 12 pixels wide or more, the farthest 10: snapped corners shift what is inside by
+            // half a hundredth.
             assert!(
                 abs_diff_eq!(pixel[c], want, epsilon = 0.01 * spread + 1e-5),
                 "{} and {want}, spread {spread}",
@@ -159,7 +162,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     assert!(compared > 3 * 3000, "{compared}");
 }
 
-/// A disc of so many triangles around the origin, in an order in which no two in a row are neighbours and make one face.
+/// A disc of so many triangles around the origin, in an order in which no two in a row are neighbours and make one
+/// face.
 fn disc(triangles: u32) -> Scene {
     let turn = |k: u32| {
         let angle = f64::from(k) / f64::from(triangles) * std::f64::consts::TAU;

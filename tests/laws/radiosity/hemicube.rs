@@ -48,7 +48,8 @@ fn finer_hemicubes_come_nearer_to_what_the_centre_sees() {
         most
     };
     let errors = [8, 32, 128].map(off);
-    // Pixels on the outline of a patch decide: their number grows with the resolution, their worth falls with its square.
+    // Pixels on the outline of a patch decide: their number grows with the resolution, their worth falls with its
+    // square.
     assert!(errors[1] < 0.5 * errors[0] && errors[2] < 0.5 * errors[1], "{errors:?}");
     assert!(errors[2] < 2e-3, "{errors:?}");
 }

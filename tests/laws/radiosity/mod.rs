@@ -34,7 +34,8 @@ fn tracer(scene: &Scene) -> HostTracer {
     HostTracer::new(scene.mesh(), Sides::Both)
 }
 
-/// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal, and a right side.
+/// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal,
+/// and a right side.
 fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
     let random = CounterRng::new(seed);
     let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);

@@ -1,4 +1,5 @@
-//! Radiosity against those who do not know of it: form factors by rays alone, light by path tracing, scenes of other makers.
+//! Radiosity against those who do not know of it: form factors by rays alone, light by path tracing, scenes of other
+//! makers.
 
 use std::f64::consts::PI;
 
@@ -18,7 +19,8 @@ use super::tracer;
 
 const FULL: CornellBox = CornellBox { blocks: true, open: false };
 
-/// Whole faces, so that both know the same patches. Ours is a closed form times visibility by rays, theirs is rays alone.
+/// Whole faces, so that both know the same patches. Ours is a closed form times visibility by rays, theirs is rays
+/// alone.
 #[test]
 fn form_factors_agree_with_an_estimate_by_rays_alone() {
     let scene = rooms::cornell(FULL);

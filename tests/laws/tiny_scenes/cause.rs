@@ -9,7 +9,8 @@ use crossbar::oracle::{Disagreement, DisagreementKind};
 pub(crate) enum Cause {
     /// A sign of u, v or w: on which side of an edge the ray passes.
     Edge,
-    /// The sign of n.d, or the normal itself: a triangle or a ray so nearly in a plane that fp32 sees another side, or none.
+    /// The sign of n.d, or the normal itself: a triangle or a ray so nearly in a plane that fp32 sees another side, or
+    /// none.
     Plane,
     /// The sign of t: the origin lies on the surface, or next to it.
     Start,

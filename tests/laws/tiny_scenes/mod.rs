@@ -1,9 +1,11 @@
-//! Ten thousand tiny scenes (degenerate, coplanar, doubled, huge, tiny and needle-like triangles; rays along axes, in planes, from
-//! surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same bits.
+//! Ten thousand tiny scenes (degenerate, coplanar, doubled, huge, tiny and needle-like triangles; rays along axes, in
+//! planes, from surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same
+//! bits.
 //!
-//! **What is held.** The yardstick is the f32 test of the card among all pairs. Where its triangle is the right one in exact arithmetic,
-//! or rightly none, every path gives its bits. Where it is not, or t is off by a hundredth or more, a path may differ, but only in leaving out
-//! what fp32 sees where nothing is: whatever a path finds, the f32 test grants. How often fp32 is wrong, and by which rounding, is the table of docs/papers/ray_engine.md.
+//! **What is held.** The yardstick is the f32 test of the card among all pairs. Where its triangle is the right one in
+//! exact arithmetic, or rightly none, every path gives its bits. Where it is not, or t is off by a hundredth or more, a
+//! path may differ, but only in leaving out what fp32 sees where nothing is: whatever a path finds, the f32 test
+//! grants. How often fp32 is wrong, and by which rounding, is the table of docs/papers/ray_engine.md.
 
 mod cause;
 mod scene;
@@ -122,7 +124,8 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
         let yardstick = Yardstick::new(number);
         let scene = &yardstick.scene;
         let mut differing = 0;
-        // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is none: scenes of one size have no such t.
+        // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is none: scenes of one size
+        // have no such t.
         if scene.moderate {
             let card = Crossbar::new(profile(), ExecutorKind::Batch).all_pairs(true);
             let hits = card.intersect_list(&scene.mesh, &scene.rays, scene.sides).expect("the card works");

@@ -11,7 +11,8 @@ pub(crate) struct Scene {
     pub(crate) mesh: Mesh,
     pub(crate) rays: Vec<Ray>,
     pub(crate) sides: Sides,
-    /// Whether its coordinates, or those of its rays' origins, are of one moderate size: products neither overflow nor vanish in f32.
+    /// Whether its coordinates, or those of its rays' origins, are of one moderate size: products neither overflow nor
+    /// vanish in f32.
     pub(crate) moderate: bool,
 }
 

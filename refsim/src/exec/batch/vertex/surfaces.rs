@@ -1,7 +1,7 @@
 //! Triangles in structure of arrays: each distinct shape once, and one row per component that the pixel program reads.
 //!
-//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and differ in components that
-//! are constant over each triangle.
+//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and differ in components
+//! that are constant over each triangle.
 
 use crate::num::Format;
 use crate::raster::{ComponentMask, Plane, TriangleSetup};
