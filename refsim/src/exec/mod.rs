@@ -2,8 +2,7 @@
 //!
 //! - [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
 //! - [`batch`] runs whole tiles in vector code of the host; [`wgsl`] writes shaders, which `gpu` runs on a GPU of the
-//!   host.
-//!   Both start from `lower`: a program as a graph of values.
+//!   host. Both start from `lower`: a program as a graph of values.
 //!
 //! `tests/agree` holds them together. What they all share is no arithmetic: the jump structure ([`FlowMap`]), constants
 //! as registers hold them ([`ResolvedConstants`]), bindings, what the machine says of a draw ([`TileDraw`]), and what

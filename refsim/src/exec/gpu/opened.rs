@@ -53,9 +53,8 @@ pub struct Kernel {
     pub bindings: &'static [Access],
 }
 
-/// Texts of a kernel that are compiled for the very parts that a draw uses, and then for what any draw used so far.
-/// The next
-/// one has all parts: random programs would have one each.
+/// Texts of a kernel that are compiled for the very parts that a draw uses, and then for what any draw used so far. The
+/// next one has all parts: random programs would have one each.
 const MAX_EXACT: usize = 6;
 const MAX_GROWING: usize = 9;
 

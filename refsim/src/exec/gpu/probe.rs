@@ -1,8 +1,6 @@
-//! An adapter's own single precision beside IEEE 754, operation by operation: which results have other bits, and
-//! which of
-//! these WGSL doesn't allow ([`crate::exec::wgsl::accuracy`]), which is a fault of the driver. The executor uses no
-//! floats of
-//! an adapter; this is for whoever has a GPU or writes a driver for one.
+//! An adapter's own single precision beside IEEE 754, operation by operation: which results have other bits, and which
+//! of these WGSL doesn't allow ([`crate::exec::wgsl::accuracy`]), which is a fault of the driver. The executor uses no
+//! floats of an adapter; this is for whoever has a GPU or writes a driver for one.
 
 use serde::Serialize;
 
@@ -92,9 +90,8 @@ impl ProbeReport {
     }
 }
 
-/// Tries every operation on `count` operand sets: all pairs of edge values as far as they fit, then others drawn from
-/// a fixed
-/// seed. [`FULL`] for a verdict.
+/// Tries every operation on `count` operand sets: all pairs of edge values as far as they fit, then others drawn from a
+/// fixed seed. [`FULL`] for a verdict.
 ///
 /// # Errors
 /// What the device refuses.
@@ -156,9 +153,8 @@ struct OperandSets {
 
 impl OperandSets {
     fn new(operation: SingleOperation) -> Self {
-        // Zero, smallest and largest subnormal, smallest normal, around one half, one and two, largest, infinity,
-        // NaN, and
-        // an integer that no longer fits.
+        // Zero, smallest and largest subnormal, smallest normal, around one half, one and two, largest, infinity, NaN,
+        // and an integer that no longer fits.
         let places: [u32; 12] = [
             0,
             1,

@@ -1,12 +1,9 @@
 //! What WGSL lets an adapter's own `f32` operations give.
 //!
-//! Source: "WebGPU Shading Language", sections 15.7 (floating point evaluation: subnormal numbers may be flushed on
-//! the way
-//! in and out, results of infinite or NaN operands and of overflow are indeterminate, multiply and add may be fused)
-//! and
-//! 15.7.4 (accuracy: add, subtract, multiply correctly rounded, which means either neighbour of an inexact result;
-//! divide 2.5
-//! ULP for divisors from 2^-126 to 2^126; `inverseSqrt` 2 ULP; `sqrt` as `1 / inverseSqrt`).
+//! Source: "WebGPU Shading Language", sections 15.7 (floating point evaluation: subnormal numbers may be flushed on the
+//! way in and out, results of infinite or NaN operands and of overflow are indeterminate, multiply and add may be
+//! fused) and 15.7.4 (accuracy: add, subtract, multiply correctly rounded, which means either neighbour of an inexact
+//! result; divide 2.5 ULP for divisors from 2^-126 to 2^126; `inverseSqrt` 2 ULP; `sqrt` as `1 / inverseSqrt`).
 
 use serde::Serialize;
 

@@ -27,8 +27,7 @@ pub const ENTRY: &str = "pixel_main";
 /// Invocations of a workgroup.
 pub const INVOCATIONS: usize = 64;
 /// Words of `counts`: the fates of fragments and the reads of each sampler, two words each; then [`UNFINISHED`],
-/// [`CUT`] and
-/// [`OVERRUN`].
+/// [`CUT`] and [`OVERRUN`].
 pub const COUNT_WORDS: usize = 47;
 /// The word of `counts` that says how many invocations have work left: the dispatch must be made again.
 pub const UNFINISHED: usize = 44;
@@ -60,8 +59,7 @@ const FIELDS: [(&str, usize); 22] = [
     // Whether it is on, the equation of colours, that of alpha.
     ("D_BLEND", 7),
     // Row of `scratch` after the program's registers; whether this goes on with a dispatch; loop passes of an
-    // invocation, of
-    // a triangle.
+    // invocation, of a triangle.
     ("D_ROWS", 1),
     ("D_RESUMES", 1),
     ("D_PASSES", 1),

@@ -1,6 +1,5 @@
 //! The executor for GPUs as text: WGSL modules that compute the reference's bits, in integers, so that every adapter
-//! gives the
-//! same. No GPU is needed to make or check the text.
+//! gives the same. No GPU is needed to make or check the text.
 //!
 //! - `interface`: what the parts share. [`kernel`] and [`target`]: rasterisation, tests, blending, targets.
 //! - [`follow`]: the kernel that tells everything about single pixels.

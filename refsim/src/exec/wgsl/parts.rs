@@ -1,10 +1,9 @@
 //! Which parts of the machine a draw uses, and the text with those alone.
 //!
 //! Drivers put every function in line and compile what no branch reaches, so a machine for everything takes them
-//! minutes.
-//! Here a text is cut down before a driver sees it. It stays WGSL as it stands: parts are arms of switches (`case
-//! VM_DOT: {`)
-//! whose labels are names of parts, blocks under `if (HAS_CUBES) {`, and functions that nothing calls any more.
+//! minutes. Here a text is cut down before a driver sees it. It stays WGSL as it stands: parts are arms of switches
+//! (`case VM_DOT: {`) whose labels are names of parts, blocks under `if (HAS_CUBES) {`, and functions that nothing
+//! calls any more.
 
 use super::program;
 use crate::num::NumberOperation;

@@ -1,12 +1,9 @@
-//! Programs for GPUs. A checked program becomes words ([`Microcode`]) for one machine written in WGSL ([`machine`]),
-//! of which
-//! a draw compiles the parts that it uses ([`super::parts`]).
+//! Programs for GPUs. A checked program becomes words ([`Microcode`]) for one machine written in WGSL ([`machine`]), of
+//! which a draw compiles the parts that it uses ([`super::parts`]).
 //!
 //! The machine is `fn shade()`, which works on the variables and rows of [`super::INTERFACE`]. Inputs are single
-//! precision
-//! patterns with NaN canonical. The module also has the number library, the texture library, and what [`NO_TRACE`]
-//! stands
-//! in for.
+//! precision patterns with NaN canonical. The module also has the number library, the texture library, and what
+//! [`NO_TRACE`] stands in for.
 
 mod interpolate;
 mod lower;
@@ -69,8 +66,7 @@ pub struct PixelShader {
 
 impl PixelShader {
     /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`; with `traced`, what
-    /// each
-    /// instruction writes in the followed lane is put down ([`trace_steps`]).
+    /// each instruction writes in the followed lane is put down ([`trace_steps`]).
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
         Self { lowered: Lowered::pixel(program(checked), rules, Formats::pixel(rules), bindings, traced) }
     }

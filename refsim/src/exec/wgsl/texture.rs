@@ -1,9 +1,8 @@
 //! Texture reads in WGSL: the sampler table, texels as words, and the text that reads them.
 //!
 //! The text defines `texture_read` and `texel_decode`. It takes from the rest of its module: the bindings `samplers`
-//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result`
-//! for what goes
-//! in and out, and of the number library `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu`.
+//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result` for
+//! what goes in and out, and of the number library `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu`.
 //!
 //! Everything that a read depends on comes from the sampler table, so one module serves all textures and states. A
 //! sampler has [`SAMPLER_WORDS`] words; what is at which place the constants say, which the text has by the same names.

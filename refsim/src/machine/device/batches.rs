@@ -19,8 +19,7 @@ pub(super) struct TileBatch {
 }
 
 /// Cuts a round into dispatches of at most so many tiles and so many triangles over all tiles. A tile is at most once
-/// in
-/// a dispatch, and its triangles come in order over the dispatches.
+/// in a dispatch, and its triangles come in order over the dispatches.
 pub(super) fn dispatches(
     setups: &[TriangleSetup],
     region: Region,

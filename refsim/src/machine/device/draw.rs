@@ -28,9 +28,8 @@ const MOST_TRIANGLES: usize = 8192;
 /// Tiles of one dispatch at most.
 const MOST_TILES: usize = 4096;
 /// Loop passes of an invocation in one dispatch: on software a quarter of lavapipe's 65,535, since lanes that take
-/// different
-/// ways through a program cost more than any of them. They are the shader's own; a program's step budget is another
-/// matter.
+/// different ways through a program cost more than any of them. They are the shader's own; a program's step budget is
+/// another matter.
 const SOFTWARE_PASSES: u32 = 16_000;
 const PASSES: u32 = 1 << 22;
 /// Workgroups in a row: WebGPU's limit is 65,535.
@@ -49,9 +48,8 @@ impl Machine {
 
     /// Draws a checked call on the GPU; the best one that the computer has, if none was given.
     ///
-    /// Where programs may exceed their step budgets the host keeps what targets hold, for the case that they do.
-    /// Which fragment
-    /// it was the batch executor finds out: the GPU knows that there was one.
+    /// Where programs may exceed their step budgets the host keeps what targets hold, for the case that they do. Which
+    /// fragment it was the batch executor finds out: the GPU knows that there was one.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,

@@ -1,8 +1,7 @@
 //! Following pixels on the GPU: each round takes every pixel to the next triangle that covers it.
 //!
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a
-//! dispatch,
-//! which is why this is no [`crate::exec::PixelTracer`].
+//! dispatch, which is why this is no [`crate::exec::PixelTracer`].
 
 use super::shader::{FOLLOW, load};
 use super::{Card, draw};
@@ -28,8 +27,7 @@ const FLOW_STEPS: usize = 256;
 const INPUTS: usize = 12;
 
 /// A fragment of a followed pixel: the triangle's place among the set-ups of the pass; what it found, what was done,
-/// what
-/// it left.
+/// what it left.
 pub(in crate::machine) struct Followed {
     pub(in crate::machine) triangle: usize,
     pub(in crate::machine) before: PixelState,

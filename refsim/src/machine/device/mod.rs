@@ -1,8 +1,7 @@
 //! Memory and draws of a machine on a GPU of the host.
 //!
 //! Textures, targets and depth buffers stay there between draws. The host's copy goes there before a draw that needs
-//! it,
-//! if the host wrote it last; what was drawn comes back once, when the host asks.
+//! it, if the host wrote it last; what was drawn comes back once, when the host asks.
 
 mod batches;
 mod draw;

@@ -1,8 +1,7 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
 //! - `lane`: what an arithmetic has to offer; `fixed`, `ieee`, `float`: in host integers and host floats; `odd`,
-//!   `power`:
-//!   exact results rounded to odd into doubles; `any`: which format gets which; `formats`: those of a program.
+//!   `power`: exact results rounded to odd into doubles; `any`: which format gets which; `formats`: those of a program.
 //! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
 
 mod any;

@@ -1,11 +1,10 @@
 //! Pixel programs without flow control: one graph, scheduled as three blocks.
 //!
 //! - What is constant over a triangle (attributes that are, and what follows from them and constants) is computed for
-//!   256
-//!   triangles at a time, one lane per triangle.
+//!   256 triangles at a time, one lane per triangle.
 //! - What depends only on the place in the tile (coordinates that vary, texels read at them) is computed for 256
-//!   fragments
-//!   and kept as long as triangles have the same planes there: the crossbar reads its rays once per tile, not per quad.
+//!   fragments and kept as long as triangles have the same planes there: the crossbar reads its rays once per tile, not
+//!   per quad.
 //! - The rest is computed for 256 fragments of each triangle.
 
 use std::collections::BTreeMap;

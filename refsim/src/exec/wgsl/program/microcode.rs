@@ -279,9 +279,8 @@ impl Assembler<'_> {
         self.release(&operands, places);
     }
 
-    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other,
-    /// so only
-    /// what reads no other lane may write where it reads.
+    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other, so
+    /// only what reads no other lane may write where it reads.
     fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);
         let to = places.fresh();

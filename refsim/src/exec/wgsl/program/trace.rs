@@ -9,13 +9,11 @@ use crate::isa::{Mask, Register, RegisterFile};
 use crate::num::{Flags, ops};
 
 /// Words that an executed instruction puts down: its number, the components written, four raw values. Input registers
-/// come
-/// first, with numbers past those of the instructions.
+/// come first, with numbers past those of the instructions.
 pub const TRACE_WORDS: usize = 6;
 
 /// The steps of a lane (0 to 3) out of the `q_traced` words that a shader made by [`super::PixelShader::traced`] put
-/// down,
-/// as [`crate::exec::Shading`] holds them.
+/// down, as [`crate::exec::Shading`] holds them.
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
     let formats = Formats::pixel(rules);
