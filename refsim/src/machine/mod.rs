@@ -18,6 +18,7 @@ mod executor_kind;
 mod handle;
 mod memory;
 mod observe;
+mod pixel_state;
 mod record;
 mod recorder;
 mod resources;
@@ -33,7 +34,8 @@ pub use error::{MachineError, ProgramPlace};
 pub use executor::Executor;
 pub use executor_kind::ExecutorKind;
 pub use handle::{DepthId, TextureId};
-pub use trace::{FragmentTrace, PixelState};
+pub use pixel_state::PixelState;
+pub use trace::FragmentTrace;
 
 use std::sync::Arc;
 

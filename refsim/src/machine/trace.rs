@@ -6,12 +6,12 @@ use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules};
 use super::walk::load;
-use super::{DrawCall, ExecutorKind, Machine, MachineError, validate};
+use super::{DrawCall, ExecutorKind, Machine, MachineError, PixelState, validate};
 use crate::exec::batch::BatchExecutor;
 use crate::exec::scalar::ScalarTiles;
 use crate::exec::{Overrun, PixelTracer, Shading, TileDraw, program};
 use crate::isa::Stage;
-use crate::output::{MAX_TARGETS, TargetTile};
+use crate::output::TargetTile;
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
@@ -35,24 +35,6 @@ pub struct FragmentTrace {
     pub shading: Shading,
     /// What the targets hold at the pixel after.
     pub after: PixelState,
-}
-
-/// What the targets hold at one pixel, as stored.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PixelState {
-    /// The texel of each colour target, a little-endian integer.
-    pub colors: [Option<u128>; MAX_TARGETS],
-    /// The pattern in the depth buffer.
-    pub depth: Option<u32>,
-}
-
-impl PixelState {
-    fn of(tile: &TargetTile) -> Self {
-        Self {
-            colors: [0, 1, 2, 3].map(|i: usize| tile.colors[i].as_ref().map(|target| target.raw(0))),
-            depth: tile.depth.as_ref().and_then(|depth| depth.data.first().copied()),
-        }
-    }
 }
 
 impl Machine {

@@ -5,7 +5,7 @@
 //! (`case VM_DOT: {`) whose labels are names of parts, blocks under `if (HAS_CUBES) {`, and functions that nothing
 //! calls any more.
 
-use super::program;
+use super::program::operations;
 use crate::num::NumberOperation;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -75,7 +75,7 @@ impl Default for Parts {
     fn default() -> Self {
         let costly: Vec<NumberOperation> = COSTLY.concat();
         let plain = NumberOperation::ALL.into_iter().filter(|operation| !costly.contains(operation));
-        Self(plain.map(NumberOperation::constant).chain(program::plain_operations()).collect())
+        Self(plain.map(NumberOperation::constant).chain(operations::plain()).collect())
     }
 }
 
@@ -84,7 +84,7 @@ impl Parts {
     pub fn all() -> Self {
         let features = FEATURES.iter().chain(&CUBES).map(|&name| name.to_owned());
         let operations = NumberOperation::ALL.into_iter().map(NumberOperation::constant);
-        Self(features.chain(operations).chain(program::all_operations()).collect())
+        Self(features.chain(operations).chain(operations::all()).collect())
     }
 
     /// With a part more.

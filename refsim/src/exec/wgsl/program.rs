@@ -5,57 +5,32 @@
 //! precision patterns with NaN canonical. The module also has the number library, the texture library, and what
 //! [`NO_TRACE`] stands in for.
 
+mod assembler;
 mod interpolate;
 mod lower;
 mod microcode;
 mod microcode_flow;
-mod operations;
+pub(super) mod operations;
 mod trace;
 
 use crate::device::Rules;
 use crate::exec::lower::Formats;
 use crate::exec::{CheckedProgram, PixelBindings, program};
+pub(crate) use assembler::IN_OUT_ROWS;
 pub use interpolate::Interpolation;
 pub(crate) use interpolate::PLANES;
 use lower::Lowered;
-pub(crate) use microcode::IN_OUT_ROWS;
-pub use microcode::Microcode;
-use thiserror::Error;
+pub use microcode::{Microcode, ProgramError};
 pub use trace::{TRACE_WORDS, trace_delivered, trace_steps};
 
 /// The function that puts down what a followed lane does, in a module that follows none. Words are numbered from 0.
 pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";
-
-/// Why a program has no form for GPUs.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum ProgramError {
-    /// More values at a time, or more constants, than operands can name.
-    #[error(
-        "the program needs {slots} slots and {constants} constants, at most 32768 and 32256 can be named; use another executor"
-    )]
-    TooLarge {
-        /// Values at a time.
-        slots: usize,
-        /// Constants.
-        constants: usize,
-    },
-}
 
 /// The machine that runs a [`Microcode`]: `fn shade()` in WGSL, with all its parts.
 pub fn machine() -> String {
     let names = (0..).zip(operations::NAMES);
     let constants = names.map(|(number, name)| format!("const {}: u32 = {number}u;\n", operations::constant(name)));
     constants.collect::<String>() + include_str!("program/vm.wgsl")
-}
-
-/// The parts that are operations of every machine.
-pub(super) fn plain_operations() -> impl Iterator<Item = String> {
-    operations::plain().iter().map(|name| operations::constant(name))
-}
-
-/// The parts that are operations of the machine.
-pub(super) fn all_operations() -> impl Iterator<Item = String> {
-    operations::NAMES.iter().map(|name| operations::constant(name))
 }
 
 /// A pixel program ready to be put into words.

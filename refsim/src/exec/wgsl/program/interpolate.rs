@@ -1,6 +1,6 @@
 //! Interpolation as words for the machine: its arithmetic is compiled once, for interpolation and program together.
 
-use super::microcode::{Assembler, INPUT, NONE, SETUP};
+use super::assembler::{Assembler, INPUT, NONE, SETUP};
 use super::operations as op;
 use crate::exec::wgsl::number::source_word;
 use crate::num::{Format, NumberOperation};

@@ -1,7 +1,7 @@
 //! Flow control in the words of the machine.
 
+use super::assembler::{Assembler, NONE};
 use super::lower::{ACTIVE_SLOT, MaskedStep, Sink, SinkKind};
-use super::microcode::{Assembler, NONE};
 use super::operations as op;
 use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::isa::{Opcode, OpcodeClass};

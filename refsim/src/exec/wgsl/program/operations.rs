@@ -22,9 +22,14 @@ const FIRST_COSTLY: u32 = DOT;
 /// Operations from here on come and go together.
 const FIRST_FLOW: u32 = STEP;
 
-/// The operations that every machine has.
-pub(super) fn plain() -> &'static [&'static str] {
-    &NAMES[..FIRST_COSTLY as usize]
+/// The constants of the operations that every machine has.
+pub(in crate::exec::wgsl) fn plain() -> impl Iterator<Item = String> {
+    NAMES[..FIRST_COSTLY as usize].iter().map(|name| constant(name))
+}
+
+/// The constants of all operations.
+pub(in crate::exec::wgsl) fn all() -> impl Iterator<Item = String> {
+    NAMES.iter().map(|name| constant(name))
 }
 
 /// The operations that a machine must have for one of them.

@@ -1,0 +1,387 @@
+//! Words of the machine of `vm.wgsl`, made block by block: values get slots, operations get words.
+
+use super::lower::{Sink, SinkKind};
+use super::operations as op;
+use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, Slot};
+use crate::exec::wgsl::number::source_word;
+use crate::exec::wgsl::parts::Parts;
+use crate::num::{Format, NumberOperation};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Operands from here on are constants, then words of a triangle's set-up, then rows of what goes in and out.
+pub(super) const FIRST_CONSTANT: usize = 0x8000;
+pub(super) const SETUP: u16 = 0xfe00;
+pub(super) const INPUT: u16 = 0xff00;
+/// Rows of results, as `interface.wgsl` has them: colours, killed lanes, depth, lanes whose depth is in the main
+/// format.
+pub(super) const COLORS: u16 = INPUT + 47;
+pub(super) const KILLED: u16 = COLORS + 16;
+pub(super) const DEPTH: u16 = KILLED + 1;
+pub(super) const DEPTH_IS_MAIN: u16 = DEPTH + 1;
+/// How many rows go in and out.
+pub(crate) const IN_OUT_ROWS: usize = (DEPTH_IS_MAIN - INPUT) as usize + 1;
+/// No operand.
+pub(super) const NONE: u16 = 0xffff;
+/// Loop passes of an instruction, by the class that its word names in bits 14 and 15.
+pub(super) const PASSES: [u32; 4] = [20, 600, 1000, 8000];
+
+/// Makes the words of a program.
+pub(super) struct Assembler<'g> {
+    pub(super) graph: &'g Graph,
+    pub(super) formats: &'g Formats,
+    pub(super) words: Vec<u32>,
+    /// Constants and their numbers.
+    pub(super) pool: BTreeMap<u32, usize>,
+    /// The first slot that holds no register.
+    pub(super) first: Slot,
+    /// Slots used.
+    pub(super) next: usize,
+    pub(super) parts: Parts,
+    pub(super) samplers: BTreeSet<usize>,
+    pub(super) passes: u32,
+}
+
+/// The values of one block on their way through slots.
+pub(super) struct Places {
+    at: BTreeMap<NodeId, u16>,
+    /// Reads still to come.
+    left: BTreeMap<NodeId, u32>,
+    free: Vec<u16>,
+    next: usize,
+    texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
+}
+
+impl Places {
+    fn fresh(&mut self) -> u16 {
+        self.free.pop().unwrap_or_else(|| {
+            self.next += 1;
+            (self.next - 1) as u16
+        })
+    }
+
+    pub(super) fn of(&self, node: NodeId) -> u16 {
+        self.at.get(&node).copied().unwrap_or(NONE)
+    }
+}
+
+impl Assembler<'_> {
+    pub(super) fn constant(&mut self, raw: u32) -> u16 {
+        let number = self.pool.len();
+        let number = *self.pool.entry(raw).or_insert(number);
+        // Too many are found out at the end.
+        (FIRST_CONSTANT + number).min(usize::from(SETUP) - 1) as u16
+    }
+
+    /// The first word of an instruction.
+    pub(super) fn push(&mut self, operation: u32, rest: u32) {
+        for name in op::with(operation) {
+            self.parts.add(&op::constant(name));
+        }
+        self.words.push(operation | rest);
+    }
+
+    /// The first word of an instruction that makes about so many loop passes.
+    pub(super) fn push_costly(&mut self, operation: u32, rest: u32, passes: u32) {
+        let class = PASSES.iter().position(|&most| passes <= most).unwrap_or(PASSES.len() - 1);
+        self.passes += PASSES[class];
+        self.push(operation, rest | (class as u32) << 14);
+    }
+
+    /// The number of a format, which is used.
+    pub(super) fn format(&mut self, k: Arith) -> u32 {
+        let format = self.formats.format(k);
+        self.parts.add_if(format != Format::FP32, "HAS_FORMATS");
+        self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+        k.number()
+    }
+
+    /// Computes what the sinks need and gives it to them, each as soon as it has everything.
+    pub(super) fn block(&mut self, sinks: &[Sink]) -> Places {
+        let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
+        let needed: Vec<NodeId> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| NodeId(i)).collect();
+        let next = usize::from(self.first);
+        let mut places =
+            Places { at: BTreeMap::new(), left: BTreeMap::new(), free: Vec::new(), next, texels: BTreeMap::new() };
+        let mut reads = |n: NodeId| *places.left.entry(n).or_default() += 1;
+        for &node in &needed {
+            self.graph.kind(node).needs(&mut reads);
+        }
+        sinks.iter().flat_map(|s| s.nodes.iter().copied()).for_each(reads);
+        for &node in &needed {
+            if let NodeKind::Texel(fetch, component) = self.graph.kind(node) {
+                places.texels.entry(fetch).or_default().push((component, node));
+            }
+            self.leaf(node, &mut places);
+        }
+        // A sink is served after the last of its values. Merges come last, in order.
+        let mut order: Vec<(Option<NodeId>, &Sink)> = Vec::with_capacity(sinks.len());
+        let mut traced = None;
+        for sink in sinks {
+            let mut last = sink.nodes.iter().copied().max();
+            match sink.what {
+                SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => last = Some(NodeId(u32::MAX)),
+                SinkKind::Trace(..) => {
+                    last = last.max(traced);
+                    traced = last;
+                }
+                _ => {}
+            }
+            order.push((last, sink));
+        }
+        order.sort_by_key(|&(last, _)| last);
+        let mut waiting = order.into_iter().peekable();
+        for &node in &needed {
+            if places.of(node) == NONE {
+                self.node(node, &mut places);
+            }
+            while let Some((_, sink)) = waiting.next_if(|&(last, _)| last <= Some(node)) {
+                self.sink(sink, &mut places);
+            }
+        }
+        let (last, early): (Vec<&Sink>, Vec<&Sink>) = waiting
+            .map(|(_, sink)| sink)
+            .partition(|s| matches!(s.what, SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition));
+        for sink in early {
+            self.sink(sink, &mut places);
+        }
+        self.merge(&last, &mut places);
+        self.next = self.next.max(places.next);
+        places
+    }
+
+    fn leaf(&mut self, node: NodeId, places: &mut Places) {
+        let at = match self.graph.kind(node) {
+            NodeKind::Constant(raw) => self.constant(raw),
+            NodeKind::Held(slot) => slot,
+            NodeKind::Input(component) => INPUT + component,
+            _ => return,
+        };
+        places.at.insert(node, at);
+    }
+
+    /// One read of each of these values is done; slots nobody reads any more are free.
+    fn release(&self, nodes: &[NodeId], places: &mut Places) {
+        for node in nodes {
+            let Some(left) = places.left.get_mut(node) else { continue };
+            *left = left.saturating_sub(1);
+            let kept = matches!(
+                self.graph.kind(*node),
+                NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) | NodeKind::Fetch(..)
+            );
+            if *left == 0 && !kept && places.of(*node) != NONE {
+                places.free.push(places.of(*node));
+            }
+        }
+    }
+
+    fn release_operands(&self, node: NodeId, places: &mut Places) {
+        let mut operands = Vec::new();
+        self.graph.kind(node).needs(|n| operands.push(n));
+        self.release(&operands, places);
+    }
+
+    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other, so
+    /// only what reads no other lane may write where it reads.
+    fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
+        self.release_operands(node, places);
+        let to = places.fresh();
+        places.at.insert(node, to);
+        to
+    }
+
+    pub(super) fn emit(&mut self, operation: u32, rest: u32, to: u16, [a, b, c]: [u16; 3]) {
+        let passes = match (operation, rest >> 16) {
+            (op::ALU, code) => passes(code),
+            _ => PASSES[0],
+        };
+        self.push_costly(operation, rest, passes);
+        self.words.extend([pair(to, a), pair(b, c)]);
+    }
+
+    fn node(&mut self, node: NodeId, places: &mut Places) {
+        match self.graph.kind(node) {
+            NodeKind::Compute(k, code, args) => self.compute(node, k, code, args.map(|n| places.of(n)), places),
+            NodeKind::Dot(k, terms, a, b) => {
+                let mut operands = [0; 8];
+                for i in 0..usize::from(terms.min(4)) {
+                    (operands[2 * i], operands[2 * i + 1]) = (places.of(a[i]), places.of(b[i]));
+                }
+                let format = self.format(k);
+                let to = self.result(node, places);
+                let [o0, o1, o2, o3, o4, o5, o6, o7] = operands;
+                self.push_costly(op::DOT, format << 8 | u32::from(terms) << 16, 600);
+                self.words.extend([pair(to, o0), pair(o1, o2), pair(o3, o4), pair(o5, o6), pair(o7, 0)]);
+            }
+            NodeKind::Difference(k, down, a) => {
+                let (a, other) = (places.of(a), if down { 2 } else { 1 });
+                let to = places.fresh();
+                places.at.insert(node, to);
+                self.release_operands(node, places);
+                self.parts.add_operation(NumberOperation::Sub);
+                let format = self.format(k);
+                self.emit(op::ALU, format << 8 | other << 12 | NumberOperation::Sub.word() << 16, to, [a; 3]);
+            }
+            NodeKind::Convert(from, into, a) => {
+                let format = self.formats.format(from);
+                self.parts.add_if(format.is_fixed(), "HAS_FIXED");
+                let source = self.constant(source_word(&format));
+                self.alu(node, into, NumberOperation::Convert, [places.of(a), source, source], places);
+            }
+            NodeKind::Steps(steps, a) => {
+                let steps = self.constant(steps);
+                self.alu(node, Arith::Main, NumberOperation::Steps, [places.of(a), steps, steps], places);
+            }
+            NodeKind::Relative(base, component, a) => {
+                let a = places.of(a);
+                let to = self.result(node, places);
+                self.push_costly(op::RELATIVE, u32::from(component) << 16, PASSES[0]);
+                self.words.extend([pair(to, a), base.cast_unsigned()]);
+            }
+            NodeKind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
+            NodeKind::Circle(k, sine, a) => {
+                let a = places.of(a);
+                self.alu(node, k, if sine { NumberOperation::Sin } else { NumberOperation::Cos }, [a; 3], places);
+            }
+            NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
+        }
+    }
+
+    fn alu(&mut self, node: NodeId, k: Arith, operation: NumberOperation, args: [u16; 3], places: &mut Places) {
+        let to = self.result(node, places);
+        self.operation(k, operation, to, args);
+    }
+
+    fn operation(&mut self, k: Arith, operation: NumberOperation, to: u16, args: [u16; 3]) {
+        self.parts.add_operation(operation);
+        let format = self.format(k);
+        self.emit(op::ALU, format << 8 | operation.word() << 16, to, args);
+    }
+
+    fn compute(&mut self, node: NodeId, k: Arith, code: NumberOperation, args: [u16; 3], places: &mut Places) {
+        let [a, b, c] = args;
+        let bits = match code {
+            NumberOperation::And => Some(op::AND),
+            NumberOperation::Or => Some(op::OR),
+            NumberOperation::AndNot => Some(op::AND_NOT),
+            NumberOperation::Select => Some(op::SELECT),
+            _ => None,
+        };
+        if let Some(bits) = bits {
+            let to = self.result(node, places);
+            self.emit(bits, 0, to, args);
+            return;
+        }
+        match code {
+            // The shader has no operation that rounds twice.
+            NumberOperation::Mad => {
+                let product = places.fresh();
+                self.operation(k, NumberOperation::Mul, product, [a, b, a]);
+                places.free.push(product);
+                self.alu(node, k, NumberOperation::Add, [product, c, product], places);
+            }
+            _ => {
+                let args = std::array::from_fn(|i| if i < code.operands() { args[i] } else { a });
+                self.alu(node, k, code, args, places);
+            }
+        }
+    }
+
+    fn fetch(&mut self, node: NodeId, sampler: u8, coordinates: [NodeId; 4], detail: Detail, places: &mut Places) {
+        let [u, v, w, q] = coordinates.map(|n| places.of(n));
+        let (number, more) = match detail {
+            Detail::Implicit => (0, vec![]),
+            Detail::Biased(bias) => (1, vec![places.of(bias).into()]),
+            Detail::Gradients(x, y) => {
+                let all: Vec<u16> = x.iter().chain(&y).map(|&n| places.of(n)).collect();
+                (2, all.chunks_exact(2).map(|p| pair(p[0], p[1])).collect())
+            }
+        };
+        let mut to = [NONE; 4];
+        for (component, texel) in places.texels.remove(&node).unwrap_or_default() {
+            let slot = places.fresh();
+            places.at.insert(texel, slot);
+            to[usize::from(component & 3)] = slot;
+        }
+        places.at.insert(node, 0);
+        // One lane's texel is written before the next one's coordinates are read.
+        self.release_operands(node, places);
+        self.samplers.insert(sampler.into());
+        self.push_costly(op::FETCH, u32::from(sampler) << 16 | number << 24, 8000);
+        self.words.extend([pair(u, v), pair(w, q), pair(to[0], to[1]), pair(to[2], to[3])]);
+        self.words.extend(more);
+    }
+
+    fn sink(&mut self, sink: &Sink, places: &mut Places) {
+        let operands: Vec<u16> = sink.nodes.iter().map(|&n| places.of(n)).collect();
+        let first = operands.first().copied().unwrap_or(NONE);
+        match sink.what {
+            SinkKind::Color(target, c) => self.emit(op::COPY, 0, COLORS + 4 * target + c, [first; 3]),
+            SinkKind::Killed => self.emit(op::COPY, 0, KILLED, [first; 3]),
+            SinkKind::Depth(arith) => {
+                let decided = operands.get(1).copied().unwrap_or(first);
+                self.emit(op::SELECT, 0, DEPTH, [decided, first, DEPTH]);
+                if arith == Arith::Main {
+                    self.emit(op::COPY, 0, DEPTH_IS_MAIN, [decided; 3]);
+                }
+            }
+            SinkKind::Trace(at, mask) => {
+                let (mut values, mut masks) = ([NONE; 4], [NONE; 4]);
+                let half = operands.len() / 2;
+                for (i, c) in mask.components().enumerate() {
+                    values[c] = operands.get(i).copied().unwrap_or(NONE);
+                    masks[c] = operands.get(half + i).copied().unwrap_or(NONE);
+                }
+                self.push_costly(op::TRACE, 0, PASSES[0]);
+                self.words.push(at as u32);
+                self.words.extend([values, masks].iter().flat_map(|o| [pair(o[0], o[1]), pair(o[2], o[3])]));
+            }
+            SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => {}
+        }
+        self.release(&sink.nodes, places);
+    }
+
+    /// Writes registers. A register that a later write reads is kept for it first.
+    fn merge(&mut self, sinks: &[&Sink], places: &mut Places) {
+        let target = |sink: &Sink| match sink.what {
+            SinkKind::Merge(to) | SinkKind::Move(to) => Some(to),
+            _ => None,
+        };
+        let mut operands: Vec<Vec<u16>> =
+            sinks.iter().map(|s| s.nodes.iter().map(|&n| places.of(n)).collect()).collect();
+        let mut kept: BTreeMap<u16, u16> = BTreeMap::new();
+        for i in 0..sinks.len() {
+            for j in 0..operands[i].len() {
+                let from = operands[i][j];
+                if sinks[..i].iter().any(|s| target(s) == Some(from)) {
+                    operands[i][j] = *kept.entry(from).or_insert_with(|| {
+                        let copy = places.fresh();
+                        self.emit(op::COPY, 0, copy, [from; 3]);
+                        copy
+                    });
+                }
+            }
+        }
+        for (sink, operands) in sinks.iter().zip(&operands) {
+            match (sink.what, operands.as_slice()) {
+                (SinkKind::Merge(to), &[value, mask]) => self.emit(op::SELECT, 0, to, [mask, value, to]),
+                (SinkKind::Move(to), &[value]) => self.emit(op::COPY, 0, to, [value; 3]),
+                _ => {}
+            }
+        }
+    }
+}
+
+fn pair(low: u16, high: u16) -> u32 {
+    u32::from(low) | u32::from(high) << 16
+}
+
+/// Loop passes of an operation on numbers in four lanes.
+fn passes(operation: u32) -> u32 {
+    use NumberOperation as Op;
+    match Op::ALL.get(operation as usize) {
+        Some(Op::Exp2 | Op::Log2) => 1000,
+        Some(Op::Div | Op::Rcp | Op::Rsq | Op::Sqrt | Op::Steps | Op::Sin | Op::Cos) => 600,
+        Some(Op::SplitShort | Op::SplitByte | Op::SplitSignedByte) => 600,
+        _ => PASSES[0],
+    }
+}
