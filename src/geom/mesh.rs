@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::exact;
 use super::vector::{unit, wide};
 
 /// Triangles that share vertices. Every index is in range and every coordinate finite: [`Mesh::new`] has checked it.
@@ -228,12 +227,6 @@ impl Mesh {
         let mut welder = Welder::default();
         let triangles = self.iter_corners().map(|corners| corners.map(|position| welder.vertex(position))).collect();
         Self { positions: welder.into_positions(), triangles, ..Self::default() }
-    }
-
-    /// Number of triangles without area: two corners at one place, or three on one line, exactly.
-    #[must_use]
-    pub fn degenerate_count(&self) -> usize {
-        self.iter_corners().filter(exact::is_degenerate).count()
     }
 
     /// How two triangles touch. Corners are compared by position, so a mesh whose file repeats its vertices is judged

@@ -3,44 +3,12 @@
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::Report;
 use super::disagreement::{Disagreement, DisagreementKind, Expected};
+use super::{Report, Tolerance};
 use crate::compare::{self, Number};
-use crate::geom::classify::{Candidate, HitVerdict, classify, t_error};
+use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
-
-/// How far a t may be from the exact one: it is right if one of the two figures allows it.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Tolerance {
-    /// Steps of f32 from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: t does not matter.
-    pub ulps: u32,
-    /// Distance from the exact t, in multiples of the ray's direction. For t near 0, where steps of f32 are tiny.
-    pub absolute: f64,
-}
-
-impl Tolerance {
-    /// Only triangles are judged.
-    pub const ANY_T: Self = Self::ulps(u32::MAX);
-
-    /// So many steps of f32.
-    #[must_use]
-    pub const fn ulps(ulps: u32) -> Self {
-        Self { ulps, absolute: 0.0 }
-    }
-
-    /// Or so near, in multiples of the ray's direction.
-    #[must_use]
-    pub const fn or_absolute(self, absolute: f64) -> Self {
-        Self { absolute, ..self }
-    }
-
-    fn allows(self, t: f32, exact: &ExactT, ulps: Option<u64>) -> bool {
-        self.ulps == u32::MAX
-            || ulps.is_some_and(|ulps| ulps <= u64::from(self.ulps))
-            || (self.absolute > 0.0 && t_error(exact, t).absolute <= self.absolute)
-    }
-}
 
 /// Why answers cannot be judged.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]

@@ -42,10 +42,12 @@ mod hard;
 mod judge;
 mod pictures;
 mod report;
+mod tolerance;
 
 pub use disagreement::{Disagreement, DisagreementKind, Expected};
 pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
 pub use hard::{Aim, HardRay, hard_rays};
-pub use judge::{Oracle, OracleError, Tolerance};
+pub use judge::{Oracle, OracleError};
 pub use pictures::{Sample, assert_images_equal, images_equal};
 pub use report::Report;
+pub use tolerance::Tolerance;

@@ -5,8 +5,8 @@ use std::fmt;
 use serde::Serialize;
 use serde::ser::{SerializeStruct as _, Serializer};
 
+use super::Tolerance;
 use super::disagreement::{Disagreement, DisagreementKind};
-use super::judge::Tolerance;
 use crate::geom::Sides;
 
 /// Disagreements that a text lists.
@@ -111,17 +111,6 @@ impl fmt::Display for Report {
             0 => Ok(()),
             more => write!(f, "\n  and {more} more"),
         }
-    }
-}
-
-impl fmt::Display for Tolerance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.ulps {
-            u32::MAX => return f.write_str("any t"),
-            1 => f.write_str("t within 1 ULP")?,
-            ulps => write!(f, "t within {ulps} ULPs")?,
-        }
-        if self.absolute > 0.0 { write!(f, " or {:e}", self.absolute) } else { Ok(()) }
     }
 }
 

@@ -4,11 +4,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, Event, TexelObserver};
-use refsim::machine::{Executor, MachineError};
+use refsim::event::{DrawEvents, TexelObserver};
+use refsim::machine::Executor;
 use refsim::num::{Format, FormatKind};
 use refsim::texture::Region;
 
+use super::answer::{Answer, EngineError, MAX_TRIANGLES};
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
 use super::outputs::{Outputs, TargetEncoding};
@@ -16,63 +17,16 @@ use super::pass::{PassCard, PassRequirements};
 use super::range::Range;
 use super::resident::ResidentCrossbar;
 use super::units::Units;
-use super::{Kernel, RayBatch, RayBatchError};
-use crate::card::KernelError;
+use super::{Kernel, RayBatch};
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
-/// Triangle ids are 24-bit colors.
-const MAX_TRIANGLES: usize = 1 << 24;
 /// Sides of the buckets of a batch of eye rays, in pixels.
 const BUCKET: u32 = 32;
 /// Sides of the buckets of a list: the squares that it is laid out in.
 const LIST_BUCKET: u32 = 16;
 /// Rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
-
-/// A card cannot intersect rays with triangles.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum EngineError {
-    /// The card's shader versions have no intersection program.
-    #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
-    #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
-    NoKernel {
-        /// The device.
-        device: String,
-    },
-    /// The device refuses a program.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Kernel(#[from] KernelError),
-    /// More triangles than ids.
-    #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colors), found {found}")]
-    #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
-    TooManyTriangles {
-        /// Triangles of the mesh.
-        found: usize,
-    },
-    /// Rays that fill no rectangle.
-    #[error(transparent)]
-    #[diagnostic(code(ray_engine::batch))]
-    Batch(#[from] RayBatchError),
-    /// The card refuses a resource or a draw.
-    #[error("the card refuses the work")]
-    #[diagnostic(code(ray_engine::machine))]
-    Machine(#[from] MachineError),
-}
-
-/// The result of a batch.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// The hit of each ray.
-    pub hits: Vec<Option<Hit>>,
-    /// What happened on the card.
-    pub events: DrawEvents,
-    /// The pixel program that ran.
-    pub kernel: &'static str,
-    /// The log of the card; empty unless it was recorded.
-    pub log: Vec<Event>,
-}
 
 /// Creates a `TexelObserver` per bucket.
 pub type MakeWatcher<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
@@ -294,29 +248,5 @@ fn tells_apart(format: &Format, most: usize) -> bool {
     match format.kind {
         FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
         FormatKind::Fixed { .. } => false,
-    }
-}
-
-/// An id as a color: red is its lowest byte, alpha 1.
-pub(super) fn color_of_id(id: u32) -> [u32; 4] {
-    let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
-    [part(0), part(8), part(16), 1.0_f32.to_bits()]
-}
-
-/// The id in an `A8R8G8B8` pixel.
-pub(super) const fn id_of_color(raw: u32) -> u32 {
-    (raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ids_survive_as_bytes() {
-        for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
-            let [r, g, b, _] = color_of_id(id).map(|bits| (f32::from_bits(bits) * 255.0).round() as u32);
-            assert_eq!(id_of_color(0xff00_0000 | r << 16 | g << 8 | b), id, "{id:#x}");
-        }
     }
 }

@@ -4,6 +4,7 @@
 //! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each
 //! equation.
 
+mod answer;
 mod barycentrics;
 mod bundle;
 mod card;
@@ -24,7 +25,8 @@ mod resident;
 mod units;
 mod vertex_crossbar;
 
-pub use crossbar::{Answer, Crossbar, EngineError, MakeWatcher};
+pub use answer::{Answer, EngineError};
+pub use crossbar::{Crossbar, MakeWatcher};
 pub use kernel::{Form, Kernel};
 pub use outputs::Outputs;
 pub use rays::{RayBatch, RayBatchError};

@@ -3,8 +3,6 @@
 use refsim::device::Profile;
 use refsim::texture::{Image, TexelFormat};
 
-use super::crossbar::{color_of_id, id_of_color};
-
 /// What is read back of each ray of a pass (sections 4.2 and 6.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Outputs {
@@ -91,6 +89,30 @@ impl TargetEncoding {
             Self::Id => (raw >> 24 != 0).then(|| PixelResult { triangle: id_of_color(raw), uvw: None }),
             Self::Place16 => at(raw >> 11 & 31 | (raw >> 5 & 63) << 5 | (raw & 31) << 11),
             Self::Place8 | Self::Weights => at(raw & 0xff),
+        }
+    }
+}
+
+/// An id as a color: red is its lowest byte, alpha 1.
+pub(super) fn color_of_id(id: u32) -> [u32; 4] {
+    let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
+    [part(0), part(8), part(16), 1.0_f32.to_bits()]
+}
+
+/// The id in an `A8R8G8B8` pixel.
+pub(super) const fn id_of_color(raw: u32) -> u32 {
+    (raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_survive_as_bytes() {
+        for id in [0, 1, 255, 256, 0x0012_3456, 0x00ff_ffff] {
+            let [r, g, b, _] = color_of_id(id).map(|bits| (f32::from_bits(bits) * 255.0).round() as u32);
+            assert_eq!(id_of_color(0xff00_0000 | r << 16 | g << 8 | b), id, "{id:#x}");
         }
     }
 }

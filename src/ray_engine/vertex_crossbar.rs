@@ -9,8 +9,9 @@ use refsim::output::DepthFormat;
 use refsim::raster::Primitive;
 use refsim::texture::TexelFormat;
 
+use super::answer::{Answer, EngineError};
 use super::card::bind;
-use super::crossbar::{Answer, EngineError, color_of_id, id_of_color};
+use super::outputs::{color_of_id, id_of_color};
 use super::range::Range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};

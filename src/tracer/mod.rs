@@ -10,6 +10,7 @@
 //! [`HostTracer::nearest_in`], and [`HostTracer::nearest_of_all`] without an octree, are the plain forms that the fast
 //! ones are tested against; whether a hit is *true* is decided by [`crate::geom::exact`].
 
+mod best;
 mod cast;
 mod host_tracer;
 pub mod octree;
@@ -18,6 +19,6 @@ mod packet;
 pub(crate) mod scale;
 pub(crate) mod triangle_test;
 
+pub(crate) use best::Best;
 pub use cast::{CastError, Caster, is_occluder};
-pub(crate) use host_tracer::Best;
 pub use host_tracer::{HostCounts, HostTracer};

@@ -3,7 +3,7 @@
 use super::triangle_test::{HostRay, HostTriangle, scaled_corners};
 use glam::Vec3;
 
-use super::host_tracer::Best;
+use super::best::Best;
 use crate::geom::Mesh;
 
 /// Triangles of a packet.

@@ -15,7 +15,7 @@
 
 use glam::{DVec3, Vec3Swizzles};
 
-use super::Sides;
+use super::hit::Sides;
 use crate::geom::Ray;
 use crate::geom::vector::wide;
 

@@ -3,7 +3,7 @@
 use num_bigint::{BigInt, Sign};
 use num_traits::Zero;
 
-use super::{ExactT, NearestHit, Sides};
+use super::hit::{ExactT, NearestHit, Sides};
 use crate::geom::{Mesh, Ray};
 
 type IntegerVector = [BigInt; 3];

@@ -7,64 +7,24 @@
 //!
 //! [`write`] gives text that reads back with the same bits.
 
+mod error;
 pub mod mtl;
 mod reader;
 mod write;
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
+pub use error::SceneObjError;
 pub use mtl::{MtlError, parse_mtl};
 pub use write::{write_mtl, write_scene};
 
 use super::model::is_ply;
 use super::obj::{MAX_BYTES, ObjError, logical_lines, words};
-use super::ply::{PlyError, parse_ply};
+use super::ply::parse_ply;
 use super::read_limited;
-use crate::scene::{Scene, SceneError};
+use crate::scene::Scene;
 use reader::SceneReader;
-
-/// Why a file is no scene. Lines count from 1.
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum SceneObjError {
-    /// Something about its geometry.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Obj(#[from] ObjError),
-    /// Something about a PLY file.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Ply(#[from] PlyError),
-    /// A material library cannot be read.
-    #[error(
-        "{}:{line}: cannot read the material library {}; put it beside the model, or take the line out",
-        path.display(), library.display()
-    )]
-    Library {
-        /// The model.
-        path: PathBuf,
-        /// The line that names the library.
-        line: usize,
-        /// The library.
-        library: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// Something about a material.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Mtl(#[from] MtlError),
-    /// The parts do not make a scene.
-    #[error("{}: {reason}", path.display())]
-    Scene {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: SceneError,
-    },
-}
 
 /// Reads a scene from an OBJ file and the libraries that it names, or from a PLY file, all of one grey material. It has
 /// no views and no point lights.

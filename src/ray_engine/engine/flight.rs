@@ -1,9 +1,12 @@
 //! Rays on their way.
 
-use super::Ticket;
 use crate::geom::{Hit, Ray};
 use crate::tracer::Best;
 use crate::tracer::triangle_test::HostRay;
+
+/// A ray given to the engine, by the order of giving.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Ticket(pub u64);
 
 /// A ray in a GPU cell's cache.
 #[derive(Clone, Copy, Debug, PartialEq)]

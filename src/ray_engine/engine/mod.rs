@@ -39,11 +39,8 @@ use order::order;
 use passes::Passes;
 
 pub use counts::EngineCounts;
+pub use flight::Ticket;
 pub use parameters::{EngineParameters, Readback};
-
-/// A ray given to the engine, by the order of giving.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Ticket(pub u64);
 
 /// A hit with its place in the triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]

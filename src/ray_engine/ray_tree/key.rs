@@ -12,6 +12,13 @@ pub(super) struct Key {
     pub(super) direction: [f32; 2],
 }
 
+/// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RayTreeEntry {
+    pub(super) ray: u32,
+    pub(super) key: Key,
+}
+
 impl Key {
     /// The face that a ray looks through (0 to 5: +x -x +y -y +z -z; of equal components the first) and its place.
     pub(super) fn of(ray: &Ray) -> (u32, Self) {

@@ -10,7 +10,7 @@ mod split;
 mod take;
 
 use crate::geom::Ray;
-use key::Key;
+use key::{Key, RayTreeEntry};
 use split::Split;
 
 pub use take::Taken;
@@ -49,13 +49,6 @@ pub struct RayTreeCounts {
     pub levels_merged: u64,
     /// Batches after which anything was merged.
     pub merges: u64,
-}
-
-/// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct RayTreeEntry {
-    ray: u32,
-    key: Key,
 }
 
 #[derive(Clone, Debug)]

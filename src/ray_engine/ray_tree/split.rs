@@ -1,7 +1,6 @@
 //! Where a full bucket is cut.
 
-use super::RayTreeEntry;
-use super::key::Key;
+use super::key::{Key, RayTreeEntry};
 
 /// Two planes: one of origins, one of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,21 +23,26 @@ struct OctreeBuilder {
     octree: Octree,
 }
 
-pub(super) fn build(mesh: &Mesh, parameters: OctreeParameters) -> Octree {
-    let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
-    let widest = (high - low).max_element();
-    let magnitude = low.abs().max(high.abs()).max_element();
-    // A root of no size cannot be cut: a mesh in one point gets some room.
-    let size = (widest * (1.0 + ROOM) + magnitude * ROOM * ROOM).max(f64::from(f32::MIN_POSITIVE));
-    let corner = (low + high) / 2.0 - size / 2.0;
-    let margin = MARGIN * (size + magnitude);
-    let octree = Octree { corner, size, margin, nodes: vec![OctreeNode::Leaf(0, 0)], triangles: Vec::new(), depth: 0 };
-    let corners = (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|corners| corners.map(wide)).collect();
-    let mut builder = OctreeBuilder { corners, parameters, margin, octree };
-    let everything = (0..builder.corners.len() as u32).collect();
-    let middle = corner + size / 2.0;
-    builder.fill(0, middle, size / 2.0, everything, 0, 0);
-    builder.octree
+impl Octree {
+    /// An octree over a mesh. An empty mesh makes a root without triangles.
+    pub fn new(mesh: &Mesh, parameters: OctreeParameters) -> Self {
+        let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
+        let widest = (high - low).max_element();
+        let magnitude = low.abs().max(high.abs()).max_element();
+        // A root of no size cannot be cut: a mesh in one point gets some room.
+        let size = (widest * (1.0 + ROOM) + magnitude * ROOM * ROOM).max(f64::from(f32::MIN_POSITIVE));
+        let corner = (low + high) / 2.0 - size / 2.0;
+        let margin = MARGIN * (size + magnitude);
+        let octree =
+            Self { corner, size, margin, nodes: vec![OctreeNode::Leaf(0, 0)], triangles: Vec::new(), depth: 0 };
+        let corners =
+            (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|corners| corners.map(wide)).collect();
+        let mut builder = OctreeBuilder { corners, parameters, margin, octree };
+        let everything = (0..builder.corners.len() as u32).collect();
+        let middle = corner + size / 2.0;
+        builder.fill(0, middle, size / 2.0, everything, 0, 0);
+        builder.octree
+    }
 }
 
 impl OctreeBuilder {

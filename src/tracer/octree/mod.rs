@@ -20,8 +20,6 @@ pub use traverse::{Flow, TraversalCounts, Visit};
 
 use glam::DVec3;
 
-use crate::geom::Mesh;
-
 /// When a cell is cut in eight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OctreeParameters {
@@ -82,11 +80,6 @@ pub struct OctreeCounts {
 }
 
 impl Octree {
-    /// An octree over a mesh. An empty mesh makes a root without triangles.
-    pub fn new(mesh: &Mesh, parameters: OctreeParameters) -> Self {
-        build::build(mesh, parameters)
-    }
-
     /// How far beyond its planes a cell still lists triangles, in scene units.
     pub fn margin(&self) -> f64 {
         self.margin

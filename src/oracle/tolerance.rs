@@ -1,0 +1,49 @@
+//! How far a t may be off.
+
+use std::fmt;
+
+use crate::geom::ExactT;
+use crate::geom::classify::t_error;
+
+/// How far a t may be from the exact one: it is right if one of the two figures allows it.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Tolerance {
+    /// Steps of f32 from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: t does not matter.
+    pub ulps: u32,
+    /// Distance from the exact t, in multiples of the ray's direction. For t near 0, where steps of f32 are tiny.
+    pub absolute: f64,
+}
+
+impl Tolerance {
+    /// Only triangles are judged.
+    pub const ANY_T: Self = Self::ulps(u32::MAX);
+
+    /// So many steps of f32.
+    #[must_use]
+    pub const fn ulps(ulps: u32) -> Self {
+        Self { ulps, absolute: 0.0 }
+    }
+
+    /// Or so near, in multiples of the ray's direction.
+    #[must_use]
+    pub const fn or_absolute(self, absolute: f64) -> Self {
+        Self { absolute, ..self }
+    }
+
+    pub(super) fn allows(self, t: f32, exact: &ExactT, ulps: Option<u64>) -> bool {
+        self.ulps == u32::MAX
+            || ulps.is_some_and(|ulps| ulps <= u64::from(self.ulps))
+            || (self.absolute > 0.0 && t_error(exact, t).absolute <= self.absolute)
+    }
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.ulps {
+            u32::MAX => return f.write_str("any t"),
+            1 => f.write_str("t within 1 ULP")?,
+            ulps => write!(f, "t within {ulps} ULPs")?,
+        }
+        if self.absolute > 0.0 { write!(f, " or {:e}", self.absolute) } else { Ok(()) }
+    }
+}
