@@ -4,8 +4,8 @@ macro_rules! operations {
     ($($name:ident)*) => {
         #[derive(Clone, Copy)]
         #[expect(non_camel_case_types, clippy::upper_case_acronyms, reason = "the names of the shader's constants")]
-        enum Number { $($name,)* }
-        $(pub(super) const $name: u32 = Number::$name as u32;)*
+        enum OperationNumber { $($name,)* }
+        $(pub(super) const $name: u32 = OperationNumber::$name as u32;)*
         /// Names in the order of their numbers.
         pub(super) const NAMES: &[&str] = &[$(stringify!($name)),*];
     };
