@@ -2,8 +2,8 @@
 
 use crate::study::reproduce::prose::number;
 
-/// A sweep's setting that reaches a figure that the row misses. Made by [`super::Sweep::explain`] alone, from values of the
-/// run.
+/// A sweep's setting that reaches a figure that the row misses. Made by [`super::Sweep::explain`] alone, from values of
+/// the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     pub(super) sweep: &'static str,
