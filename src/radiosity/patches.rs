@@ -2,18 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use thiserror::Error;
-
 use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
+use super::patch_error::{MAX_PATCHES, PatchError};
 use super::subdivide::{Face, faces_of, steps_for_at_most};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
-use crate::linalg::MAX_SQUARE;
 use crate::scene::{Scene, Surface};
-
-/// The most patches: those of the largest matrix.
-pub const MAX_PATCHES: usize = MAX_SQUARE;
 
 /// How finely faces are cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,37 +18,6 @@ pub enum Subdivision {
     /// Into parts as equal in length as whole numbers allow, as many patches as fit within this number. At least one
     /// per face.
     AtMost(usize),
-}
-
-/// A scene cannot be cut into patches.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum PatchError {
-    /// No triangles.
-    #[error("expected a scene with surfaces, found none")]
-    Empty,
-    /// A triangle without area.
-    #[error("triangle {triangle} (counted from 0) has no area; remove it, or merge its corners")]
-    ZeroArea {
-        /// The triangle.
-        triangle: u32,
-    },
-    /// More patches than the largest matrix has rows.
-    #[error("expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer")]
-    TooMany {
-        /// How many it would be.
-        found: usize,
-    },
-    /// Sides cut into no parts.
-    #[error("expected sides cut into 1 part or more, found 0")]
-    NoParts,
-    /// A surface that is not diffuse.
-    #[error("material `{name}` is {found}, expected a diffuse surface: radiosity knows no other")]
-    NotDiffuse {
-        /// The material.
-        name: String,
-        /// What it is.
-        found: &'static str,
-    },
 }
 
 /// The patches of a scene, with the faces that they are parts of.

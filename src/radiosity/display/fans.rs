@@ -7,7 +7,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::corners::place;
-use super::in_patch;
 use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
@@ -84,4 +83,11 @@ fn fan(patch: &Patch, outline: &[FanVertex]) -> Vec<[FanVertex; 3]> {
     let inside = if corners.len() == 3 { [shares; 2] } else { [0.5; 2] };
     let next = |i: usize| outline[(i + 1) % outline.len()];
     (0..outline.len()).map(|i| [(middle, inside), outline[i], next(i)]).collect()
+}
+
+/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second
+/// and third corner.
+pub(super) fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
+    let [b, c] = [[1.0, 0.0], [0.0, 1.0]];
+    if patch.corners().len() == 3 { [[0.0, 0.0], b, c, c] } else { [[0.0, 0.0], b, [1.0, 1.0], c] }
 }

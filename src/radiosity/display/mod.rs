@@ -16,37 +16,15 @@ use refsim::raster::{Primitive, Vertex};
 use refsim::texture::{SamplerState, TexelFormat};
 
 use super::draw::{DrawError, Projection, bits, patch_of};
-use super::{Patch, Patches, kernels};
+use super::{Patches, kernels};
 use crate::card::{NearestTarget, Texels};
 use crate::picture::Picture;
 use crate::scene::Camera;
 use corners::CornerSets;
 pub use corners::at_corners;
+use fans::in_patch;
 use resample::Resampler;
-
-/// The orientation of a vector of radiosities in its texture, a rectangle of `rgba32f`: texel i is red, green and
-/// blue of patch i.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VectorTexture {
-    /// N x 1 texels.
-    #[default]
-    Row,
-    /// 1 x N texels.
-    Column,
-}
-
-impl VectorTexture {
-    fn texel(self, patch: usize) -> [f64; 2] {
-        let at = patch as f64 + 0.5;
-        if self == Self::Row { [at, 0.5] } else { [0.5, at] }
-    }
-
-    /// p[0], p[1] of the resampling program: a number + 1/2 times the first plus the second is the texel.
-    fn constants(self) -> [[u32; 4]; 2] {
-        let [step, start] = if self == Self::Row { [[1.0, 0.0], [0.0, 0.5]] } else { [[0.0, 1.0], [0.5, 0.0]] };
-        [step, start].map(|[x, y]| bits([x, y, 0.0, 0.0]))
-    }
-}
+pub use resample::VectorTexture;
 
 /// Parameters of the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,11 +214,4 @@ impl VertexBuilder<'_> {
         vertex.texcoords[3] = bits([x, y, code, 0.0]);
         vertex
     }
-}
-
-/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second
-/// and third corner.
-fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
-    let [b, c] = [[1.0, 0.0], [0.0, 1.0]];
-    if patch.corners().len() == 3 { [[0.0, 0.0], b, c, c] } else { [[0.0, 0.0], b, [1.0, 1.0], c] }
 }

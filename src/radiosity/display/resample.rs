@@ -5,16 +5,39 @@ use refsim::machine::{Machine, TextureId};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::VectorTexture;
 use super::corners::CornerSets;
 use crate::card::{FullScreenPass, PingPong, Texels};
-use crate::radiosity::draw::DrawError;
+use crate::radiosity::draw::{DrawError, bits};
 use crate::radiosity::kernels;
 
 /// Texels across, at most.
 const WIDTH: usize = 512;
 /// Patches per pass.
 const PER_PASS: usize = 4;
+
+/// The orientation of a vector of radiosities in its texture, a rectangle of `rgba32f`: texel i is red, green and
+/// blue of patch i.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VectorTexture {
+    /// N x 1 texels.
+    #[default]
+    Row,
+    /// 1 x N texels.
+    Column,
+}
+
+impl VectorTexture {
+    pub(super) fn texel(self, patch: usize) -> [f64; 2] {
+        let at = patch as f64 + 0.5;
+        if self == Self::Row { [at, 0.5] } else { [0.5, at] }
+    }
+
+    /// p[0], p[1] of the resampling program: a number + 1/2 times the first plus the second is the texel.
+    fn constants(self) -> [[u32; 4]; 2] {
+        let [step, start] = if self == Self::Row { [[1.0, 0.0], [0.0, 0.5]] } else { [[0.0, 1.0], [0.5, 0.0]] };
+        [step, start].map(|[x, y]| bits([x, y, 0.0, 0.0]))
+    }
+}
 
 /// The texture of radiosities at corners, with the passes that fill it.
 #[derive(Debug)]

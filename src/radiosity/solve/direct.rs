@@ -1,6 +1,6 @@
 //! Reference solution by LU.
 
-use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 use crate::linalg::Lu;
 
 /// Counts as one iteration. The tolerance only decides whether the solution counts as converged.

@@ -1,6 +1,7 @@
 //! Solvers of equation 2 on the host, in f64, with the convergence history that Figure 3 plots.
 
 mod direct;
+mod problem;
 mod relax;
 mod shoot;
 
@@ -9,7 +10,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-use crate::linalg::{Matrix, Singular};
+pub use problem::{Options, Problem, Solution, SolveError, mean_square, residual};
 
 /// How a system is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,86 +26,6 @@ pub enum Solver {
     Shooting,
     /// LU factorisation: no iterations.
     Direct,
-}
-
-/// When to stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// The norm of the residual, relative to that of the right-hand side, at which an iteration stops.
-    pub tolerance: f64,
-    /// The most iterations.
-    pub most_iterations: u32,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { tolerance: 1e-6, most_iterations: 1000 }
-    }
-}
-
-/// A linear system with what solvers need beside it.
-#[derive(Clone, Copy, Debug)]
-pub struct Problem<'a> {
-    /// M of equation 2. Its diagonal has no zero.
-    pub matrix: &'a Matrix,
-    /// The right-hand side, E.
-    pub right_hand_side: &'a [f64],
-    /// The areas of the patches: shooting goes by power.
-    pub areas: &'a [f64],
-    /// The initial guess; `None` means 0.
-    pub start: Option<&'a [f64]>,
-}
-
-/// A solution with its convergence history.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
-    /// B.
-    pub radiosity: Vec<f64>,
-    /// The mean square of the residual E - M B, initially and after each iteration: Figure 3's error.
-    pub history: Vec<f64>,
-    /// Whether the tolerance was reached.
-    pub converged: bool,
-}
-
-impl Solution {
-    /// How many iterations it took.
-    #[must_use]
-    pub fn iterations(&self) -> usize {
-        self.history.len() - 1
-    }
-}
-
-/// Why there is no solution.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum SolveError {
-    /// Not one element per row.
-    #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
-    Count {
-        /// What there is too much or too little of.
-        what: &'static str,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Elements found.
-        found: usize,
-    },
-    /// A relaxation factor for which SOR cannot converge.
-    #[error("expected a relaxation factor above 0 and below 2, found {0}")]
-    Relaxation(f64),
-    /// A zero on the diagonal.
-    #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
-    Diagonal {
-        /// The row.
-        row: usize,
-    },
-    /// The iteration diverges, or the input holds NaN or infinity.
-    #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
-    Diverged {
-        /// Iterations done.
-        iterations: usize,
-    },
-    /// No inverse.
-    #[error(transparent)]
-    Singular(#[from] Singular),
 }
 
 /// Solves.
@@ -140,51 +61,6 @@ fn check(problem: &Problem<'_>) -> Result<(), SolveError> {
         Some(row) => Err(SolveError::Diagonal { row }),
         None => Ok(()),
     }
-}
-
-/// The mean squares of the residuals so far, and the stopping criterion.
-struct IterationHistory {
-    errors: Vec<f64>,
-    target: f64,
-    max_iterations: u32,
-}
-
-impl IterationHistory {
-    fn new(problem: &Problem<'_>, options: &Options) -> Self {
-        let target = options.tolerance * options.tolerance * mean_square(problem.right_hand_side);
-        Self { errors: Vec::new(), target, max_iterations: options.most_iterations }
-    }
-
-    /// Records a residual. `Some` if the iteration ends here: whether the tolerance is reached.
-    fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, SolveError> {
-        let error = mean_square(residual);
-        if !error.is_finite() {
-            return Err(SolveError::Diverged { iterations: self.errors.len() });
-        }
-        self.errors.push(error);
-        let converged = error <= self.target;
-        Ok((converged || self.errors.len() > self.max_iterations as usize).then_some(converged))
-    }
-
-    fn into_solution(self, radiosity: Vec<f64>, converged: bool) -> Solution {
-        Solution { radiosity, history: self.errors, converged }
-    }
-}
-
-/// The mean square; 0 for no values.
-#[must_use]
-pub fn mean_square(values: &[f64]) -> f64 {
-    crate::linalg::dot(values, values) / values.len().max(1) as f64
-}
-
-/// The residual, E - M B.
-#[must_use]
-pub fn residual(matrix: &Matrix, right_hand_side: &[f64], radiosity: &[f64]) -> Vec<f64> {
-    matrix.times(radiosity).iter().zip(right_hand_side).map(|(mb, e)| e - mb).collect()
-}
-
-fn start(problem: &Problem<'_>) -> Vec<f64> {
-    problem.start.map_or_else(|| vec![0.0; problem.matrix.row_count()], <[f64]>::to_vec)
 }
 
 impl fmt::Display for Solver {

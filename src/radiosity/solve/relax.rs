@@ -1,6 +1,6 @@
 //! Relaxation methods: Jacobi, Gauss-Seidel, successive over-relaxation.
 
-use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 use crate::linalg::dot;
 
 /// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no further product.

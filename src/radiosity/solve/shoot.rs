@@ -1,6 +1,6 @@
 //! Progressive refinement (Cohen, Chen, Wallace and Greenberg, 1988): Southwell's relaxation, largest power first.
 
-use super::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 
 /// The residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is
 /// computed anew, so that rounding errors do not accumulate in it.

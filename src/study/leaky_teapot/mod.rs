@@ -5,13 +5,11 @@
 //! first hits that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners
 //! that triangles share, where the paper's equations are evaluated once for each neighbour and need not agree.
 
+mod outcome;
 mod report;
 
 use rayon::prelude::*;
-use refsim::machine::Executor;
-use serde::Serialize;
 
-use super::configuration::Configuration;
 use super::shade::TeapotShader;
 use super::{ProgressFn, Study};
 use crate::geom::Hit;
@@ -20,100 +18,10 @@ use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
-use crate::ray_engine::{Crossbar, EngineError, RayBatch};
+use crate::ray_engine::{Crossbar, EngineError};
 use crate::report::{Findings, Provenance, ReportError};
 
-/// What to trace, and in which configurations.
-#[derive(Clone, Debug)]
-pub struct Parameters {
-    /// The surface.
-    pub mesh: Mesh,
-    /// The eye rays: what the pictures show.
-    pub view: RayBatch,
-    /// Which faces count.
-    pub sides: Sides,
-    /// The rows.
-    pub configurations: Vec<Configuration>,
-    /// Rays aimed at every shared edge; 0 leaves the second table out.
-    pub rays_per_edge: u32,
-    /// Seed of the points on the edges.
-    pub seed: u64,
-    /// The executor of the cards.
-    pub executor: Executor,
-    /// Whether every ray meets every triangle, or only those near its bucket.
-    pub all_pairs: bool,
-}
-
-/// Counts of verdicts over a set of rays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Tally {
-    /// Rays asked.
-    pub rays: u64,
-    /// Rays that truly hit.
-    pub surface: u64,
-    /// Hits reported.
-    pub hits: u64,
-    /// No hit reported where the surface is.
-    pub leaks: u64,
-    /// A hit reported where no surface is.
-    pub false_hits: u64,
-    /// Another triangle reported than the first one.
-    pub wrong_triangle: u64,
-    /// Of these, triangles that touch the right one.
-    pub wrong_adjacent: u64,
-    /// The largest |t - exact t| where both hit, in multiples of the ray's direction.
-    pub largest_t_error: f64,
-}
-
-impl Tally {
-    /// Leaks as a share of the rays that truly hit; 0 if none does.
-    pub fn leak_share(&self) -> f64 {
-        if self.surface == 0 { 0.0 } else { self.leaks as f64 / self.surface as f64 }
-    }
-
-    fn add(&mut self, verdict: HitVerdict, surface: bool, hit: bool, t_error: Option<f64>) {
-        self.rays += 1;
-        self.surface += u64::from(surface);
-        self.hits += u64::from(hit);
-        match verdict {
-            HitVerdict::Right => {}
-            HitVerdict::Leak => self.leaks += 1,
-            HitVerdict::FalseHit => self.false_hits += 1,
-            HitVerdict::WrongTriangle { adjacent } => {
-                self.wrong_triangle += 1;
-                self.wrong_adjacent += u64::from(adjacent);
-            }
-        }
-        if let Some(error) = t_error {
-            self.largest_t_error = self.largest_t_error.max(error);
-        }
-    }
-}
-
-/// One configuration's hits, judged.
-#[derive(Clone, Debug)]
-pub struct TeapotRow {
-    /// The configuration.
-    pub configuration: Configuration,
-    /// The intersection program.
-    pub kernel: &'static str,
-    /// The eye rays' verdicts.
-    pub tally: Tally,
-    /// Pixels of the shaded picture that differ from the exact one.
-    pub pixels_differing: u64,
-    /// The shaded picture.
-    pub picture: RgbImage,
-    /// The leak map; [`verdict_color`] explains it.
-    pub map: RgbImage,
-    /// t per pixel; infinite where nothing was hit.
-    pub t: Vec<f32>,
-    /// The triangle per pixel; `u32::MAX` where nothing was hit.
-    pub triangle: Vec<u32>,
-    /// Rays aimed at shared edges.
-    pub edges: Tally,
-    /// Rays aimed at vertices.
-    pub vertices: Tally,
-}
+pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
 
 /// Why the study has no findings.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -126,19 +34,6 @@ pub enum LeakyTeapotError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Report(#[from] ReportError),
-}
-
-/// Every configuration's hits, and the exact ones.
-#[derive(Clone, Debug)]
-pub struct TeapotOutcome {
-    /// The exact picture.
-    pub exact_picture: RgbImage,
-    /// t per pixel, exact and then rounded once; infinite where nothing is.
-    pub exact_t: Vec<f32>,
-    /// The triangle per pixel (the smallest of a tie); `u32::MAX` where nothing is.
-    pub exact_triangle: Vec<u32>,
-    /// The rows, in the order of the configurations.
-    pub rows: Vec<TeapotRow>,
 }
 
 /// Rays with their exact hits.

@@ -7,112 +7,33 @@ mod change;
 mod difference;
 mod error;
 mod method;
+mod outcome;
+mod parameters;
 mod pictures;
 mod report;
 mod room;
+mod solve;
 mod sweep;
 mod tables;
 mod time;
 
-use refsim::device::Profile;
-use refsim::machine::Executor;
-
-use crate::radiosity::form_factor::{RowSums, VisibilityParameters};
+use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Fit;
-use crate::radiosity::solve::Options;
-use crate::radiosity::{Patches, Subdivision, System};
+use crate::radiosity::{Patches, System};
 use crate::report::{Findings, Provenance};
-use crate::scene::{Camera, Scene};
 use crate::study::{ProgressFn, Study};
 
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
 pub use error::RadiosityError;
-pub use method::{CardFacts, CardMethod, SolveMethod, StopReason};
+pub use method::{CardMethod, SolveMethod, StopReason};
+pub use outcome::{MethodRow, RadiosityOutcome};
+pub use parameters::{FactorRequirements, Factors, Parameters};
 pub use pictures::{IterationPicture, Pictures};
-pub use room::{FactorRequirements, Factors};
 pub use sweep::SweepRow;
-pub use time::IterationTime;
+pub use time::{CardFacts, IterationTime};
 
 use pictures::PictureRenderer;
-
-/// What to solve, how, and what to show of it.
-#[derive(Debug)]
-pub struct Parameters {
-    /// The room.
-    pub scene: Scene,
-    /// How finely it is cut.
-    pub subdivision: Subdivision,
-    /// How form factors are found, and what they must satisfy.
-    pub factors: FactorRequirements,
-    /// The methods: a row of the table for each.
-    pub ways: Vec<SolveMethod>,
-    /// The card for methods on a card.
-    pub profile: Profile,
-    /// The switches of the card that were set.
-    pub switches: Vec<(String, String)>,
-    /// The executor of the card.
-    pub executor: Executor,
-    /// When iterations stop.
-    pub options: Options,
-    /// What changes after the first solution.
-    pub changes: Vec<Change>,
-    /// The camera of the pictures.
-    pub camera: Camera,
-    /// What radiance is multiplied by in pictures; `None` for auto-exposure: surfaces that do not emit at 18 % grey on
-    /// average.
-    pub exposure: Option<f64>,
-    /// Iterations of the first method on a card of which there are pictures.
-    pub frames: Vec<u32>,
-    /// Other numbers of patches in which the room is solved on the card, under each of its open switches.
-    pub sweep: Vec<u32>,
-}
-
-/// One method, and what came of it.
-#[derive(Debug)]
-pub struct MethodRow {
-    /// The method.
-    pub way: SolveMethod,
-    /// Its name, unique in a study and fit for a file name.
-    pub label: String,
-    /// The radiosity of each patch.
-    pub radiosity: Vec<[f64; 3]>,
-    /// Figure 3's error at the start and after each iteration: the mean squared residual, over all channels.
-    pub history: Vec<f64>,
-    /// The final residual relative to the emittance, both by their Euclidean norms.
-    pub residual: f64,
-    /// Why it stopped.
-    pub stopped: StopReason,
-    /// Energy-balance error relative to the emitted power, the largest of the channels.
-    pub energy_balance_error: f64,
-    /// The difference from the direct solution, if that was asked for.
-    pub off: Option<SolutionError>,
-    /// On a card.
-    pub card: Option<CardFacts>,
-    /// After the changes.
-    pub relit: Option<Relit>,
-    /// How the room looks.
-    pub pictures: Pictures,
-}
-
-/// All solutions.
-#[derive(Debug)]
-pub struct RadiosityOutcome {
-    /// The patches.
-    pub patches: Patches,
-    /// Row sums before anything was enforced.
-    pub found_sums: RowSums,
-    /// The largest relative difference between A_i F_ij and A_j F_ji, before anything was enforced.
-    pub reciprocity_error: f64,
-    /// Pictures' exposure.
-    pub exposure: f64,
-    /// A row per method.
-    pub rows: Vec<MethodRow>,
-    /// The room after some iterations.
-    pub frames: Vec<IterationPicture>,
-    /// Other numbers of patches, other settings of the switches.
-    pub sweep: Vec<SweepRow>,
-}
 
 impl Study for Parameters {
     type Error = RadiosityError;
@@ -151,12 +72,12 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     let mut solved = Vec::new();
     for (at, way) in parameters.ways.iter().enumerate() {
         progress(&format!("solving: {}", way.label(&parameters.profile)), at as u64, parameters.ways.len() as u64);
-        solved.push(method::solve(*way, &system, changed.as_ref(), parameters)?);
+        solved.push(solve::solve(*way, &system, changed.as_ref(), parameters)?);
     }
     let direct = solved.iter().find(|s| s.way == SolveMethod::DIRECT);
     let truth = direct.map(|s| s.radiosity.clone());
     let exposure = parameters.exposure.unwrap_or_else(|| {
-        let brightness = |s: &method::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
+        let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
@@ -181,7 +102,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
 
 /// A method's row: its error and its pictures.
 fn row(
-    mut one: method::Solved,
+    mut one: solve::Solved,
     system: &System,
     truth: Option<&[[f64; 3]]>,
     studio: &mut PictureRenderer<'_>,
@@ -211,14 +132,4 @@ fn energy_balance_error(system: &System, radiosity: &[[f64; 3]]) -> f64 {
         system.factors().areas().iter().zip(system.emittance()).map(|(area, e)| area * e[c]).sum()
     };
     (0..3).filter(|&c| emitted(c) > 0.0).map(|c| (left[c] / emitted(c)).abs()).fold(0.0, f64::max)
-}
-
-impl std::fmt::Display for Factors {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Unoccluded => f.write_str("unoccluded"),
-            Self::Rays(VisibilityParameters { side, .. }) => write!(f, "{} rays a pair", side * side),
-            Self::Hemicube { resolution } => write!(f, "hemicubes of {resolution}"),
-        }
-    }
 }

@@ -4,7 +4,8 @@
 use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
 
-use super::method::{CardFacts, Solved};
+use super::solve::Solved;
+use super::time::CardFacts;
 use super::{Parameters, RadiosityError, SolveMethod, time};
 use crate::picture::RgbImage;
 use crate::radiosity::display::{Display, DisplayOptions};

@@ -2,38 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Parameters, ProgressFn, RadiosityError};
+use super::{Factors, Parameters, ProgressFn, RadiosityError};
 use crate::geom::exact::Sides;
-use crate::radiosity::form_factor::{Hemicube, RowSums, VisibilityParameters};
+use crate::radiosity::form_factor::{Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
 use crate::tracer::HostTracer;
-
-/// Where form factors come from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Factors {
-    /// As if nothing stood between any two patches.
-    Unoccluded,
-    /// Closed forms and contour integrals, times what rays find open.
-    Rays(VisibilityParameters),
-    /// Pictures of the scene from each patch, drawn by the study's card.
-    Hemicube {
-        /// Pixels along a side of the top face.
-        resolution: u32,
-    },
-}
-
-/// How form factors are found, and what they must satisfy.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FactorRequirements {
-    /// Where they come from.
-    pub from: Factors,
-    /// Largest deviation of a row sum from 1; a larger one is an error.
-    pub closed: Option<f64>,
-    /// Make A_i F_ij and A_j F_ji equal.
-    pub enforce_reciprocity: bool,
-    /// Make rows sum to 1 (and pairs reciprocal).
-    pub enforce_closure: bool,
-}
 
 /// Form factors, and their errors before anything was enforced.
 pub(super) struct Room {

@@ -1,8 +1,9 @@
 //! Time of an iteration on the card, and the log of a relit scene.
 
+use refsim::event::Event;
 use refsim::timing::{Bottleneck, TimingError};
 
-use super::method::{CardFacts, CardMethod};
+use super::method::CardMethod;
 use super::{Parameters, RadiosityError};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::on_card::{CardSolver, PassProgram};
@@ -25,6 +26,23 @@ pub struct IterationTime {
     pub bound_by: Bottleneck,
     /// Memory bandwidth in use, in [0, 1].
     pub bandwidth: f64,
+}
+
+/// What a method costs on a card.
+#[derive(Clone, Debug)]
+pub struct CardFacts {
+    /// Passes per iteration, of all its systems.
+    pub passes: usize,
+    /// Texels of a block.
+    pub block: usize,
+    /// Instructions of the longest program.
+    pub instructions: usize,
+    /// Bytes of matrices.
+    pub matrix_bytes: f64,
+    /// An iteration by the pipeline model; `None` for devices without time.
+    pub time: Option<IterationTime>,
+    /// Log of changing the light, iterating and showing the room.
+    pub log: Vec<Event>,
 }
 
 /// Changes the light, iterates and shows the room on the card, and measures that.

@@ -4,7 +4,9 @@
 //! was stated beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the
 //! value ([`Sweep`]).
 
+mod entry;
 mod equation_11;
+mod error;
 mod figure_7;
 mod pipeline;
 mod prose;
@@ -16,102 +18,16 @@ mod shared;
 mod tables;
 mod vertex_variant;
 
-use refsim::device::{DeviceError, Profile};
-use refsim::timing::TimingError;
-
-use crate::ray_engine::EngineError;
-use crate::report::{Chart, Findings, Provenance, ReportError, Table};
+use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
+pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
+pub use error::ReproduceError;
+use error::figure;
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
 pub use row::{Bound, Explanation, Method, Origin, PaperFigure, PaperRow, RowVerdict, Setting, Standing, Sweep};
 use shared::Shared;
-
-/// Why a figure could not be worked out.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum ReproduceError {
-    /// No such entry.
-    #[error("expected the name of an entry ({}), found `{found}`", names().join(", "))]
-    #[diagnostic(code(reproduce::unknown), help("`crossbar reproduce --list` says what each is"))]
-    Unknown {
-        /// The name given.
-        found: String,
-    },
-    /// A profile lacks a figure that the paper's cost equation needs.
-    #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
-    #[diagnostic(code(reproduce::no_figure))]
-    NoFigure {
-        /// The device.
-        device: String,
-        /// The figure's path.
-        figure: &'static str,
-    },
-    /// A device cannot be had.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Device(#[from] DeviceError),
-    /// The Ray Engine could not run.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Engine(#[from] EngineError),
-    /// The timing model lacks a figure.
-    #[error(transparent)]
-    #[diagnostic(code(reproduce::timing))]
-    Timing(#[from] TimingError),
-    /// A chart cannot be drawn.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
-    /// A machine refuses a draw of an entry, or a program of an entry does not assemble.
-    #[error("a run of this entry failed on `{device}`: {reason}")]
-    #[diagnostic(code(reproduce::run), help("this is a bug: please report it with the command line"))]
-    Run {
-        /// The device.
-        device: String,
-        /// What was said.
-        reason: String,
-    },
-}
-
-/// A chart, the name of its file, and what stands under it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EntryChart {
-    /// File name without folder and ending.
-    pub name: &'static str,
-    /// The chart.
-    pub chart: Chart,
-    /// What stands under it.
-    pub caption: Prose,
-}
-
-/// What one entry found.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct EntryFindings {
-    /// How it was done, as paragraphs.
-    pub text: Vec<Prose>,
-    /// The paper's figures beside ours.
-    pub rows: Vec<PaperRow>,
-    /// What would have to be known to say why rows are off.
-    pub questions: Vec<&'static str>,
-    /// What else there is to show.
-    pub tables: Vec<Table>,
-    /// Plots.
-    pub charts: Vec<EntryChart>,
-}
-
-/// A table or figure of a paper.
-#[derive(Clone, Copy, Debug)]
-pub struct ReproduceEntry {
-    /// The name on the command line.
-    pub id: &'static str,
-    /// What it is, and where it is printed.
-    pub title: &'static str,
-    work: fn(&Shared) -> Result<EntryFindings, ReproduceError>,
-}
-
-/// Entries with what they found.
-pub type Reproduced = Vec<(ReproduceEntry, EntryFindings)>;
 
 /// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the
 /// name of each.
@@ -217,14 +133,8 @@ pub fn names() -> Vec<&'static str> {
 /// [`ReproduceError::Unknown`].
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, ReproduceError> {
     if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
-        return Err(ReproduceError::Unknown { found: found.clone() });
+        return Err(ReproduceError::Unknown { found: found.clone(), known: names().join(", ") });
     }
     let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
     Ok(ENTRIES.iter().filter(chosen).copied().collect())
-}
-
-/// A figure that an entry cannot do without.
-fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, ReproduceError> {
-    let missing = || ReproduceError::NoFigure { device: profile.name.clone(), figure: name };
-    Ok(value.ok_or_else(missing)? as f64)
 }

@@ -9,6 +9,12 @@ pub fn number(value: f64, decimals: usize) -> String {
     format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
 }
 
+/// A value to whole parts of `steps` in one.
+pub(super) fn rounded(value: f64, steps: f64) -> f64 {
+    // Plus 0, so that nothing reads -0.
+    (value * steps).round() / steps + 0.0
+}
+
 /// A paragraph: a template, and the numbers that replace its `{}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prose {

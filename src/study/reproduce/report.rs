@@ -3,6 +3,7 @@
 use serde_json::json;
 use strum::VariantArray as _;
 
+use super::prose::rounded;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
@@ -180,10 +181,4 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
     }
     all.conclude(Verdict::held(held(found)));
     all
-}
-
-/// A value to whole parts of `steps` in one.
-pub(super) fn rounded(value: f64, steps: f64) -> f64 {
-    // Plus 0, so that nothing reads -0.
-    (value * steps).round() / steps + 0.0
 }

@@ -3,12 +3,13 @@
 use std::cell::OnceCell;
 
 use super::ReproduceError;
-use super::tables::TeapotRoom;
+use super::tables::{SpeedUps, TeapotRoom, work_out};
 
 /// Renderings and runs of the engine that entries share.
 #[derive(Default)]
 pub(super) struct Shared {
     teapot: OnceCell<TeapotRoom>,
+    speed_ups: OnceCell<SpeedUps>,
 }
 
 impl Shared {
@@ -16,10 +17,15 @@ impl Shared {
     pub(super) fn teapot(&self) -> Result<&TeapotRoom, ReproduceError> {
         get_or_try(&self.teapot, TeapotRoom::new)
     }
+
+    /// The rows of Tables 3 to 5 and what explains them.
+    pub(super) fn speed_ups(&self) -> Result<&SpeedUps, ReproduceError> {
+        get_or_try(&self.speed_ups, || work_out(self.teapot()?))
+    }
 }
 
 /// The value of a cell; computed if it has none yet, and left empty if that fails.
-pub(super) fn get_or_try<T, E>(cell: &OnceCell<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
+fn get_or_try<T, E>(cell: &OnceCell<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
     if let Some(value) = cell.get() {
         return Ok(value);
     }

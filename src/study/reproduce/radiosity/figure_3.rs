@@ -6,7 +6,7 @@ use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};
 use crate::report::{Chart, Scale, Series, Table};
-use crate::study::reproduce::report::rounded;
+use crate::study::reproduce::prose::rounded;
 use crate::study::reproduce::{Bound, EntryChart, Method, PaperFigure, PaperRow, Prose, Setting, Standing, Sweep};
 
 /// Patches; the number hardly matters to how fast iterations converge.

@@ -6,7 +6,7 @@ use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
-use crate::study::reproduce::report::rounded;
+use crate::study::reproduce::prose::rounded;
 use crate::study::reproduce::{Bound, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 const PLACE: &str = "section 3.1";

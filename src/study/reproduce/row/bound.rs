@@ -1,6 +1,6 @@
 //! Tolerances, stated before values are computed.
 
-use super::PaperFigure;
+use super::figure::PaperFigure;
 use crate::study::reproduce::prose::number;
 
 /// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed

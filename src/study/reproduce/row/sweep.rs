@@ -1,9 +1,8 @@
 //! Sweeps over what the papers do not print: the only thing that can explain a row.
 
-use super::{PaperRow, Standing};
+use super::{Explanation, PaperRow, Standing};
 use crate::report::{Cell, Table};
-use crate::study::reproduce::prose::number;
-use crate::study::reproduce::report::rounded;
+use crate::study::reproduce::prose::rounded;
 
 /// One setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,46 +23,6 @@ pub struct Sweep {
     pub parameter: &'static str,
     /// The settings.
     pub settings: Vec<Setting>,
-}
-
-/// A sweep's setting that reaches a figure that the row misses. Made by [`Sweep::explain`] alone, from values of the
-/// run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Explanation {
-    sweep: &'static str,
-    parameter: &'static str,
-    at: String,
-    value: f64,
-    others: [usize; 2],
-}
-
-impl Explanation {
-    /// The sweep's name.
-    pub const fn sweep(&self) -> &'static str {
-        self.sweep
-    }
-
-    /// The setting at which the row lies within its bound.
-    pub fn at(&self) -> &str {
-        &self.at
-    }
-
-    /// The row's value there.
-    pub const fn value(&self) -> f64 {
-        self.value
-    }
-
-    /// In words.
-    pub fn text(&self) -> String {
-        let [held, all] = self.others;
-        format!(
-            "{}: {} at {} = {}, where {held} of the {all} rows of the sweep lie within their bounds",
-            self.sweep,
-            number(self.value, if self.value < 1000.0 { 1 } else { 0 }),
-            self.parameter,
-            self.at,
-        )
-    }
 }
 
 impl Sweep {

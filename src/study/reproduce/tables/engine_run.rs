@@ -4,25 +4,19 @@
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event};
 use refsim::machine::ExecutorKind;
-use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
+use refsim::timing::host::HostModel;
 use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
 
 use super::super::ReproduceError;
 use super::super::pipeline::failed;
-use super::workload::Workload;
+use super::workload::{OCTREE, TIMES, Workload};
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
-use crate::tracer::octree::OctreeParameters;
 
 /// The card that computes: fp32, as the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
-/// The card that the time is of: "execution rates measured on the GeForce 4".
-pub(super) const TIMES: &str = "nv25";
-/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was
-/// worked out.
-pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
 /// An engine's run over a workload.
 pub(super) struct Run {
@@ -46,34 +40,6 @@ impl Run {
     /// Log of the card's commands and the host's work.
     pub(super) fn log(&self) -> &[Event] {
         &self.log
-    }
-}
-
-/// A host that casts a workload without card and ray tree: the first row of Table 3.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct HostOnly {
-    pub(super) counts: HostCounts,
-    pub(super) rays: u64,
-}
-
-impl HostOnly {
-    /// What a host tracer counted.
-    pub(super) fn of(cost: &crate::tracer::HostCounts) -> Self {
-        let counts = HostCounts::default()
-            .with(HostOperation::OctreeCell, cost.traversal.cells)
-            .with(HostOperation::RayTriangleTest, cost.tests);
-        Self { counts, rays: cost.rays }
-    }
-
-    /// The host on which this work takes as long as Table 3's first row says: the one constant that is calibrated.
-    pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, ReproduceError> {
-        let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
-        model.map_err(|e| failed(TIMES)(&e))
-    }
-
-    /// Rays per second on a host.
-    pub(super) fn rays_per_s(&self, host: &HostModel) -> f64 {
-        self.rays as f64 / host.time_of_all(&self.counts).seconds()
     }
 }
 

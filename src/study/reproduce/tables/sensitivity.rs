@@ -5,10 +5,12 @@ use std::rc::Rc;
 use refsim::timing::host::{HostOperation, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::engine_run::{Commands, HostOnly, Run};
+use super::super::ReproduceError;
+use super::engine_run::{Commands, Run};
 use super::speed_ups::SpeedUpRun;
 use super::sweeps::rates;
-use super::{ReproduceError, figure, speed_up};
+use super::workload::HostOnly;
+use super::{figure, speed_up};
 use crate::report::{Cell, Table};
 
 /// Guesses that are doubled: of the host's operations, and of the queue's commands.

@@ -1,7 +1,7 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings of it.
 
 use super::super::{Bound, Method, PaperFigure, PaperRow, Setting, Standing, Sweep};
-use super::engine_run::TIMES;
+use super::workload::TIMES;
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 

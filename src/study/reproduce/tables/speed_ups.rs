@@ -4,8 +4,9 @@
 use std::rc::Rc;
 
 use super::super::{Bound, Method, PaperFigure, PaperRow, ReproduceError, Standing, Sweep};
-use super::engine_run::{Commands, Run, TIMES};
+use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
+use super::workload::TIMES;
 use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
@@ -34,7 +35,7 @@ impl SpeedUpRun {
 }
 
 /// All rows, and their values under other guesses.
-pub(super) struct SpeedUps {
+pub(crate) struct SpeedUps {
     pub(super) lines: Vec<SpeedUpRun>,
     pub(super) commands: Sweep,
     pub(super) host_leaf: Sweep,
@@ -48,7 +49,9 @@ impl SpeedUps {
 
     /// The rows of a table with that of the host alone.
     pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<PaperRow> {
-        std::iter::once(room.host_alone(place)).chain(self.of(place).into_iter().map(|line| line.row.clone())).collect()
+        std::iter::once(host_alone(room, place))
+            .chain(self.of(place).into_iter().map(|line| line.row.clone()))
+            .collect()
     }
 
     /// All rows under each setting of a sweep, as speed-ups.
@@ -92,7 +95,7 @@ fn printed() -> Vec<(String, &'static str, f64, Variant)> {
 }
 
 /// Runs, times and sweeps.
-pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
+pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let printed = printed();
     let variants: Vec<Variant> = printed.iter().map(|(.., variant)| variant.clone()).collect();
     let runs = room.runs(&variants)?;
@@ -110,7 +113,8 @@ pub(super) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-pub(super) fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
+/// The first row of Tables 3 to 5: what the host's scale was calibrated on.
+fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
     let standing = Standing::Calibrated { on: "this figure" };
     let ours = room.work.alone.rays_per_s(&room.host);
     let target = PaperFigure::printed(HOST_ALONE, 0, "rays/s", place);

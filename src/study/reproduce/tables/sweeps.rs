@@ -8,8 +8,9 @@ use refsim::timing::queue::QueueFigures;
 
 use super::super::{ReproduceError, Setting, Sweep};
 use super::commands as stated;
-use super::engine_run::{Commands, OCTREE, Run, rays_per_s};
+use super::engine_run::{Commands, Run, rays_per_s};
 use super::teapot::TeapotRoom;
+use super::workload::OCTREE;
 use crate::tracer::octree::OctreeParameters;
 
 /// Halves of the guessed costs of commands: once, one and a half times, twice, three times.

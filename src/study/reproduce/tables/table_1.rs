@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use super::super::shared::Shared;
 use super::super::{Bound, EntryChart, EntryFindings, Method, PaperFigure, PaperRow, ReproduceError};
-use super::engine_run::{Run, TIMES, rays_per_s};
+use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
-use super::workload::{Asks, Job};
+use super::workload::{Asks, Job, TIMES};
 use super::{HOST_ALONE, QUESTION, RATE, commands, figure, speed_up};
 use crate::report::{Chart, Series, Table};
 

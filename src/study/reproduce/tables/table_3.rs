@@ -17,7 +17,7 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
-    let found = room.speed_ups()?;
+    let found = shared.speed_ups()?;
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],
@@ -37,7 +37,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
             chart: chart(found, &lines),
             caption: Prose::new(
                 "Speed-ups of Table 3 by the leaves of the octree of the host alone; what is printed stands at the {} of our rows.",
-                [super::engine_run::OCTREE.most_triangles.to_string()],
+                [super::workload::OCTREE.most_triangles.to_string()],
             ),
         }],
     })
@@ -73,7 +73,7 @@ fn octree(found: &SpeedUps) -> Prose {
     let step = |two: &&[(String, Vec<f64>)]| fast(&two[1].1) - fast(&two[0].1);
     let largest = settings.windows(2).max_by(|a, b| step(a).total_cmp(&step(b)));
     let Some([(from, low), (to, high)]) = largest else { return Prose::from("") };
-    let stated = super::engine_run::OCTREE.most_triangles.to_string();
+    let stated = super::workload::OCTREE.most_triangles.to_string();
     Prose::new(OCTREE, [from.clone(), to.clone(), number(fast(low), 0), number(fast(high), 0), stated])
 }
 
@@ -83,7 +83,7 @@ fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
         label: line.row.what.clone(),
         points: settings.iter().filter_map(|(at, values)| Some((at.parse().ok()?, values[i]))).collect(),
     };
-    let stated = super::engine_run::OCTREE.most_triangles as f64;
+    let stated = super::workload::OCTREE.most_triangles as f64;
     Chart {
         title: "Speed-up over the host alone".to_owned(),
         x: "triangles in a leaf of the octree of the host alone".to_owned(),

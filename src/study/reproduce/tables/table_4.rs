@@ -17,7 +17,7 @@ const ORDER: &str = "Printed, the widest range brings the fewest rays to the car
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
-    let found = room.speed_ups()?;
+    let found = shared.speed_ups()?;
     let lines = found.of(PLACE);
     let shares: Vec<Share<'_>> = lines
         .iter()

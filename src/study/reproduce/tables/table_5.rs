@@ -13,7 +13,7 @@ const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, a
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.teapot()?;
-    let found = room.speed_ups()?;
+    let found = shared.speed_ups()?;
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), size(&lines)],

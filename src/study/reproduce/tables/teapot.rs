@@ -1,16 +1,14 @@
 //! The teapot room of Tables 1 and 3 to 5: rendered once, each run of the engine made once, whichever entries ask.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
 
 use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
-use super::super::shared::get_or_try;
-use super::super::{PaperRow, ReproduceError};
+use super::super::ReproduceError;
 use super::engine_run::{Commands, Run, rays_per_s};
-use super::speed_ups::{self, SpeedUps};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
 use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::scene::built;
@@ -49,7 +47,6 @@ pub(crate) struct TeapotRoom {
     /// Pixels on a side of the picture.
     pub(super) side: u32,
     runs: RefCell<Vec<(Variant, Rc<Run>)>>,
-    speed_ups: OnceCell<SpeedUps>,
 }
 
 impl TeapotRoom {
@@ -57,7 +54,7 @@ impl TeapotRoom {
         let work = CLASSICAL_TEAPOT.workload()?;
         let host = work.alone.calibrate(HostWeights::default())?;
         let side = CLASSICAL_TEAPOT.side;
-        Ok(Self { work, host, side, runs: RefCell::default(), speed_ups: OnceCell::new() })
+        Ok(Self { work, host, side, runs: RefCell::default() })
     }
 
     /// The runs of some variants, in their order.
@@ -83,15 +80,5 @@ impl TeapotRoom {
     /// Rays per second of a run on the calibrated host.
     pub(super) fn rays_per_s(&self, run: &Run, commands: Commands) -> Result<f64, ReproduceError> {
         rays_per_s(run, &self.host, commands)
-    }
-
-    /// The rows of Tables 3 to 5 and what explains them.
-    pub(super) fn speed_ups(&self) -> Result<&SpeedUps, ReproduceError> {
-        get_or_try(&self.speed_ups, || speed_ups::work_out(self))
-    }
-
-    /// The first row of Tables 3 to 5: what the host's scale was calibrated on.
-    pub(super) fn host_alone(&self, place: &'static str) -> PaperRow {
-        speed_ups::host_alone(self, place)
     }
 }

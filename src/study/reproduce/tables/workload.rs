@@ -1,15 +1,21 @@
 //! Workloads: the ray bundles of a renderer, recorded once and replayed to engines.
 
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
+
 use super::super::ReproduceError;
 use super::super::pipeline::failed;
-use super::engine_run::{HostOnly, OCTREE, TIMES};
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
 use crate::tracer::octree::OctreeParameters;
-use crate::tracer::{CastError, Caster};
-use crate::tracer::{HostCounts, HostTracer};
+use crate::tracer::{self, CastError, Caster, HostTracer};
+
+/// The card that the time is of: "execution rates measured on the GeForce 4".
+pub(super) const TIMES: &str = "nv25";
+/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was
+/// worked out.
+pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
 /// The renderer that casts the rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +55,7 @@ impl Workload {
     /// The work of a host that casts the same rays with another octree.
     pub(super) fn alone_with(&self, octree: OctreeParameters) -> HostOnly {
         let tracer = HostTracer::with_octree(&self.mesh, octree, Sides::Both);
-        let mut cost = HostCounts::default();
+        let mut cost = tracer::HostCounts::default();
         for bundle in &self.bundles {
             cost += tracer.nearest_all(bundle).1;
         }
@@ -61,7 +67,7 @@ impl Workload {
 struct Recording {
     tracer: HostTracer,
     bundles: Vec<Vec<Ray>>,
-    cost: HostCounts,
+    cost: tracer::HostCounts,
 }
 
 impl Caster for Recording {
@@ -85,7 +91,7 @@ impl Job {
         let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
         let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
         let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
-        let mut recording = Recording { tracer, bundles: Vec::new(), cost: HostCounts::default() };
+        let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
         self.render(&scene, &camera, &mut recording).map_err(|e| fail(&e))?;
         Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })
     }
@@ -101,5 +107,33 @@ impl Job {
                 distributed::render(scene, camera, &settings, caster, &mut watch).map(drop)
             }
         }
+    }
+}
+
+/// A host that casts a workload without card and ray tree: the first row of Table 3.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HostOnly {
+    pub(super) counts: HostCounts,
+    pub(super) rays: u64,
+}
+
+impl HostOnly {
+    /// What a host tracer counted.
+    pub(super) fn of(cost: &tracer::HostCounts) -> Self {
+        let counts = HostCounts::default()
+            .with(HostOperation::OctreeCell, cost.traversal.cells)
+            .with(HostOperation::RayTriangleTest, cost.tests);
+        Self { counts, rays: cost.rays }
+    }
+
+    /// The host on which this work takes as long as Table 3's first row says: the one constant that is calibrated.
+    pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, ReproduceError> {
+        let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
+        model.map_err(|e| failed(TIMES)(&e))
+    }
+
+    /// Rays per second on a host.
+    pub(super) fn rays_per_s(&self, host: &HostModel) -> f64 {
+        self.rays as f64 / host.time_of_all(&self.counts).seconds()
     }
 }

@@ -1,0 +1,61 @@
+//! Why a figure could not be worked out.
+
+use refsim::device::{DeviceError, Profile};
+use refsim::timing::TimingError;
+
+use crate::ray_engine::EngineError;
+use crate::report::ReportError;
+
+/// Why a figure could not be worked out.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum ReproduceError {
+    /// No such entry.
+    #[error("expected the name of an entry ({known}), found `{found}`")]
+    #[diagnostic(code(reproduce::unknown), help("`crossbar reproduce --list` says what each is"))]
+    Unknown {
+        /// The name given.
+        found: String,
+        /// The names of all entries.
+        known: String,
+    },
+    /// A profile lacks a figure that the paper's cost equation needs.
+    #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
+    #[diagnostic(code(reproduce::no_figure))]
+    NoFigure {
+        /// The device.
+        device: String,
+        /// The figure's path.
+        figure: &'static str,
+    },
+    /// A device cannot be had.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
+    /// The Ray Engine could not run.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Engine(#[from] EngineError),
+    /// The timing model lacks a figure.
+    #[error(transparent)]
+    #[diagnostic(code(reproduce::timing))]
+    Timing(#[from] TimingError),
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
+    /// A machine refuses a draw of an entry, or a program of an entry does not assemble.
+    #[error("a run of this entry failed on `{device}`: {reason}")]
+    #[diagnostic(code(reproduce::run), help("this is a bug: please report it with the command line"))]
+    Run {
+        /// The device.
+        device: String,
+        /// What was said.
+        reason: String,
+    },
+}
+
+/// A figure that an entry cannot do without.
+pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, ReproduceError> {
+    let missing = || ReproduceError::NoFigure { device: profile.name.clone(), figure: name };
+    Ok(value.ok_or_else(missing)? as f64)
+}
