@@ -7,7 +7,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 
 /// Options that change no result: where it goes, who computes the same bits, what is told on the way.
 const WITHOUT_EFFECT: [&str; 9] =
-    ["out", "executor", "adapter", "native", "json", "threads", "all_errors", "memory_limit", "help"];
+    ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help"];
 
 /// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option
 /// replaces is left out.
