@@ -9,7 +9,7 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
-use super::shown::{MOST_SHOWN, ShownError};
+use super::shown::{MAX_SHOWN, ShownError};
 use super::{BAD_INPUT, Cli, LimitSource};
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
@@ -81,7 +81,7 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
             self.1.debug(&self.0, f)
         }
     }
-    let shown = ShownError::new(diagnostic, if all { usize::MAX } else { MOST_SHOWN });
+    let shown = ShownError::new(diagnostic, if all { usize::MAX } else { MAX_SHOWN });
     let more = shown.left_out();
     let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
     if more > 0 {

@@ -8,7 +8,7 @@ use crate::report::Excerpt;
 use crate::report::visible::visible;
 
 /// Most errors of one list that are shown unless all are asked for.
-pub(super) const MOST_SHOWN: usize = 20;
+pub(super) const MAX_SHOWN: usize = 20;
 
 /// A copy of a diagnostic that any renderer may write to a terminal as it is.
 #[derive(Debug)]

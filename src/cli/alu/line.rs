@@ -5,7 +5,7 @@ use miette::Diagnostic;
 use super::operation::Unit;
 
 /// The most fields of a good line: three operands, a result and flags.
-const MOST_FIELDS: usize = 5;
+const MAX_FIELDS: usize = 5;
 
 /// A line that cannot be read. Lines count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
@@ -65,7 +65,7 @@ impl LineFormat {
 
     /// Reads line `number` (from 1); `None` if it is blank.
     pub(super) fn read(&self, text: &[u8], number: u64) -> Result<Option<AluLine>, LineError> {
-        let mut fields = [&text[..0]; MOST_FIELDS];
+        let mut fields = [&text[..0]; MAX_FIELDS];
         let mut count = 0;
         for field in text.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()) {
             if let Some(place) = fields.get_mut(count) {

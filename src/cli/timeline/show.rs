@@ -14,7 +14,7 @@ use crate::report::visible::visible_line;
 use crate::report::{Cell, Table};
 
 /// Draws that the table shows; the document has all.
-const MOST_DRAWS: usize = 16;
+const MAX_DRAWS: usize = 16;
 
 pub(super) fn print(
     args: &Args,
@@ -94,9 +94,9 @@ fn record(event: &Event) -> Option<&DrawRecord> {
 fn draws(log: &[Event], timed: &TimedLog) -> Table {
     let headings = ["draw", "triangles", "fragments", "front end", "shader", "memory", "total", "clocks", "bound by"];
     let count = timed.replay.draws.len();
-    let title = if count > MOST_DRAWS { format!("Draws, {MOST_DRAWS} of {count}") } else { "Draws".to_owned() };
+    let title = if count > MAX_DRAWS { format!("Draws, {MAX_DRAWS} of {count}") } else { "Draws".to_owned() };
     let mut table = Table::new(title, &headings);
-    for (number, (record, cost)) in costs(log, timed).take(MOST_DRAWS).enumerate() {
+    for (number, (record, cost)) in costs(log, timed).take(MAX_DRAWS).enumerate() {
         table.push([
             number.into(),
             record.counts.primitives.rasterised.into(),

@@ -123,7 +123,7 @@ shared! {
 }
 
 /// The most levels that an image has: 16384 texels a side.
-const MOST_LEVELS: usize = 15;
+const MAX_LEVELS: usize = 15;
 
 /// The text: constants, then functions.
 pub fn library() -> String {
@@ -161,7 +161,7 @@ pub fn sampler_words(
     };
     let (image, state) = (binding.image, &binding.state);
     let (format, kind) = (image.format(), image.kind());
-    let last = image.levels().len().min(MOST_LEVELS) as u32 - 1;
+    let last = image.levels().len().min(MAX_LEVELS) as u32 - 1;
     let mip = match state.mip {
         MipFilter::None => MIP_NONE,
         MipFilter::Nearest => MIP_NEAREST,

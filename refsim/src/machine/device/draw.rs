@@ -24,9 +24,9 @@ use crate::raster::TriangleSetup;
 use std::sync::Arc;
 
 /// Triangles, counted once a tile, that one dispatch draws at most: so that none runs for seconds.
-const MOST_TRIANGLES: usize = 8192;
+const MAX_TRIANGLES: usize = 8192;
 /// Tiles of one dispatch at most.
-const MOST_TILES: usize = 4096;
+const MAX_TILES: usize = 4096;
 /// Loop passes of an invocation in one dispatch: on software a quarter of lavapipe's 65,535, since lanes that take
 /// different ways through a program cost more than any of them. They are the shader's own; a program's step budget is
 /// another matter.
@@ -227,7 +227,7 @@ impl Card {
         setups.iter().for_each(|setup| words.setup(setup, &mut packed));
         self.board.set_setups(&packed)?;
         let fit = self.board.gpu().most_words() / (4 * INVOCATIONS * (program.registers + EXTRA_ROWS));
-        let dispatches = batches::dispatches(setups, plan.raster.scissor, MOST_TILES.min(fit), MOST_TRIANGLES);
+        let dispatches = batches::dispatches(setups, plan.raster.scissor, MAX_TILES.min(fit), MAX_TRIANGLES);
         for part in dispatches {
             self.dispatch(words, program, &part)?;
         }
