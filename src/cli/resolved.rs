@@ -6,7 +6,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
 /// Options that change no result: where it goes, who computes the same bits, what is told on the way.
-const WITHOUT_EFFECT: [&str; 9] =
+const WITHOUT_EFFECT: [&str; 8] =
     ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help"];
 
 /// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option
