@@ -378,6 +378,10 @@ impl<'a> ObjReader<'a> {
     pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ObjError> {
         for &(line, what, index) in &self.forward {
             let count = self.count(what);
+            // Some exporters leave the coordinates out and keep their indices.
+            if what == IndexTarget::TextureCoordinate && count == 0 {
+                continue;
+            }
             if usize::try_from(index).map_or(true, |index| index > count) {
                 return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, what, index, count });
             }
@@ -386,7 +390,7 @@ impl<'a> ObjReader<'a> {
             return Err(ObjError::NoFaces { path: self.name.into() });
         }
         let all = |place: usize| attributes && self.corners.iter().all(|corner| corner[place] > 0);
-        let (texcoords, normals) = (all(1), all(2));
+        let (texcoords, normals) = (self.texcoords > 0 && all(1), all(2));
         let mut clean = std::mem::take(&mut self.clean);
         for face in self.faces() {
             clean.push('f');
