@@ -26,8 +26,9 @@
 //! oracle.assert_agrees(&[down(0.75, 0.25)?, down(0.5, 0.5)?], mine);
 //!
 //! let report = oracle.examine(&[down(0.75, 0.25)?, down(0.25, 0.75)?], mine);
-//! assert_eq!(report.count(DisagreementKind::Leak), 1); assert!(report.to_string().contains("ray 1 from (0.25, 0.75, 2)
-//! along (0, 0, -1): leak: expected triangle 1 at t = 2"));
+//! assert_eq!(report.count(DisagreementKind::Leak), 1);
+//! let leak = "ray 1 from (0.25, 0.75, 2) along (0, 0, -1): leak: expected triangle 1 at t = 2";
+//! assert!(report.to_string().contains(leak));
 //!
 //! // Rays that ask for trouble, for any mesh.
 //! let rays: Vec<Ray> = hard_rays(&mesh, 100, 1).iter().map(|hard| hard.ray).collect();
