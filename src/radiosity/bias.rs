@@ -14,7 +14,7 @@
 //! takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so it is good to
 //! first order in the loss.
 
-use refsim::num::{Format, FormatKind, Rounding};
+use refsim::num::{Format, FormatKind, Rounding, power_of_two};
 
 use super::System;
 use super::packing::Packing;
@@ -49,7 +49,7 @@ impl Accumulator {
         let after = sum + term;
         let size = sum.abs().max(after.abs());
         let exponent = (size.to_bits() >> 52) as i32 - 1023;
-        let step = f64::from_bits(((exponent.max(self.least_exponent) - i32::from(self.mantissa) + 1023) as u64) << 52);
+        let step = power_of_two(exponent.max(self.least_exponent) - i32::from(self.mantissa));
         let steps = term / step;
         let counted = match self.rounding {
             Rounding::NearestEven | Rounding::NearestAway => steps.round_ties_even(),

@@ -18,9 +18,9 @@
 //! infinite, in whatever order a card adds.
 
 use refsim::device::{Rules, TexdepthDenominator};
-use refsim::num::{Format, FormatKind};
+use refsim::num::{Format, FormatKind, power_of_two};
 
-use crate::tracer::scale::{ceil_power_of_two, power_of_two};
+use crate::tracer::scale::ceil_power_of_two;
 
 /// A number format, as far as intersection programs ask.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! Scaling by powers of two, which brings any unit of length into the range of single precision without rounding.
 
 use glam::DVec3;
+use refsim::num::power_of_two;
 
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
@@ -25,11 +26,6 @@ pub(crate) fn in_single_precision(scale: f64) -> f64 {
 fn floor_log2(x: f64) -> i32 {
     // Denormal f64 can't come from f32 inputs, so the biased exponent says it all.
     ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
-}
-
-/// 2^`exponent`, for exponents in the range of normal f64.
-pub(crate) fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
 }
 
 /// A direction scaled by a power of two so that its largest component lies in [1/2, 1), and the power.

@@ -171,11 +171,6 @@ impl Gpu {
         Ok(pipeline)
     }
 
-    /// How many texts of all kernels were compiled.
-    pub fn compiled(&self) -> usize {
-        self.kernels.lock().unwrap_or_else(PoisonError::into_inner).values().map(Vec::len).sum()
-    }
-
     fn make_pipeline(&self, text: &str, entry: &str, bindings: &[Access]) -> Pipeline {
         let source = wgpu::ShaderSource::Wgsl(text.into());
         let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(entry), source });
