@@ -3,14 +3,12 @@
 use std::ffi::OsString;
 use std::io::{self, IsTerminal as _, Write as _};
 
-use bytesize::ByteSize;
-use clap::Parser as _;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
+use super::memory::MemoryError;
 use super::shown::{MAX_SHOWN, ShownError};
-use super::{BAD_INPUT, Cli, LimitSource};
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
@@ -31,20 +29,9 @@ pub enum Problem {
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
     /// Work that needs more memory than there is.
-    #[error("{what} takes up to {need} of memory, but {limit} are {from}")]
-    #[diagnostic(code(crossbar::memory), help("{help}"))]
-    Memory {
-        /// The work.
-        what: String,
-        /// What it needs at most.
-        need: ByteSize,
-        /// What there is.
-        limit: ByteSize,
-        /// Who says so.
-        from: LimitSource,
-        /// How to ask for less.
-        help: String,
-    },
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Memory(#[from] MemoryError),
     /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
@@ -120,23 +107,21 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     }
 }
 
-/// Writes what is wrong with the arguments, or the help that was asked for, and returns the exit code.
-pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
-    // Help and `--version` come this way too, with code 0. A closed pipe is no reason to complain.
-    let code = u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT);
+/// Writes what is wrong with the arguments, or the help that was asked for. `parse` parses other arguments: a message
+/// that quotes what is not safe to show is made again.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString], parse: fn(Vec<String>) -> Option<clap::Error>) {
     let safe: Vec<String> =
         arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
+    // A closed pipe is no reason to complain.
     if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
         error.print().ok();
-        return code;
+        return;
     }
-    // The message quotes the arguments: it is made again, of arguments that are safe to show. Should these be fine, it
-    // is shown plain.
-    match Cli::try_parse_from(safe) {
-        Err(same) => same.print().ok(),
-        Ok(_) => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
+    match parse(safe) {
+        Some(same) => same.print().ok(),
+        // The safe arguments are fine: the message is shown plain.
+        None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
     };
-    code
 }
 
 /// Whether the error is only that nobody reads the output any more.

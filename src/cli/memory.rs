@@ -8,9 +8,8 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use bytesize::ByteSize;
+use miette::Diagnostic;
 use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
-
-use super::Problem;
 
 /// What `--memory-limit` says; not set where nothing is said.
 static ASKED: OnceLock<u64> = OnceLock::new();
@@ -40,6 +39,23 @@ pub enum LimitSource {
     Process,
 }
 
+/// Work that needs more memory than there is.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error("{what} takes up to {need} of memory, but {limit} are {from}")]
+#[diagnostic(code(crossbar::memory), help("{help}"))]
+pub struct MemoryError {
+    /// The work.
+    pub what: String,
+    /// What it needs at most.
+    pub need: ByteSize,
+    /// What there is.
+    pub limit: ByteSize,
+    /// Who says so.
+    pub from: LimitSource,
+    /// How to ask for less.
+    pub help: String,
+}
+
 /// What a command takes at most.
 #[derive(Clone, Debug)]
 pub(super) struct MemoryNeed {
@@ -55,8 +71,8 @@ impl MemoryNeed {
     /// Refuses work that needs more memory than there is.
     ///
     /// # Errors
-    /// [`Problem::Memory`].
-    pub(super) fn require(&self) -> Result<(), Problem> {
+    /// [`MemoryError`].
+    pub(super) fn require(&self) -> Result<(), MemoryError> {
         require(&self.what, self.bytes, self.help)
     }
 }
@@ -73,8 +89,8 @@ pub(super) fn limit_to(bytes: Option<ByteSize>) {
 /// to ask for less.
 ///
 /// # Errors
-/// [`Problem::Memory`].
-pub(super) fn require(what: impl fmt::Display, bytes: u64, help: &str) -> Result<(), Problem> {
+/// [`MemoryError`].
+pub(super) fn require(what: impl fmt::Display, bytes: u64, help: &str) -> Result<(), MemoryError> {
     if bytes < SMALL && ASKED.get().is_none() {
         return Ok(());
     }
@@ -86,25 +102,19 @@ pub(super) fn require(what: impl fmt::Display, bytes: u64, help: &str) -> Result
         LimitSource::Option => help.to_owned(),
         _ => format!("{help}; `--memory-limit` says how much may be taken instead"),
     };
-    Err(Problem::Memory { what: what.to_string(), need: ByteSize(bytes), limit: ByteSize(limit), from, help })
+    Err(MemoryError { what: what.to_string(), need: ByteSize(bytes), limit: ByteSize(limit), from, help })
 }
 
 /// Refuses to start where not even the program and its threads fit.
 ///
 /// # Errors
-/// [`Problem::Memory`].
-pub(super) fn require_to_start() -> Result<(), Problem> {
+/// [`MemoryError`].
+pub(super) fn require_to_start() -> Result<(), MemoryError> {
     match process_limit() {
         Some(limit) if limit < PROGRAM => {
             let (need, limit) = (ByteSize(PROGRAM), ByteSize(limit));
             let help = "raise `ulimit -v`, or lower `--threads`".to_owned();
-            Err(Problem::Memory {
-                what: "the program itself".to_owned(),
-                need,
-                limit,
-                from: LimitSource::Process,
-                help,
-            })
+            Err(MemoryError { what: "the program itself".to_owned(), need, limit, from: LimitSource::Process, help })
         }
         _ => Ok(()),
     }

@@ -42,7 +42,7 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use crate::report::Verdict;
 
 pub use error::{OutputError, Problem};
-pub use memory::LimitSource;
+pub use memory::{LimitSource, MemoryError};
 pub use out::Out;
 pub use progress::ProgressBar;
 pub use size::{BadSize, Size};
@@ -115,7 +115,11 @@ pub fn main() -> ExitCode {
     });
     let (cli, command_line) = match parsed {
         Ok(parsed) => parsed,
-        Err(error) => return ExitCode::from(error::print_usage(&error, &arguments)),
+        Err(error) => {
+            error::print_usage(&error, &arguments, |safe| Cli::try_parse_from(safe).err());
+            // Help and `--version` come this way too, with code 0.
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
+        }
     };
     if let Some(threads) = cli.threads {
         // Fails only if a pool is there already, and none is this early.

@@ -5,9 +5,6 @@ use std::path::{Path, PathBuf};
 
 use crate::source::Crate;
 
-/// Rooms, and folders of rooms, that still have circles.
-const EXEMPT: &[&str] = &["cli"];
-
 type Graph = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
 pub(crate) fn room(file: &Path) -> String {
@@ -20,8 +17,7 @@ fn graph(source: &Crate) -> Graph {
     for (module, it) in source.modules.iter().filter(|(_, it)| !it.is_test) {
         let edges = graph.entry(it.file.clone()).or_default();
         for (file, name) in source.needs(module) {
-            let is_exempt = |file: &Path| EXEMPT.iter().any(|exempt| file.starts_with(exempt));
-            if room(file) == room(&it.file) && !is_exempt(file) && !is_exempt(&it.file) {
+            if room(file) == room(&it.file) {
                 edges.entry(file.to_owned()).or_default().insert(name);
             }
         }

@@ -1,84 +1,12 @@
 //! What the options of `crossbar radiosity` ask for.
 
-use std::str::FromStr;
-
-use clap::ValueEnum;
-
-use super::{Args, FactorsArg, Law};
-use crate::cli::{Problem, number};
+use super::args::{Args, FactorsArg, Law};
+use super::values::{PackingArg, SolverArg, StorageArg};
+use crate::cli::Problem;
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
-use crate::radiosity::on_card::Storage;
-use crate::radiosity::packing::Packing;
-use crate::radiosity::solve::{Solver, UnknownSolver};
-use crate::scene::Color;
+use crate::radiosity::solve::Solver;
 use crate::study::radiosity::{CardMethod, Change, FactorRequirements, Factors, SolveMethod};
-
-/// On the card, or a solver of the host.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum SolverArg {
-    Card,
-    Host(Solver),
-}
-
-impl FromStr for SolverArg {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        if name == "card" {
-            return Ok(Self::Card);
-        }
-        name.parse()
-            .map(Self::Host)
-            .map_err(|e: UnknownSolver| e.to_string().replacen("expected ", "expected `card`, ", 1))
-    }
-}
-
-/// How elements lie in texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum PackingArg {
-    /// One element per texel: red, green and blue at once
-    Rgb,
-    /// Four elements per texel, one channel after the other
-    Luminance,
-}
-
-/// What registers, textures and targets hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum StorageArg {
-    /// Single precision
-    Fp32,
-    /// Half precision
-    Fp16,
-}
-
-/// A color for a material.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MaterialColor {
-    material: String,
-    rgb: Color,
-}
-
-/// `light=17,12,4`
-pub(super) fn light_of(text: &str) -> Result<MaterialColor, String> {
-    let color = color_of(text)?;
-    let shines = color.rgb.iter().all(|&c| c >= 0.0);
-    if shines { Ok(color) } else { Err(format!("expected radiances of at least 0, found `{text}`")) }
-}
-
-/// `wall=0.7,0.7,0.6`
-pub(super) fn paint_of(text: &str) -> Result<MaterialColor, String> {
-    let color = color_of(text)?;
-    let reflects = color.rgb.iter().all(|c| (0.0..1.0).contains(c));
-    if reflects { Ok(color) } else { Err(format!("expected reflectances of at least 0 and below 1, found `{text}`")) }
-}
-
-fn color_of(text: &str) -> Result<MaterialColor, String> {
-    let wrong = || format!("expected MATERIAL=R,G,B as in light=17,12,4; found `{text}`");
-    let (material, channels) = text.split_once('=').ok_or_else(wrong)?;
-    let rgb = number::three(channels, "R,G,B")?;
-    Ok(MaterialColor { material: material.to_owned(), rgb })
-}
 
 pub(super) fn subdivision(args: &Args) -> Subdivision {
     args.per_side.map_or(Subdivision::AtMost(args.patches as usize), Subdivision::PerSide)
@@ -137,24 +65,6 @@ pub(super) fn methods(args: &Args) -> Result<Vec<SolveMethod>, Problem> {
         }
     }
     Ok(methods)
-}
-
-impl From<PackingArg> for Packing {
-    fn from(arg: PackingArg) -> Self {
-        match arg {
-            PackingArg::Rgb => Self::Rgb,
-            PackingArg::Luminance => Self::Luminance,
-        }
-    }
-}
-
-impl From<StorageArg> for Storage {
-    fn from(arg: StorageArg) -> Self {
-        match arg {
-            StorageArg::Fp32 => Self::Fp32,
-            StorageArg::Fp16 => Self::Fp16,
-        }
-    }
 }
 
 /// Lights first, then paint.

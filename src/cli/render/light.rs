@@ -3,106 +3,23 @@
 use std::io::Write as _;
 use std::time::Instant;
 
-use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
 use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
+use super::args::{Args, Renderer, SMALLER};
 use super::scene::{LitScene, camera};
-use super::{Args, Out, Problem, SMALLER, view};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{ProgressBar, memory, number};
+use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::picture::{exr, png};
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
-use crate::renderer::{Lens, RenderedPicture, Settings, WatchProgress, distributed, eye, path, whitted};
+use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, path, whitted};
 use crate::report::Verdict;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
-
-/// How light is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Renderer {
-    /// Eye rays alone, with a lamp at the eye
-    Eye,
-    /// Point lights, hard shadows, mirrors, glass
-    Whitted,
-    /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
-    Distributed,
-    /// All light, by random walks, unbiased
-    Path,
-    /// All light, by photon maps and final gather
-    Photon,
-}
-
-#[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Light")]
-pub(super) struct LightArgs {
-    /// How light is found [default for scenes by name: whitted]
-    #[arg(long, value_enum, value_name = "R")]
-    renderer: Option<Renderer>,
-
-    /// Samples per pixel [default: 1 for eye, 4 for whitted, else 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
-    samples: Option<u32>,
-
-    /// The most surfaces that light meets between lamp and eye
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
-    depth: u32,
-
-    /// Random seed
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-
-    /// A view of the scene, by its name [default: its first]
-    #[arg(long, value_name = "NAME")]
-    pub(super) view: Option<String>,
-
-    /// What radiance is multiplied by for picture.png; 1 is white
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
-    exposure: f64,
-
-    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
-    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = number::not_negative_single)]
-    ambient: f64,
-
-    /// A lens: its radius, and the distance at which all is sharp
-    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
-    lens: Option<Lens>,
-
-    /// Photons for each map [default: 100000]
-    #[arg(long, value_name = "N")]
-    photons: Option<u32>,
-
-    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
-    gather: Option<u32>,
-
-    /// Who finds first hits [default: host]
-    #[arg(long, value_enum, value_name = "C")]
-    caster: Option<CasterArg>,
-
-    /// Say on standard error how long it took, and how many rays per second that is
-    #[arg(long)]
-    time: bool,
-}
-
-impl LightArgs {
-    /// Whether anything was said that only makes sense of a lit scene.
-    pub(super) fn asked(&self) -> bool {
-        self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
-    }
-}
-
-fn parse_lens(text: &str) -> Result<Lens, String> {
-    let (radius, focus) =
-        text.split_once(',').ok_or_else(|| format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`"))?;
-    let radius = number::not_negative(radius).map_err(|what| format!("radius: {what}"))?;
-    let focus = number::positive(focus).map_err(|what| format!("focus: {what}"))?;
-    Ok(Lens { radius, focus })
-}
 
 pub(super) fn run(args: &Args, asked: &LitScene, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });

@@ -1,15 +1,13 @@
 //! `crossbar render`: an OBJ or PLY by eye rays on a card, and scenes by the host renderers.
 
+mod args;
 mod light;
 mod scene;
-
-use std::path::PathBuf;
 
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 
-use super::executor::{Decider, GpuArgs};
-use super::scene_name::EyeArgs;
+use super::executor::Decider;
 use super::size::Size;
 use super::{Out, Problem, memory, view};
 use crate::geom::Mesh;
@@ -21,65 +19,12 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::Verdict;
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
+use args::SMALLER;
 
-const EXAMPLES: &str = "\
-Examples:
-  crossbar render bunny.obj --out bunny
-      bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
-  crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
-      the same on a Radeon 8500
-  crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out room
-      a scene of the project by path tracing: also colour in layers.exr
-  crossbar render teapot-room --caster engine --device r300 --executor batch
-      after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
-
-/// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
-///
-/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a
-/// scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
-#[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
-pub(super) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor,
-    /// teapot-room, white-box
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
-
-    /// Pixels of the picture
-    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
-    size: Size,
-
-    #[command(flatten)]
-    eye: EyeArgs,
-
-    /// Which faces can be hit
-    #[arg(long, value_enum, default_value = "both")]
-    sides: view::SidesArg,
-
-    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
-    #[arg(long, value_name = "D")]
-    device: Option<String>,
-
-    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
-    #[arg(long, value_enum)]
-    executor: Option<Decider>,
-
-    #[command(flatten)]
-    gpu: GpuArgs,
-
-    /// Folder for picture.png and layers.exr
-    #[arg(long, value_name = "DIR", default_value = "out/render")]
-    out: PathBuf,
-
-    // Last, because its heading goes on to what follows.
-    #[command(flatten)]
-    light: light::LightArgs,
-}
+pub(super) use args::Args;
 
 /// Bytes per pixel of a picture by eye rays: rays, hits, layers and the files of them.
 const PER_PIXEL: u64 = 160;
-/// What to do about too large a picture.
-const SMALLER: &str = "ask for a smaller `--size`";
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(asked) = scene::lit(args)? {

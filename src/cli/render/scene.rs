@@ -1,6 +1,6 @@
 //! The scene of `crossbar render`, and its camera.
 
-use super::Args;
+use super::args::Args;
 use crate::cli::scene_name::{self, Viewpoint};
 use crate::cli::view;
 use crate::io::scene_file::load;

@@ -1,125 +1,16 @@
 //! `crossbar timeline`: how long a run takes on an emulated card, and where the time goes.
 
+mod args;
 mod run;
 mod sensitivity;
 mod show;
 
-use std::path::PathBuf;
-
-use clap::ValueEnum;
-use refsim::event::ReadBackMode;
-use refsim::timing::Level;
-
-use super::size::Size;
 use super::{Out, Problem, ProgressBar, Verdict};
 use crate::io::atomic::write_file;
 use crate::study::timeline_trace::trace;
 use run::{Input, TimedLog};
 
-const EXAMPLES: &str = "\
-Examples:
-  crossbar timeline fixtures/cases/modulate.toml
-      both models of a case: what each draw costs, what each unit does, the critical path
-  crossbar timeline --rays 64x64 --device r200 --readback async --double-buffer --trace out.json
-      the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
-  crossbar timeline fixtures/cases/modulate.toml --model pipeline --sensitivity
-      and what each guessed figure does to the total, halved and doubled
-
-The model `rates` knows a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands cost it nothing; \
-`pipeline` knows clocks of the units, memory traffic and latencies, and what a command costs the host. Both put the same log on \
-the time axis; the log is the same for every executor. Read-backs forced to be asynchronous are never waited for: what comes \
-out is what asynchrony could gain at most. With both models the trace is of `pipeline`. docs/timing.md explains all of it.
-
-Exit codes: 0 done, 2 the case cannot be run, or the device has no time.";
-
-/// Model the time of a run on a card: cost of each draw, busy and waiting units, the critical path
-#[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
-pub(super) struct Args {
-    /// The case, a TOML file: see `crossbar run`
-    #[arg(required_unless_present = "rays", conflicts_with = "rays")]
-    case: Option<PathBuf>,
-
-    /// Instead of a case: the Ray Engine's crossbar with so many eye rays, bucket after bucket on one card
-    #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
-    rays: Option<Size>,
-
-    /// With --rays: the mesh, a Wavefront OBJ or PLY file [default: the teapot, 8 x 8 quads per patch]
-    #[arg(long, value_name = "M.obj", requires = "rays", conflicts_with = "case")]
-    mesh: Option<PathBuf>,
-
-    /// The card [default: the case's; r200 for --rays]
-    #[arg(long, value_name = "D")]
-    device: Option<String>,
-
-    /// Which model
-    #[arg(long, value_enum, default_value = "both")]
-    model: ModelArg,
-
-    /// Whether the host waits for what it reads back [default: as the run says]
-    #[arg(long, value_enum, value_name = "MODE")]
-    readback: Option<ReadBackArg>,
-
-    /// Keep two copies of every texture and target: one is overwritten while the card uses the other
-    #[arg(long)]
-    double_buffer: bool,
-
-    /// Run the texture cache over every address that the run reads, instead of estimating its misses; slower
-    #[arg(long)]
-    cache: bool,
-
-    /// Halve and double each guessed figure, and show what it does to the total
-    #[arg(long)]
-    sensitivity: bool,
-
-    /// Write the timeline as a trace for Perfetto and chrome://tracing
-    #[arg(long, value_name = "FILE")]
-    trace: Option<PathBuf>,
-}
-
-/// Which model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ModelArg {
-    /// Fill rate and bus rates
-    Rates,
-    /// Clocks of each unit
-    Pipeline,
-    /// One after the other
-    Both,
-}
-
-impl ModelArg {
-    const fn levels(self) -> &'static [Level] {
-        match self {
-            Self::Rates => &[Level::Rates],
-            Self::Pipeline => &[Level::Pipeline],
-            Self::Both => &[Level::Rates, Level::Pipeline],
-        }
-    }
-}
-
-/// Whether the host waits for what it reads back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ReadBackArg {
-    /// It waits for all earlier work and the transfer
-    Sync,
-    /// It goes on
-    Async,
-}
-
-impl From<ReadBackArg> for ReadBackMode {
-    fn from(arg: ReadBackArg) -> Self {
-        match arg {
-            ReadBackArg::Sync => Self::Synchronous,
-            ReadBackArg::Async => Self::Asynchronous,
-        }
-    }
-}
-
-/// `64x64`, or `64,64`.
-fn parse_rays(text: &str) -> Result<Size, super::BadSize> {
-    text.replace(',', "x").parse()
-}
+pub(super) use args::Args;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let input = Input::read(args)?;

@@ -10,7 +10,7 @@ use refsim::timing::cache::TextureCaches;
 use refsim::timing::replay::{Options, Replay, replay};
 use refsim::timing::{Level, Model, TimingError};
 
-use super::Args;
+use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup};
 use crate::cli::run::setup_memory;

@@ -7,8 +7,8 @@ use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
+use super::args::{Args, ReadBackArg};
 use super::run::{Input, TimedLog};
-use super::{Args, ReadBackArg};
 use crate::cli::Out;
 use crate::report::visible::visible_line;
 use crate::report::{Cell, Table};

@@ -1,0 +1,152 @@
+//! The arguments of `crossbar render`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use crate::cli::caster::CasterArg;
+use crate::cli::executor::{Decider, GpuArgs};
+use crate::cli::number;
+use crate::cli::scene_name::EyeArgs;
+use crate::cli::size::Size;
+use crate::cli::view::SidesArg;
+use crate::renderer::Lens;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar render bunny.obj --out bunny
+      bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
+  crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
+      the same on a Radeon 8500
+  crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out room
+      a scene of the project by path tracing: also colour in layers.exr
+  crossbar render teapot-room --caster engine --device r300 --executor batch
+      after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
+
+/// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
+///
+/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a
+/// scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(in crate::cli) struct Args {
+    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor,
+    /// teapot-room, white-box
+    #[arg(value_name = "SCENE")]
+    pub(super) scene: PathBuf,
+
+    /// Pixels of the picture
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    pub(super) size: Size,
+
+    #[command(flatten)]
+    pub(super) eye: EyeArgs,
+
+    /// Which faces can be hit
+    #[arg(long, value_enum, default_value = "both")]
+    pub(super) sides: SidesArg,
+
+    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
+    #[arg(long, value_name = "D")]
+    pub(super) device: Option<String>,
+
+    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
+    #[arg(long, value_enum)]
+    pub(super) executor: Option<Decider>,
+
+    #[command(flatten)]
+    pub(super) gpu: GpuArgs,
+
+    /// Folder for picture.png and layers.exr
+    #[arg(long, value_name = "DIR", default_value = "out/render")]
+    pub(super) out: PathBuf,
+
+    // Last, because its heading goes on to what follows.
+    #[command(flatten)]
+    pub(super) light: LightArgs,
+}
+
+/// What to do about too large a picture.
+pub(super) const SMALLER: &str = "ask for a smaller `--size`";
+
+/// How light is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Renderer {
+    /// Eye rays alone, with a lamp at the eye
+    Eye,
+    /// Point lights, hard shadows, mirrors, glass
+    Whitted,
+    /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
+    Distributed,
+    /// All light, by random walks, unbiased
+    Path,
+    /// All light, by photon maps and final gather
+    Photon,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Light")]
+pub(super) struct LightArgs {
+    /// How light is found [default for scenes by name: whitted]
+    #[arg(long, value_enum, value_name = "R")]
+    pub(super) renderer: Option<Renderer>,
+
+    /// Samples per pixel [default: 1 for eye, 4 for whitted, else 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub(super) samples: Option<u32>,
+
+    /// The most surfaces that light meets between lamp and eye
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(super) depth: u32,
+
+    /// Random seed
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+
+    /// A view of the scene, by its name [default: its first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) view: Option<String>,
+
+    /// What radiance is multiplied by for picture.png; 1 is white
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
+    pub(super) exposure: f64,
+
+    /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
+    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = number::not_negative_single)]
+    pub(super) ambient: f64,
+
+    /// A lens: its radius, and the distance at which all is sharp
+    #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
+    pub(super) lens: Option<Lens>,
+
+    /// Photons for each map [default: 100000]
+    #[arg(long, value_name = "N")]
+    pub(super) photons: Option<u32>,
+
+    /// Gather rays of each hit of photon mapping; 0 shows the map itself [default: 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
+    pub(super) gather: Option<u32>,
+
+    /// Who finds first hits [default: host]
+    #[arg(long, value_enum, value_name = "C")]
+    pub(super) caster: Option<CasterArg>,
+
+    /// Say on standard error how long it took, and how many rays per second that is
+    #[arg(long)]
+    pub(super) time: bool,
+}
+
+impl LightArgs {
+    /// Whether anything was said that only makes sense of a lit scene.
+    pub(super) fn asked(&self) -> bool {
+        self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
+    }
+}
+
+fn parse_lens(text: &str) -> Result<Lens, String> {
+    let (radius, focus) =
+        text.split_once(',').ok_or_else(|| format!("expected RADIUS,FOCUS as in 0.02,1.5; found `{text}`"))?;
+    let radius = number::not_negative(radius).map_err(|what| format!("radius: {what}"))?;
+    let focus = number::positive(focus).map_err(|what| format!("focus: {what}"))?;
+    Ok(Lens { radius, focus })
+}
