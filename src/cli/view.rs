@@ -7,7 +7,7 @@ use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
 use super::size::Size;
-use super::{Problem, memory};
+use super::{MemoryError, Problem, memory};
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::io::atomic::FileSet;
@@ -85,15 +85,15 @@ pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec
 }
 
 /// Refuses a mesh, a Wavefront OBJ or PLY file, whose text would take more memory than there is.
-pub(super) fn require_mesh(path: &Path) -> Result<(), Problem> {
+pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
     require_file(path, 12, "name a smaller mesh")
 }
 
 /// Refuses a file whose contents take more memory than there is: `per_byte` bytes per byte of its text.
 ///
 /// # Errors
-/// [`Problem::Memory`].
-pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(), Problem> {
+/// [`MemoryError`].
+pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(), MemoryError> {
     // What is no file takes what it takes: it cannot be asked for its size.
     let length = std::fs::metadata(path).map_or(0, |file| file.len());
     memory::require(format_args!("reading `{}`", path.display()), length.saturating_mul(per_byte), help)

@@ -10,7 +10,7 @@ use serde_json::json;
 use super::args::{Args, Renderer, SMALLER};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{Out, Problem, ProgressBar, memory, view};
+use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::picture::{exr, png};
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, out: &mut Out) -> miette::Resul
 }
 
 /// What the picture, its files and the photons take.
-fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
+fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
     const PER_PIXEL: u64 = 250;
     const PER_PHOTON: u64 = 450;
     let photons = match renderer {

@@ -8,7 +8,7 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::{Out, Problem, error, memory, pixel, view};
+use super::{MemoryError, Out, Problem, error, memory, pixel, view};
 use crate::{
     case::{self, CaseOutcome, Found, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 }
 
 /// What the surfaces of a case take, and their pictures; its textures are there already.
-pub(super) fn setup_memory(setup: &Setup) -> Result<(), Problem> {
+pub(super) fn setup_memory(setup: &Setup) -> Result<(), MemoryError> {
     let [width, height] = setup.size;
     // What is stored, its channels as numbers, and the file of them.
     let stored: u64 = setup.targets.iter().map(|target| 12 + 4 * target.bytes() as u64).sum();

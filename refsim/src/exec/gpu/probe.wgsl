@@ -1,6 +1,5 @@
 // One single precision operation per item: number, three operands; the result's bits, a NaN in its one form. Numbers
-// are those
-// of accuracy.rs.
+// are those of accuracy.rs.
 @group(0) @binding(0) var<storage, read> items: array<u32>;
 @group(0) @binding(1) var<storage, read_write> results: array<u32>;
 

@@ -1,7 +1,6 @@
 // Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in
-// its
-// record what the rasteriser gave there, what every instruction wrote, what the program left and what became of it. One
-// invocation a workgroup: lanes that go different ways would spend each other's loop passes.
+// its record what the rasteriser gave there, what every instruction wrote, what the program left and what became of it.
+// One invocation a workgroup: lanes that go different ways would spend each other's loop passes.
 //
 // `tiles` holds five words a pixel: column, row, first triangle of its list, how many, column in the targets.
 

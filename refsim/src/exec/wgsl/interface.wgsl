@@ -1,8 +1,7 @@
 // What the parts of a pixel module share: bindings, number formats, and the variables between kernel and program.
 //
 // A quad's values are rows of four lanes: (0, 0), (1, 0), (0, 1), (1, 1). A value is "raw": in fixed point the number
-// as a
-// sign-extended integer, in floating point of whatever width the single precision pattern of its exact value, with
+// as a sign-extended integer, in floating point of whatever width the single precision pattern of its exact value, with
 // 0x7fc00000 as the only NaN.
 
 @group(0) @binding(0) var<storage, read> draw: array<u32>;
@@ -20,8 +19,8 @@ const SINGLE: u32 = 2u;
 const WRAPPED: u32 = 3u;
 const ITERATOR: u32 = 4u;
 
-// The format of an index above; from 5 on those of targets' channels, 9 and 10 the half and fixed precision of
-// OpenGL's programs.
+// The format of an index above; from 5 on those of targets' channels, 9 and 10 the half and fixed precision of OpenGL's
+// programs.
 fn format_of_draw(k: u32) -> Format {
     let at = 8u * k;
     return Format(
@@ -39,12 +38,10 @@ fn format(k: u32) -> Format {
 }
 
 // Rows of four lanes in `scratch`: those of the program's registers by their slots, then from operand 0xff00 on what
-// goes in
-// and out. In: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog, 41 to
-// 44 window
-// position), edge functions 1 and 2, from which the program interpolates all but columns and rows. Out: colours of four
-// targets in the main format, masks of killed lanes, depth, masks of lanes whose depth is in the main format, not
-// single.
+// goes in and out. In: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog,
+// 41 to 44 window position), edge functions 1 and 2, from which the program interpolates all but columns and rows. Out:
+// colours of four targets in the main format, masks of killed lanes, depth, masks of lanes whose depth is in the main
+// format, not single.
 const ROW_EDGES: u32 = 0xff2du;
 const ROW_COLORS: u32 = 0xff2fu;
 const ROW_KILLED: u32 = 0xff3fu;
@@ -61,15 +58,13 @@ fn q_row(operand: u32) -> u32 {
 }
 
 // The first word of the triangle's set-up; the lanes that run (a quad with a covered lane runs whole) and those that
-// are
-// fragments.
+// are fragments.
 var<private> q_setup: u32;
 var<private> q_run: vec4<bool>;
 var<private> q_covered: vec4<bool>;
 // Loop passes, about, that the invocation may still make in this dispatch: no dispatch shall run for seconds, and
-// lavapipe ends
-// all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down, says so and
-// returns;
+// lavapipe ends all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down,
+// says so and returns;
 // called again, it goes on.
 var<private> q_passes: u32;
 var<private> q_suspended: bool;

@@ -284,8 +284,8 @@ fn o_float(channel: Channel, raw: u32) -> u32 {
     return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], raw, 0u)));
 }
 
-// The same, blended in single precision. All roundings happen
-// at one place, since each place costs a copy of the arithmetic.
+// The same, blended in single precision. All roundings happen at one place, since each place costs a copy of the
+// arithmetic.
 fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32) -> u32 {
     let is_alpha = channel.component == 3u;
     let op = draw[equation + 2u];

@@ -49,8 +49,7 @@ fn r_cover(at: u32, x: u32, y: u32) -> vec4<bool> {
 }
 
 // What interpolation starts from, in single precision: the edge functions at the four lanes, and columns and rows of
-// the
-// pixels at their centres.
+// the pixels at their centres.
 fn r_start(at: u32, x: u32, y: u32) {
     let half = select(0u, 1u, (setups[at + S_FLAGS] & S_HALF) != 0u);
     for (var i = 0u; i < 16u; i++) {

@@ -64,17 +64,14 @@ fn n_is_nan(f: Format, a: u32) -> bool {
     return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// What rounds, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits of the fixed
-// format
-// it is of. N_STEPS: a in single precision, b steps. N_SCALE: b the power as an i32. N_SPLIT_...: a a word, b the bit.
+// What is a product and a sum, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits
+// of the fixed format it is of. N_SCALE: b the power as an i32.
 fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var kind = f.kind;
     var frac = f.frac;
     if op == N_CONVERT {
         kind = select(N_FIXED, N_FLOAT, b == 0u);
         frac = b - 1u;
-    } else if op == N_STEPS {
-        kind = N_FLOAT;
     }
     var x = n_unpack(kind, frac, a);
     var y = n_unpack(f.kind, f.frac, b);
@@ -82,18 +79,6 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     // Adds nothing, not even to the sign.
     let nothing = Number(0u, x.sign, -N_FAR, 0u);
     switch op {
-        case N_RCP: {
-            y = x;
-            x = N_ONE;
-        }
-        case N_STEPS: {
-            x = n_whole(n_step(x, b));
-            y = n_whole(b);
-        }
-        case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
-            x = n_taken(op, a, b);
-            y = n_whole(select(select(127u, 255u, op == N_SPLIT_BYTE), 65535u, op == N_SPLIT_SHORT));
-        }
         case N_ADD, N_SUB: {
             z = y;
             z.sign ^= select(0u, 1u, op == N_SUB);
@@ -130,14 +115,34 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         }
         default: {}
     }
+    return n_sum(f, x, y, z);
+}
+
+// What is found digit by digit, before its rounding. N_STEPS: a in single precision, b steps. N_SPLIT_...: a a word, b
+// the bit.
+fn n_long(op: u32, f: Format, a: u32, b: u32) -> Real {
+    var x = n_unpack(select(f.kind, N_FLOAT, op == N_STEPS), f.frac, a);
+    var y = n_unpack(f.kind, f.frac, b);
+    switch op {
+        case N_RCP: {
+            y = x;
+            x = N_ONE;
+        }
+        case N_STEPS: {
+            x = n_whole(n_step(x, b));
+            y = n_whole(b);
+        }
+        case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
+            x = n_taken(op, a, b);
+            y = n_whole(select(select(127u, 255u, op == N_SPLIT_BYTE), 65535u, op == N_SPLIT_SHORT));
+        }
+        default: {}
+    }
     var w: Real;
     switch op {
-        case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS, N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: {
-            w = n_quotient(op, f, x, y);
-        }
         case N_EXP2, N_LOG2: { w = n_power(op, f, x); }
         case N_SIN, N_COS: { w = n_circle(op, f, x); }
-        default: { w = n_sum(f, x, y, z); }
+        default: { w = n_quotient(op, f, x, y); }
     }
     return w;
 }
@@ -205,8 +210,8 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
-// Any operation, by its number, before its rounding.
-fn n_exact(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
+// Any operation that is not long, by its number, before its rounding.
+fn n_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var exact = n_simple(op, f, a, b, c);
     if !exact.known {
         exact = n_arith(op, f, a, b, c);
@@ -226,5 +231,11 @@ fn n_result(op: u32, f: Format, exact: Real) -> u32 {
 
 // Any operation but N_MAD, which is a product and then a sum.
 fn n_alu(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
-    return n_result(op, f, n_exact(op, f, a, b, c));
+    var exact: Real;
+    switch op {
+        case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS, N_EXP2, N_LOG2, N_SIN, N_COS: { exact = n_long(op, f, a, b); }
+        case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: { exact = n_long(op, f, a, b); }
+        default: { exact = n_short(op, f, a, b, c); }
+    }
+    return n_result(op, f, exact);
 }

@@ -151,8 +151,7 @@ fn n_div96(p: vec3<u32>, k: u32) -> vec3<u32> {
 }
 
 // 2^x and log2 x, good to 2^-90 and 2^-84. Both are irrational where they aren't exact, and no format has an operand
-// whose
-// result is expected nearer than 2^-64 to a place where rounding turns.
+// whose result is expected nearer than 2^-64 to a place where rounding turns.
 fn n_power(op: u32, f: Format, x: Number) -> Real {
     let exponential = op == N_EXP2;
     if x.kind == 2u {

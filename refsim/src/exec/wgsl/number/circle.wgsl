@@ -1,8 +1,7 @@
 // Sine and cosine.
 
 // sin x and cos x, good to 2^-85 of themselves: but for 0 both are irrational, and no format has an operand whose
-// result
-// is expected nearer than 2^-64 to a place where rounding turns.
+// result is expected nearer than 2^-64 to a place where rounding turns.
 fn n_circle(op: u32, f: Format, x: Number) -> Real {
     let cosine = op == N_COS;
     if x.kind != 0u {
@@ -51,9 +50,8 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
         angle = (high << vec3<u32>(zeros)) | ((vec3<u32>(high.y, high.z, part[skip + 3u]) >> vec3<u32>(1u)) >> vec3<u32>(31u - zeros));
         e = -96 - i32(32u * skip + zeros);
     }
-    // Then times pi / 2, squared, and the power series from its far end, 1 - z (1 - z (..) / 12) / 2 or the like,
-    // which stays
-    // below one. All products are made at one place.
+    // Then times pi / 2, squared, and the power series from its far end, 1 - z (1 - z (..) / 12) / 2 or the like, which
+    // stays below one. All products are made at one place.
     let turn = quarters + select(0u, 1u, cosine);
     let even = (turn & 1u) == 1u;
     var square = vec3<u32>();

@@ -1,5 +1,5 @@
-// The sum of the first products, at most 4, before their one rounding: an integer of 672 bits in units of 2^-384
-// holds every partial sum.
+// The sum of the first products, at most 4, before their one rounding: an integer of 672 bits in units of 2^-384 holds
+// every partial sum.
 fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
     var left = a;
     var right = b;

@@ -1,10 +1,8 @@
 // Number formats, and the one place that rounds.
 //
-// Values are raw: fixed point as a sign-extended integer, floats of every format as the binary32 pattern of the
-// number, NaN
-// as 0x7fc00000. Magnitudes of 96 bits are vec3, the first word the highest; a last bit that is set may stand for
-// whatever
-// follows it ("jammed"), which rounding can't tell from the truth as long as it happens two places above.
+// Values are raw: fixed point as a sign-extended integer, floats of every format as the binary32 pattern of the number,
+// NaN as 0x7fc00000. Magnitudes of 96 bits are vec3, the first word the highest; a last bit that is set may stand for
+// whatever follows it ("jammed"), which rounding can't tell from the truth as long as it happens two places above.
 
 struct Format {
     kind: u32,       // 0 fixed, 1 float
@@ -229,9 +227,8 @@ fn n_finish(f: Format, x: Real) -> u32 {
     return select(n_round_real(f, x.sign, x.exp, x.m), x.raw, x.known);
 }
 
-// (-1)^negative v rounded into the format: v = sig 2^exponent (x the low word, y the high one), or with sticky
-// strictly between
-// that and (sig + 1) 2^exponent.
+// (-1)^negative v rounded into the format: v = sig 2^exponent (x the low word, y the high one), or with sticky strictly
+// between that and (sig + 1) 2^exponent.
 fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: bool) -> u32 {
     let m = vec3<u32>(sig.y, sig.x, select(0u, 1u, sticky));
     return n_round_real(f, select(0u, 1u, negative), exponent - 32, m);

@@ -1,8 +1,7 @@
 // Numbers in parts of a word.
 
 // The digits that a number takes in a word: its pattern of up to 16 bits; of single precision clamped to [0, 1] in 16
-// or 8
-// bits; 128 + 127 x of x from -128/127 to 1, 128 for NaN. Halves go up.
+// or 8 bits; 128 + 127 x of x from -128/127 to 1, 128 for NaN. Halves go up.
 fn n_part(op: u32, f: Format, a: u32) -> u32 {
     let x = n_unpack(N_FLOAT, 23u, a);
     switch op {

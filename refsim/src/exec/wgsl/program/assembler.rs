@@ -190,9 +190,9 @@ impl Assembler<'_> {
     }
 
     pub(super) fn emit(&mut self, operation: u32, rest: u32, to: u16, [a, b, c]: [u16; 3]) {
-        let passes = match (operation, rest >> 16) {
-            (op::ALU, code) => passes(code),
-            _ => PASSES[0],
+        let (operation, passes) = match (operation, passes(rest >> 16)) {
+            (op::ALU, passes) if passes > PASSES[0] => (op::LONG, passes),
+            _ => (operation, PASSES[0]),
         };
         self.push_costly(operation, rest, passes);
         self.words.extend([pair(to, a), pair(b, c)]);

@@ -1,13 +1,10 @@
-// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of
-// operations that
-// the programs of a draw don't use are left out of the text (parts.rs).
+// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of operations
+// that the programs of a draw don't use are left out of the text (parts.rs).
 //
 // The words of a program start at code[q_code]: first word, word of the end, constants, table of the float constants
-// and
-// their number, first slot of the frames, number of slots, first word of interpolation (offsets count from q_code).
-// Operands
-// are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then input components.
-// program/microcode.rs writes what this reads.
+// and their number, first slot of the frames, number of slots, first word of interpolation (offsets count from q_code).
+// Operands are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then input
+// components. program/microcode.rs writes what this reads.
 
 
 var<private> vm_active: u32;
@@ -16,17 +13,26 @@ var<private> vm_counter: u32;
 // Steps of each lane.
 var<private> vm_steps: vec4<u32>;
 
-// The value of an operand in a lane. There are few calls, since each is a copy of the text for most drivers.
-fn vm_read(operand: u32, lane: u32) -> u32 {
-    var value: u32;
+// What long operations come to before their rounding, lane by lane, and whether the next operation finds it there.
+var<private> vm_exact: array<Real, 4>;
+var<private> vm_prepared: bool;
+
+// The value of an operand in every lane. There are few calls, since each is a copy of the text for most drivers.
+fn vm_row(operand: u32) -> vec4<u32> {
+    var value: vec4<u32>;
     if (operand < 0x8000u || operand >= 0xff00u) {
-        value = scratch[q_row(operand)][lane];
+        value = scratch[q_row(operand)];
     } else if (operand < 0xfe00u) {
-        value = code[q_code + code[q_code + 2u] + operand - 0x8000u];
+        value = vec4<u32>(code[q_code + code[q_code + 2u] + operand - 0x8000u]);
     } else {
-        value = setups[q_setup + operand - 0xfe00u];
+        value = vec4<u32>(setups[q_setup + operand - 0xfe00u]);
     }
     return value;
+}
+
+// The value of an operand in a lane.
+fn vm_read(operand: u32, lane: u32) -> u32 {
+    return vm_row(operand)[lane];
 }
 
 // The operand in a half of a word: the lower one is number 0.
@@ -36,11 +42,7 @@ fn vm_operand(at: u32, number: u32) -> u32 {
 
 // The lanes in which an operand is not zero.
 fn vm_lanes(operand: u32) -> u32 {
-    var bits = 0u;
-    for (var lane = 0u; lane < 4u; lane += 1u) {
-        bits |= select(0u, 1u, vm_read(operand, lane) != 0u) << lane;
-    }
-    return bits;
+    return vm_bits(vm_row(operand) != vec4<u32>(0u));
 }
 
 fn vm_bits(mask: vec4<bool>) -> u32 {
@@ -65,8 +67,7 @@ fn vm_count(counter: u32) {
 }
 
 // A frame is two rows: kind, lanes to run afterwards, lanes of `else` or still in the loop, passes left or way back;
-// then
-// of loops what the counter grows by and what it was.
+// then of loops what the counter grows by and what it was.
 fn vm_frame(number: u32) -> u32 {
     return (code[q_code + 5u] + 2u * number) * q_stride + q_invocation;
 }
@@ -250,8 +251,7 @@ fn vm_flow(op: u32, at: u32, next: u32) -> u32 {
 }
 
 // What the texture library asks for, of the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w
-// along x,
-// then along y); and where it puts a texel's components.
+// along x, then along y); and where it puts a texel's components.
 fn texture_operand(number: u32, lane: u32) -> u32 {
     return vm_read(vm_operand(q_read + 1u + select(0u, 2u, number >= 4u), number), lane);
 }
@@ -296,15 +296,26 @@ fn vm_relative(word: u32, base: i32, address: i32) -> u32 {
     return result;
 }
 
-// The sum of up to four products.
-fn vm_dot(at: u32, f: Format, terms: u32, lane: u32) -> Real {
-    var a: vec4<u32>;
-    var b: vec4<u32>;
+// What a long operation comes to before its rounding: of two operands, or the sum of up to four products.
+fn vm_prepare(op: u32, word: u32, at: u32) {
+    let f = format((word >> 8u) & 15u);
+    let operation = word >> 16u;
+    let terms = select(1u, operation, op == VM_DOT);
+    var left: array<vec4<u32>, 4>;
+    var right: array<vec4<u32>, 4>;
     for (var k = 0u; k < terms; k += 1u) {
-        a[k] = vm_read(vm_operand(at + 1u, 2u * k + 1u), lane);
-        b[k] = vm_read(vm_operand(at + 1u, 2u * k + 2u), lane);
+        left[k] = vm_row(vm_operand(at + 1u, 2u * k + 1u));
+        right[k] = vm_row(vm_operand(at + 1u, 2u * k + 2u));
     }
-    return n_dot(f, terms, a, b);
+    for (var lane = 0u; lane < 4u; lane += 1u) {
+        let a = vec4<u32>(left[0][lane], left[1][lane], left[2][lane], left[3][lane]);
+        let b = vec4<u32>(right[0][lane], right[1][lane], right[2][lane], right[3][lane]);
+        switch op {
+            case VM_DOT: { vm_exact[lane] = n_dot(f, operation, a, b); }
+            default: { vm_exact[lane] = n_long(operation, f, a.x, b.x); }
+        }
+    }
+    vm_prepared = true;
 }
 
 // What is computed lane by lane: result, up to three operands.
@@ -313,37 +324,38 @@ fn vm_compute(op: u32, word: u32, at: u32) {
     let operation = word >> 16u;
     // Differences within the quad: bit 1 right neighbour less left one, bit 2 lower less upper.
     let other = (word >> 12u) & 3u;
-    let to = q_row(vm_operand(at + 1u, 0u));
-    for (var lane = 0u; lane < 4u; lane += 1u) {
-        let a = vm_read(vm_operand(at + 1u, 1u), lane | other);
-        var b = 0u;
-        var c = 0u;
-        switch op {
-            case VM_RELATIVE: {}
-            default: {
-                b = vm_read(vm_operand(at + 1u, 2u), lane & ~other);
-                c = vm_read(vm_operand(at + 1u, 3u), lane);
-            }
-        }
-        var result = a;
-        switch op {
-            case VM_COPY: {}
-            case VM_AND: { result = a & b; }
-            case VM_OR: { result = a | b; }
-            case VM_AND_NOT: { result = b & ~a; }
-            case VM_SELECT: { result = (a & b) | (~a & c); }
-            case VM_RELATIVE: { result = vm_relative(word, bitcast<i32>(code[at + 2u]), bitcast<i32>(a)); }
-            default: {
-                var exact: Real;
-                switch op {
-                    case VM_DOT: { exact = vm_dot(at, f, operation, lane); }
-                    default: { exact = n_exact(operation, f, a, b, c); }
-                }
-                result = n_result(operation, f, exact);
-            }
-        }
-        scratch[to][lane] = result;
+    // One call in a loop, not three: compilers take half of the time.
+    var operands: array<vec4<u32>, 3>;
+    for (var k = 0u; k < select(3u, 1u, op == VM_RELATIVE); k += 1u) {
+        operands[k] = vm_row(vm_operand(at + 1u, k + 1u));
     }
+    let first = operands[0];
+    let second = operands[1];
+    let third = operands[2];
+    var result = first;
+    switch op {
+        case VM_COPY: {}
+        case VM_AND: { result = first & second; }
+        case VM_OR: { result = first | second; }
+        case VM_AND_NOT: { result = second & ~first; }
+        case VM_SELECT: { result = (first & second) | (~first & third); }
+        case VM_RELATIVE: {
+            for (var lane = 0u; lane < 4u; lane += 1u) {
+                result[lane] = vm_relative(word, bitcast<i32>(code[at + 2u]), bitcast<i32>(first[lane]));
+            }
+        }
+        default: {
+            for (var lane = 0u; lane < 4u; lane += 1u) {
+                var exact = vm_exact[lane];
+                if (!vm_prepared) {
+                    exact = n_short(operation, f, first[lane | other], second[lane & ~other], third[lane]);
+                }
+                result[lane] = n_result(operation, f, exact);
+            }
+            vm_prepared = false;
+        }
+    }
+    scratch[q_row(vm_operand(at + 1u, 0u))] = result;
 }
 
 // Loop passes of an instruction at most, by the class that its word names.
@@ -383,21 +395,64 @@ fn vm_begin() -> u32 {
     return code[q_code];
 }
 
-// Interpolates and runs the program.
+// Interpolates and runs the program. Loops stand in loops because drivers of processors have no branches: they run all
+// the text of a loop's body at each pass, with the results of most of it thrown away. So the innermost loop holds what
+// programs do most, and the text for texture reads runs as often as there are texture reads.
 fn shade() {
     var next = code[q_code + 7u];
+    vm_prepared = false;
     loop {
-        let at = q_code + next;
-        let word = code[at];
-        let op = word & 0xffu;
-        if (HAS_SUSPENSION) {
-            let cost = vm_cost(word);
-            // Interpolation is part of what a triangle costs.
-            if (q_passes < cost && next < code[q_code + 7u]) {
-                vm_suspend(next);
-                return;
+        var at: u32;
+        var word: u32;
+        var op: u32;
+        loop {
+            loop {
+                at = q_code + next;
+                word = code[at];
+                op = word & 0xffu;
+                let is_long = (op == VM_DOT || op == VM_LONG) && !vm_prepared;
+                if (HAS_SUSPENSION) {
+                    let cost = vm_cost(word);
+                    // Interpolation is part of what a triangle costs.
+                    if (!vm_prepared && next < code[q_code + 7u]) {
+                        if (q_passes < cost) {
+                            vm_suspend(next);
+                            return;
+                        }
+                        q_passes -= cost;
+                    }
+                }
+                var is_short = !is_long;
+                switch select(op, VM_END, is_long) {
+                    case VM_ALU, VM_LONG, VM_DOT, VM_COPY, VM_AND, VM_OR, VM_AND_NOT, VM_SELECT, VM_RELATIVE: {
+                        vm_compute(op, word, at);
+                        next += select(3u, 6u, op == VM_DOT);
+                    }
+                    case VM_UNLESS: { // goes on elsewhere if a bit of a word of the set-up is 1
+                        let bits = setups[q_setup + (word >> 16u)];
+                        next = select(next + 2u, code[at + 1u], ((bits >> ((word >> 8u) & 31u)) & 1u) == 1u);
+                    }
+                    case VM_STEP: { // an instruction: where to go on if no lane runs; the sampler it reads
+                        if (HAS_STEP_BUDGET) {
+                            vm_charge();
+                        }
+                        let lanes = countOneBits(vm_bits(q_covered) & vm_active);
+                        let sampler_number = code[at + 2u];
+                        if (sampler_number != 0xffffu && lanes != 0u) {
+                            q_fetched[sampler_number] += lanes;
+                        }
+                        next = select(next + 3u, code[at + 1u], vm_active == 0u);
+                    }
+                    default: { is_short = false; }
+                }
+                if (!is_short) {
+                    break;
+                }
             }
-            q_passes -= select(0u, cost, next < code[q_code + 7u]);
+            if (op != VM_DOT && op != VM_LONG) {
+                break;
+            }
+            vm_prepare(op, word, at);
         }
         switch op {
             case VM_ENTER: { // the program begins, or goes on
@@ -408,14 +463,6 @@ fn shade() {
                     }
                 }
             }
-            case VM_UNLESS: { // goes on elsewhere if a bit of a word of the set-up is 1
-                let bits = setups[q_setup + (word >> 16u)];
-                next = select(next + 2u, code[at + 1u], ((bits >> ((word >> 8u) & 31u)) & 1u) == 1u);
-            }
-            case VM_ALU, VM_DOT, VM_COPY, VM_AND, VM_OR, VM_AND_NOT, VM_SELECT, VM_RELATIVE: {
-                vm_compute(op, word, at);
-                next += select(3u, 6u, op == VM_DOT);
-            }
             case VM_FETCH: { // a texture read: sampler, detail
                 q_read = at;
                 texture_read((word >> 16u) & 0xffu, word >> 24u, q_run);
@@ -424,17 +471,6 @@ fn shade() {
             case VM_FETCHED: { // texture reads of every covered lane
                 q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_bits(q_covered));
                 next += 2u;
-            }
-            case VM_STEP: { // an instruction: where to go on if no lane runs; the sampler it reads
-                if (HAS_STEP_BUDGET) {
-                    vm_charge();
-                }
-                let lanes = countOneBits(vm_bits(q_covered) & vm_active);
-                let sampler_number = code[at + 2u];
-                if (sampler_number != 0xffffu && lanes != 0u) {
-                    q_fetched[sampler_number] += lanes;
-                }
-                next = select(next + 3u, code[at + 1u], vm_active == 0u);
             }
             case VM_ZERO: { // zeros in so many slots
                 for (var i = 0u; i < code[at + 2u]; i += 1u) {

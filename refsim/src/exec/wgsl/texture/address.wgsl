@@ -36,8 +36,8 @@ fn texture_right(a: vec2<u32>, shift: u32) -> vec2<u32> {
 }
 
 // floor(coordinate * scale * 2^fraction) in two's complement; with `half_up`, halves up instead of down. NaN and
-// infinities count as 0; what is larger than `most` (FP32 bits of a finite number) counts as that, so that the
-// result has at most 54 bits.
+// infinities count as 0; what is larger than `most` (FP32 bits of a finite number) counts as that, so that the result
+// has at most 54 bits.
 fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_up: bool) -> vec2<u32> {
     let given = coordinate & 0x7fffffffu;
     if (given >= 0x7f800000u) { return vec2<u32>(0u); }

@@ -182,8 +182,7 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
 }
 
 // A texture read of the lanes that run: components in the main format, raw; 0 in the other lanes. `texture_operand`
-// gives
-// coordinates and whatever the detail takes, all in single precision.
+// gives coordinates and whatever the detail takes, all in single precision.
 fn texture_read(number: u32, detail: u32, run: vec4<bool>) {
     let s = texture_state(number);
     for (var lane = 0u; lane < 4u; lane++) {

@@ -120,8 +120,8 @@ fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
     return n_round(f, parts.negative, parts.significand, parts.exponent, parts.sticky);
 }
 
-// A component of a stored texel in a format, raw: what a nearest read gives. (Reading back a target; `texture_read`
-// has its own way, because it weighs before it rounds.)
+// A component of a stored texel in a format, raw: what a nearest read gives. (Reading back a target; `texture_read` has
+// its own way, because it weighs before it rounds.)
 fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
     let bits = texel_bits(component, words);
     var parts: TexelParts;
