@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::error::ReadError;
 use super::{NumberError, parse_f32, quoted};
 use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
@@ -26,20 +27,10 @@ const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 /// Why a file is no table of rays. Lines count from 1, the header's.
 #[derive(Debug, Error, miette::Diagnostic)]
 pub enum RaysError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the rays {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file is longer than [`MAX_BYTES`].
-    #[error("{}: expected a table of at most {MAX_BYTES} bytes, found more", path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-    },
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
     /// The first line is not the header.
     #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
     Header {
@@ -105,11 +96,19 @@ pub enum RaysError {
 /// # Errors
 /// [`RaysError`], with the path, and the line where there is one.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
-    let file = File::open(path).map_err(|source| RaysError::Read { path: path.into(), source })?;
+    let file = File::open(path).map_err(|source| unreadable(path, source))?;
     let mut limited = file.take(MAX_BYTES + 1);
     let rays = read_rays(&mut limited, path);
     // A table that was cut may be broken where it was cut.
-    if limited.limit() == 0 { Err(RaysError::TooLong { path: path.into() }) } else { rays }
+    if limited.limit() == 0 {
+        Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into())
+    } else {
+        rays
+    }
+}
+
+fn unreadable(path: &Path, source: io::Error) -> ReadError {
+    ReadError::Unreadable { what: "rays", path: path.into(), source }
 }
 
 /// Reads rays from bytes; `name` stands for the file in messages. A table without rays is fine.
@@ -124,7 +123,7 @@ fn read_rays(input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(input);
     let broken = |reason: csv::Error| match reason.into_kind() {
-        csv::ErrorKind::Io(source) => RaysError::Read { path: name.into(), source },
+        csv::ErrorKind::Io(source) => unreadable(name, source).into(),
         other => RaysError::Table { path: name.into(), reason: format!("{other:?}") },
     };
     let mut record = csv::ByteRecord::new();

@@ -24,9 +24,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
+use super::error::ModelError;
 use super::number::Single;
 use super::read_limited;
-use super::scene_obj::{SceneObjError, load_scene, write_mtl, write_scene};
+use super::scene_obj::{load_scene, write_mtl, write_scene};
 use crate::scene::{CameraError, PointLight, Scene, View};
 
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
@@ -91,7 +92,7 @@ pub enum SceneFileError {
     /// Something about the mesh or its materials.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Mesh(#[from] SceneObjError),
+    Mesh(#[from] ModelError),
 }
 
 #[derive(Deserialize)]
