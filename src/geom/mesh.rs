@@ -20,51 +20,23 @@ pub struct Mesh {
 
 /// Why positions and indices make no mesh.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MeshError {
     /// A corner names a vertex that does not exist.
     #[error("triangle {triangle} uses vertex {index}, expected an index below {vertices} (counted from 0)")]
-    IndexOutOfRange {
-        /// The triangle, counted from 0.
-        triangle: usize,
-        /// The index it used.
-        index: u32,
-        /// Number of vertices there are.
-        vertices: usize,
-    },
+    IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
-    NotFinite {
-        /// The vertex, counted from 0.
-        vertex: usize,
-        /// What was found.
-        value: f32,
-    },
+    NotFinite { vertex: usize, value: f32 },
     /// A mesh has one normal, or one pair of texture coordinates, per vertex, or none at all.
     #[error("found {found} {what}, expected one per vertex: {vertices}")]
-    AttributeCount {
-        /// `normals` or `texture coordinates`.
-        what: &'static str,
-        /// How many were given.
-        found: usize,
-        /// Number of vertices there are.
-        vertices: usize,
-    },
+    AttributeCount { what: &'static str, found: usize, vertices: usize },
     /// A component of a normal or a texture coordinate is NaN or infinite.
     #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
-    AttributeNotFinite {
-        /// `normals` or `texture coordinates`.
-        what: &'static str,
-        /// The vertex, counted from 0.
-        vertex: usize,
-        /// What was found.
-        value: f32,
-    },
+    AttributeNotFinite { what: &'static str, vertex: usize, value: f32 },
     /// More triangles than 31 bits can name.
     #[error("found {found} triangles, expected at most {}", i32::MAX)]
-    TooMany {
-        /// Number of triangles given.
-        found: usize,
-    },
+    TooMany { found: usize },
 }
 
 /// How two triangles touch.

@@ -13,27 +13,14 @@ use crate::scene::SceneError;
 
 /// Why there are no bytes of a file.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReadError {
     /// The file cannot be opened or read.
     #[error("cannot read the {what} {}", path.display())]
-    Unreadable {
-        /// What the file is.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Unreadable { what: &'static str, path: PathBuf, source: io::Error },
     /// The file is longer than what is read.
     #[error("{}: expected a {what} of at most {limit} bytes, found more", path.display())]
-    TooLong {
-        /// What the file is.
-        what: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// The longest that is read.
-        limit: u64,
-    },
+    TooLong { what: &'static str, path: PathBuf, limit: u64 },
 }
 
 /// The whole of a file, which is a `what`, of at most `limit` bytes.
@@ -73,6 +60,7 @@ impl fmt::Display for FilePlace {
 
 /// Why a file is no mesh, no scene or no material library.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ModelError {
     /// The file is not there, or too long.
     #[error(transparent)]
@@ -80,68 +68,25 @@ pub enum ModelError {
     Read(#[from] ReadError),
     /// A line, or the whole file, is not what belongs there.
     #[error("{place}: expected {expected}, found {found}")]
-    Syntax {
-        /// Where.
-        place: FilePlace,
-        /// What belongs there.
-        expected: Cow<'static, str>,
-        /// What stands there.
-        found: String,
-    },
+    Syntax { place: FilePlace, expected: Cow<'static, str>, found: String },
     /// A face of an OBJ names a vertex, a texture coordinate or a normal that the file does not have.
     #[error("{place}: {what} {index}, expected 1 to {count} (or -1 to -{count})")]
-    IndexOutOfRange {
-        /// Where.
-        place: FilePlace,
-        /// What the index is of.
-        what: &'static str,
-        /// The index as written.
-        index: i64,
-        /// How many could be named there.
-        count: usize,
-    },
+    IndexOutOfRange { place: FilePlace, what: &'static str, index: i64, count: usize },
     /// An element of a PLY's binary data is not what the header says.
     #[error("{place}: {element} {index} (counted from 0): expected {expected}, found {found}")]
-    Element {
-        /// The file.
-        place: FilePlace,
-        /// The element's name.
-        element: String,
-        /// Which of its kind.
-        index: usize,
-        /// What belongs there.
-        expected: Cow<'static, str>,
-        /// What stands there.
-        found: &'static str,
-    },
+    Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: &'static str },
     /// A material library gives a name twice.
     #[error("{0}: expected each material once, found a second `newmtl {1}`; rename one of the two")]
     SecondMaterial(FilePlace, String),
-    /// A material's figures do not go together.
+    /// A material's figures do not go together. The place is its `newmtl`.
     #[error("{place}: material {name}: expected {expected}, found {found}")]
-    Material {
-        /// The line of its `newmtl`.
-        place: FilePlace,
-        /// The material.
-        name: String,
-        /// What belongs there, and what to do.
-        expected: &'static str,
-        /// What stands there.
-        found: String,
-    },
+    Material { place: FilePlace, name: String, expected: &'static str, found: String },
     /// A material library cannot be read.
     #[error(
         "{place}: cannot read the material library {}; put it beside the model, or take the line out",
         library.display()
     )]
-    Library {
-        /// The line that names the library.
-        place: FilePlace,
-        /// The library.
-        library: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Library { place: FilePlace, library: PathBuf, source: io::Error },
     /// tobj refuses what our pass has accepted.
     #[error("{0}: {1}")]
     Loader(FilePlace, tobj::LoadError),

@@ -12,6 +12,7 @@ pub const MAX_BYTES: u64 = 256 << 20;
 
 /// Why a file is no picture.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureFileError {
     /// The file is not there, or too long.
     #[error(transparent)]
@@ -19,12 +20,7 @@ pub enum PictureFileError {
     Read(#[from] ReadError),
     /// The bytes are no picture.
     #[error("{}: {reason}", path.display())]
-    Decode {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: PictureError,
-    },
+    Decode { path: PathBuf, reason: PictureError },
 }
 
 /// Reads a picture; its first bytes say in which format, whatever the file's name.

@@ -26,6 +26,7 @@ const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Why a file is no table of rays. Lines count from 1, the header's.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RaysError {
     /// The file is not there, or too long.
     #[error(transparent)]
@@ -33,62 +34,22 @@ pub enum RaysError {
     Read(#[from] ReadError),
     /// The first line is not the header.
     #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
-    Header {
-        /// The file.
-        path: PathBuf,
-        /// What stands there.
-        found: String,
-    },
+    Header { path: PathBuf, found: String },
     /// A line does not have six fields.
     #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} fields", path.display())]
-    Fields {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// How many there are.
-        found: usize,
-    },
+    Fields { path: PathBuf, line: u64, found: usize },
     /// A field is not a number of single precision.
     #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
-    Number {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The column's name.
-        column: &'static str,
-        /// What is wrong with it.
-        reason: NumberError,
-        /// What stands there.
-        found: String,
-    },
+    Number { path: PathBuf, line: u64, column: &'static str, reason: NumberError, found: String },
     /// The six numbers are no ray.
     #[error("{}:{line}: {reason}", path.display())]
-    Ray {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// Why not.
-        reason: RayError,
-    },
+    Ray { path: PathBuf, line: u64, reason: RayError },
     /// The table's syntax is broken.
     #[error("{}: the table cannot be read: {reason}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// What the csv reader says.
-        reason: String,
-    },
+    Table { path: PathBuf, reason: String },
     /// No memory for more rays.
     #[error("{}: no memory for more than {rays} rays", path.display())]
-    Memory {
-        /// The file.
-        path: PathBuf,
-        /// Rays that were read.
-        rays: usize,
-    },
+    Memory { path: PathBuf, rays: usize },
 }
 
 /// Reads rays from a file.

@@ -35,60 +35,29 @@ const LONGEST: u64 = 1 << 20;
 
 /// Why a file is no scene.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneFileError {
     /// The file cannot be opened or read.
     #[error("cannot read the scene {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Read { path: PathBuf, source: io::Error },
     /// The file is longer than 1 MiB, or not UTF-8.
     #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
-    NoText {
-        /// The file.
-        path: PathBuf,
-    },
+    NoText { path: PathBuf },
     /// The file is no TOML, or does not say what a scene file says.
     #[error("{}:{line}: {message}", path.display())]
-    Toml {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What the reader says.
-        message: String,
-    },
+    Toml { path: PathBuf, line: usize, message: String },
     /// A view makes no picture.
     #[error("{}: view {view:?}: {reason}", path.display())]
-    View {
-        /// The file.
-        path: PathBuf,
-        /// The view.
-        view: String,
-        /// Why.
-        reason: CameraError,
-    },
+    View { path: PathBuf, view: String, reason: CameraError },
     /// Two views of one name.
     #[error("{}: expected views of different names, found {view:?} twice", path.display())]
-    SameName {
-        /// The file.
-        path: PathBuf,
-        /// The name.
-        view: String,
-    },
+    SameName { path: PathBuf, view: String },
     /// A light's figures are not finite, or its intensity is negative.
     #[error(
         "{}: point light {light} (counted from 1): expected a finite position, and an intensity of at least 0",
         path.display()
     )]
-    Light {
-        /// The file.
-        path: PathBuf,
-        /// The light.
-        light: usize,
-    },
+    Light { path: PathBuf, light: usize },
     /// Something about the mesh or its materials.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -24,27 +24,16 @@ pub struct Matrix {
 
 /// Why a matrix cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MatrixError {
     /// Too many elements.
     #[error(
         "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {rows} x {columns}"
     )]
-    TooLarge {
-        /// The rows asked for.
-        rows: usize,
-        /// The columns asked for.
-        columns: usize,
-    },
+    TooLarge { rows: usize, columns: usize },
     /// The number of values is not rows times columns.
     #[error("expected {rows} x {columns} values, found {values}")]
-    Count {
-        /// The rows asked for.
-        rows: usize,
-        /// The columns asked for.
-        columns: usize,
-        /// The values given.
-        values: usize,
-    },
+    Count { rows: usize, columns: usize, values: usize },
 }
 
 impl Matrix {

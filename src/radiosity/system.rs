@@ -8,39 +8,23 @@ use crate::linalg::Matrix;
 
 /// Why there is no system.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SystemError {
     /// No patches.
     #[error("expected patches, found none")]
     Empty,
-    /// Not one value per patch.
+    /// Not one reflectance, emittance or the like per patch.
     #[error("expected {patches} {what}, one per patch, found {found}")]
-    Count {
-        /// `reflectances`, `emittances`, ...
-        what: &'static str,
-        /// The patches.
-        patches: usize,
-        /// How many values.
-        found: usize,
-    },
+    Count { what: &'static str, patches: usize, found: usize },
     /// A reflectance of 1 or more, or below 0.
     #[error(
         "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
          a surface that absorbs nothing has no solution"
     )]
-    Reflectance {
-        /// The patch.
-        patch: usize,
-        /// What was found.
-        value: f64,
-    },
+    Reflectance { patch: usize, value: f64 },
     /// An emittance below 0, or none at all.
     #[error("expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)")]
-    Emittance {
-        /// The patch.
-        patch: usize,
-        /// What was found.
-        value: f64,
-    },
+    Emittance { patch: usize, value: f64 },
 }
 
 /// Red, green and blue per patch.

@@ -31,32 +31,20 @@ pub struct Camera {
 
 /// Why there is no such camera.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CameraError {
-    /// A figure is not finite.
+    /// A figure of `eye`, `target` or `up` is not finite.
     #[error("expected finite figures for {what}, found {found:?}")]
-    NotFinite {
-        /// `eye`, `target` or `up`.
-        what: &'static str,
-        /// What was given.
-        found: [f32; 3],
-    },
+    NotFinite { what: &'static str, found: [f32; 3] },
     /// Eye and target are one point, or `up` is zero or runs along the view.
     #[error("eye, target and up span no picture: expected a target other than the eye, and an up not along the view")]
     Flat,
     /// The tangent of half the field of view is not in (0, 1e6].
     #[error("expected a tangent of half the vertical field of view above 0 and up to 1000000, found {found}")]
-    FieldOfView {
-        /// What was given.
-        found: f32,
-    },
+    FieldOfView { found: f32 },
     /// The picture has no pixels, or more than 2^30.
     #[error("expected a picture of 1 to 2^30 pixels, found {width}x{height}")]
-    Size {
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-    },
+    Size { width: u32, height: u32 },
 }
 
 impl Camera {

@@ -13,29 +13,17 @@ pub use self::staging::abandon;
 
 /// Why a file was not written.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum WriteError {
     /// The folder cannot be made, or nothing can be written in it.
     #[error("cannot write into the folder {}; choose another folder, or make it writable", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Folder { path: PathBuf, source: io::Error },
     /// The file cannot be written.
     #[error("cannot write {}", path.display())]
-    File {
-        /// The file, at its final place.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    File { path: PathBuf, source: io::Error },
     /// The name is not a plain path below the folder.
     #[error("expected the name of a file below the output folder, found {}", name.display())]
-    Name {
-        /// The name.
-        name: PathBuf,
-    },
+    Name { name: PathBuf },
 }
 
 /// Writes one file through `fill`, and the folders that are missing on the way. On any error, whatever stood at `path`

@@ -53,32 +53,20 @@ impl Solution {
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SolveError {
     /// Not one element per row.
     #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
-    Count {
-        /// What there is too much or too little of.
-        what: &'static str,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Elements found.
-        found: usize,
-    },
+    Count { what: &'static str, rows: usize, found: usize },
     /// A relaxation factor for which SOR cannot converge.
     #[error("expected a relaxation factor above 0 and below 2, found {0}")]
     Relaxation(f64),
     /// A zero on the diagonal.
     #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
-    Diagonal {
-        /// The row.
-        row: usize,
-    },
+    Diagonal { row: usize },
     /// The iteration diverges, or the input holds NaN or infinity.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
-    Diverged {
-        /// Iterations done.
-        iterations: usize,
-    },
+    Diverged { iterations: usize },
     /// No inverse.
     #[error(transparent)]
     Singular(#[from] Singular),
