@@ -62,7 +62,6 @@ pub enum TeapotPart {
 }
 
 /// The part that a patch (0 to 31) belongs to.
-#[must_use]
 pub fn part_of_patch(patch: u32) -> TeapotPart {
     match patch {
         0..=11 => TeapotPart::Body,

@@ -78,9 +78,6 @@ fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ModelError> {
 }
 
 /// Writes a mesh so that it reads back with the same bits in every corner.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     // Rust prints the shortest decimal that reads back to the same f32.
     for [x, y, z] in mesh.positions() {

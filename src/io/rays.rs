@@ -117,9 +117,6 @@ fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
 }
 
 /// Writes rays in the form that [`parse_rays`] reads back bit for bit.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", HEADER.join(","))?;
     for ray in rays {
@@ -130,9 +127,6 @@ pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes one line per ray: its number from 0, the triangle or -1, and t or `inf`.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_hits(hits: &[Candidate], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ray,triangle,t")?;
     for (ray, hit) in hits.iter().enumerate() {

@@ -96,9 +96,6 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 }
 
 /// Reads a scene: a scene file, or an OBJ (by the name's ending).
-///
-/// # Errors
-/// [`SceneFileError`].
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
         return Ok(load_scene(path)?);
@@ -164,9 +161,6 @@ pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>
 }
 
 /// Writes a scene file that names `mesh`; views and point lights read back with the same bits.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_scene_file(scene: &Scene, mesh: &str, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "mesh = {}", toml::Value::from(mesh))?;
     for View { name, eye, target, up, tan_half_height } in &scene.views {

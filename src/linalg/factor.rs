@@ -125,7 +125,6 @@ impl Qr {
     ///
     /// # Panics
     /// If `right` has not one element per row.
-    #[must_use]
     pub fn least_squares(&self, right: &[f64]) -> Vec<f64> {
         let mut projected = DVector::from_column_slice(right);
         self.0.q_tr_mul(&mut projected);

@@ -57,19 +57,16 @@ impl Matrix {
     }
 
     /// The number of rows.
-    #[must_use]
     pub fn row_count(&self) -> usize {
         self.rows
     }
 
     /// The number of columns.
-    #[must_use]
     pub fn column_count(&self) -> usize {
         self.columns
     }
 
     /// Whether there are as many rows as columns.
-    #[must_use]
     pub fn is_square(&self) -> bool {
         self.rows == self.columns
     }
@@ -78,7 +75,6 @@ impl Matrix {
     ///
     /// # Panics
     /// If there is no such row.
-    #[must_use]
     pub fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
@@ -102,13 +98,11 @@ impl Matrix {
     }
 
     /// The elements of the diagonal.
-    #[must_use]
     pub fn diagonal(&self) -> Vec<f64> {
         self.rows().take(self.columns).enumerate().map(|(i, row)| row[i]).collect()
     }
 
     /// The product with a vector, one [`dot`] per row.
-    #[must_use]
     pub fn times(&self, vector: &[f64]) -> Vec<f64> {
         if self.values.len() < MIN_PARALLEL_ELEMENTS {
             return self.rows().map(|row| dot(row, vector)).collect();
@@ -133,7 +127,6 @@ impl Matrix {
     }
 
     /// The transposed matrix.
-    #[must_use]
     pub fn transposed(&self) -> Self {
         let mut values = vec![0.0; self.values.len()];
         values.par_chunks_exact_mut(self.rows.max(1)).enumerate().for_each(|(column, into)| {

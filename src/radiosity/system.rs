@@ -47,7 +47,6 @@ pub struct RgbSolution {
 
 impl RgbSolution {
     /// The radiosity of each patch.
-    #[must_use]
     pub fn radiosity(&self) -> PerPatch {
         let [red, green, blue] = &self.channels;
         (0..red.radiosity.len()).map(|i| [red, green, blue].map(|channel| channel.radiosity[i])).collect()
@@ -56,9 +55,6 @@ impl RgbSolution {
 
 impl System {
     /// A system of as many patches as there are form factors. Reflectances lie in [0, 1).
-    ///
-    /// # Errors
-    /// [`SystemError`].
     pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, SystemError> {
         if factors.is_empty() {
             return Err(SystemError::Empty);
@@ -101,19 +97,16 @@ impl System {
     }
 
     /// The form factors.
-    #[must_use]
     pub fn factors(&self) -> &FormFactors {
         &self.factors
     }
 
     /// The reflectance of each patch.
-    #[must_use]
     pub fn reflectance(&self) -> &[[f64; 3]] {
         &self.reflectance
     }
 
     /// The emittance of each patch.
-    #[must_use]
     pub fn emittance(&self) -> &[[f64; 3]] {
         &self.emittance
     }
@@ -122,7 +115,6 @@ impl System {
     ///
     /// # Panics
     /// For another channel.
-    #[must_use]
     pub fn right_hand_side(&self, channel: usize) -> Vec<f64> {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
@@ -131,7 +123,6 @@ impl System {
     ///
     /// # Panics
     /// For a channel above 2.
-    #[must_use]
     pub fn matrix(&self, channel: usize) -> Matrix {
         let mut matrix = self.factors.matrix().clone();
         for (i, rho) in self.reflectance.iter().enumerate() {
@@ -143,9 +134,6 @@ impl System {
     }
 
     /// Solves one channel. `start` is the initial guess, for example the solution before a change of light.
-    ///
-    /// # Errors
-    /// [`SolveError`].
     pub fn solve_channel(
         &self,
         channel: usize,
@@ -182,7 +170,6 @@ impl System {
     ///
     /// # Panics
     /// If there is not one radiosity per patch.
-    #[must_use]
     pub fn residual(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         assert_eq!(radiosity.len(), self.factors.len(), "one radiosity per patch");
         [0, 1, 2].map(|c| {
@@ -195,7 +182,6 @@ impl System {
 
     /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room.
     /// It is 0 for reciprocal form factors and an exact solution.
-    #[must_use]
     pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();

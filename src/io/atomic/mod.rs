@@ -31,9 +31,6 @@ pub enum WriteError {
 ///
 /// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written
 /// to and never replaced; it too gets everything or, when `fill` fails, nothing.
-///
-/// # Errors
-/// [`WriteError`].
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     match fs::metadata(path) {
         Ok(place) if place.is_dir() => {
@@ -152,9 +149,6 @@ impl FileSet {
     }
 
     /// Writes the file `name` through `fill`.
-    ///
-    /// # Errors
-    /// [`WriteError`].
     pub fn write(
         &mut self,
         name: &Path,

@@ -45,7 +45,6 @@ pub struct Solution {
 
 impl Solution {
     /// How many iterations it took.
-    #[must_use]
     pub fn iterations(&self) -> usize {
         self.history.len() - 1
     }
@@ -102,13 +101,11 @@ impl IterationHistory {
 }
 
 /// The mean square; 0 for no values.
-#[must_use]
 pub fn mean_square(values: &[f64]) -> f64 {
     crate::linalg::dot(values, values) / values.len().max(1) as f64
 }
 
 /// The residual, E - M B.
-#[must_use]
 pub fn residual(matrix: &Matrix, right_hand_side: &[f64], radiosity: &[f64]) -> Vec<f64> {
     matrix.times(radiosity).iter().zip(right_hand_side).map(|(mb, e)| e - mb).collect()
 }
