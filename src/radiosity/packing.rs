@@ -1,4 +1,4 @@
-//! Matrices and vectors as textures of four f32 per texel (section 3): layouts and their inverses.
+//! Matrices and vectors as textures of four f32 per texel (section 3): layouts.
 //!
 //! | layout | texel (x, y) of a matrix | texel x of a vector |
 //! |---|---|---|
@@ -114,43 +114,9 @@ pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, Too
     })
 }
 
-/// The inverse of [`rgb_matrix`]: the first `size` rows and columns of a channel's matrix.
-///
-/// # Panics
-/// If the texture is smaller.
-pub fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<f32>> {
-    (0..size).map(|y| texels.row(y)[..size].iter().map(|texel| texel[channel]).collect()).collect()
-}
-
 /// The inverse of [`rgb_vector`].
 pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
     texels.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
-}
-
-/// The inverse of [`luminance_matrix`].
-///
-/// # Panics
-/// If the texture is smaller.
-pub fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
-    (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
-}
-
-/// The inverse of [`luminance_vector`]: the first `size` elements.
-///
-/// # Panics
-/// If the texture is smaller.
-pub fn from_luminance_vector(texels: &Texels, size: usize) -> Vec<f32> {
-    texels.texels.as_flattened()[..size].to_vec()
-}
-
-/// The inverse of [`block_channel_matrix`].
-///
-/// # Panics
-/// If the texture is smaller.
-pub fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
-    let half = texels.width;
-    let at = |y: usize, x: usize| texels.row(y % half)[x % half][2 * (y / half) + x / half];
-    (0..size).map(|y| (0..size).map(|x| at(y, x)).collect()).collect()
 }
 
 /// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`,
