@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod error;
+mod lines;
 pub mod model;
 mod number;
 pub mod obj;

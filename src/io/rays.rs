@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::error::ReadError;
-use super::{NumberError, parse_f32, quoted};
+use super::lines::single;
+use super::{NumberError, quoted};
 use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
 
@@ -108,9 +109,8 @@ fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
     }
     let mut numbers = [0.0_f32; 6];
     for ((number, field), column) in numbers.iter_mut().zip(record).zip(HEADER) {
-        let parsed = std::str::from_utf8(field).map_err(|_| NumberError::NoNumber).and_then(parse_f32);
         let wrong = |reason| RaysError::Number { path: name.into(), line, column, reason, found: quoted(field) };
-        *number = parsed.map_err(wrong)?;
+        *number = single(field).map_err(wrong)?;
     }
     let [ox, oy, oz, dx, dy, dz] = numbers;
     Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| RaysError::Ray { path: name.into(), line, reason })

@@ -18,8 +18,9 @@ pub use mtl::parse_mtl;
 pub use write::{write_mtl, write_scene};
 
 use super::error::ModelError;
+use super::lines::{logical_lines, words};
 use super::model::is_ply;
-use super::obj::{MAX_BYTES, load_model, logical_lines, within_limit, words};
+use super::obj::{MAX_BYTES, load_model, within_limit};
 use super::ply::parse_ply;
 use super::read_limited;
 use crate::scene::Scene;

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::super::error::{FilePlace, ModelError};
-use super::super::obj::{logical_lines, single, words};
+use super::super::lines::{logical_lines, single, words};
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
 
@@ -50,21 +50,30 @@ struct MtlReader<'a> {
     seen: BTreeSet<String>,
 }
 
+/// A line of a library with its words.
+struct Statement<'a> {
+    line: usize,
+    text: &'a [u8],
+    key: &'a [u8],
+    values: &'a [&'a [u8]],
+}
+
 impl MtlReader<'_> {
     fn line(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
         let words = words(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
+        let here = &Statement { line, text, key, values };
         match key {
             b"newmtl" => self.material(line, text[6..].trim_ascii()),
-            b"Kd" | b"Ks" | b"Tf" => self.color(line, key, values, text, "three numbers from 0 to 1", |v| v <= 1.0),
-            b"Ke" => self.color(line, key, values, text, "three numbers of at least 0", |_| true),
-            b"Ns" => self.number(line, key, values, text, "`Ns` with a number of at least 0", |_| true),
-            b"Ni" => self.number(line, key, values, text, "`Ni` with a number above 0", |v| v > 0.0),
-            b"d" => self.number(line, key, values, text, "`d` with a number from 0 to 1", |v| v <= 1.0),
-            b"Tr" => self.number(line, key, values, text, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
+            b"Kd" | b"Ks" | b"Tf" => self.color(here, "three numbers from 0 to 1", |v| v <= 1.0),
+            b"Ke" => self.color(here, "three numbers of at least 0", |_| true),
+            b"Ns" => self.number(here, "`Ns` with a number of at least 0", |_| true),
+            b"Ni" => self.number(here, "`Ni` with a number above 0", |v| v > 0.0),
+            b"d" => self.number(here, "`d` with a number from 0 to 1", |v| v <= 1.0),
+            b"Tr" => self.number(here, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
             b"illum" => {
                 let model = |v: f32| v <= 10.0 && v.fract() == 0.0;
-                self.number(line, key, values, text, "`illum` with a whole number from 0 to 10", model)
+                self.number(here, "`illum` with a whole number from 0 to 10", model)
             }
             _ => Ok(()),
         }
@@ -86,54 +95,46 @@ impl MtlReader<'_> {
 
     fn color(
         &mut self,
-        line: usize,
-        key: &[u8],
-        values: &[&[u8]],
-        text: &[u8],
+        here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
     ) -> Result<(), ModelError> {
-        self.not_too_large(line, values)?;
-        let channels: Vec<f32> = values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
+        self.not_too_large(here)?;
+        let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
         // One number stands for three.
-        let channels = match (values.len(), channels[..].len()) {
+        let channels = match (here.values.len(), channels[..].len()) {
             (3, 3) => [channels[0], channels[1], channels[2]],
             (1, 1) => [channels[0]; 3],
-            _ => return Err(self.syntax(line, expected, text)),
+            _ => return Err(self.syntax(here.line, expected, here.text)),
         };
-        self.keep(line, key, &channels, text)
+        self.keep(here, &channels)
     }
 
     fn number(
         &mut self,
-        line: usize,
-        key: &[u8],
-        values: &[&[u8]],
-        text: &[u8],
+        here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
     ) -> Result<(), ModelError> {
-        self.not_too_large(line, values)?;
-        match values {
-            &[word] => match number(word).filter(|&v| allowed(v)) {
-                Some(value) => self.keep(line, key, &[value], text),
-                None => Err(self.syntax(line, expected, text)),
-            },
-            _ => Err(self.syntax(line, expected, text)),
+        self.not_too_large(here)?;
+        let value = if let &[word] = here.values { number(word).filter(|&v| allowed(v)) } else { None };
+        match value {
+            Some(value) => self.keep(here, &[value]),
+            None => Err(self.syntax(here.line, expected, here.text)),
         }
     }
 
     /// A number that single precision does not hold is no matter of what the key allows.
-    fn not_too_large(&self, line: usize, values: &[&[u8]]) -> Result<(), ModelError> {
-        let large = values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
-        large.map_or(Ok(()), |word| Err(self.syntax(line, NumberError::TooLarge.expected(), word)))
+    fn not_too_large(&self, here: &Statement<'_>) -> Result<(), ModelError> {
+        let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
+        large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))
     }
 
-    fn keep(&mut self, line: usize, key: &[u8], values: &[f32], text: &[u8]) -> Result<(), ModelError> {
+    fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), ModelError> {
         if self.materials.is_empty() {
-            return Err(self.syntax(line, "`newmtl name` before the first figure of a material", text));
+            return Err(self.syntax(here.line, "`newmtl name` before the first figure of a material", here.text));
         }
-        self.clean.push_str(&String::from_utf8_lossy(key));
+        self.clean.push_str(&String::from_utf8_lossy(here.key));
         for value in values {
             self.clean.push_str(&format!(" {value}"));
         }
