@@ -8,21 +8,12 @@ use crate::texture::{TexelFormat, TextureError};
 
 /// What a program ran for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum ProgramPlace {
-    /// A pixel of the targets.
-    Pixel {
-        /// Column.
-        x: u32,
-        /// Row.
-        y: u32,
-    },
+    /// A column and a row of the targets.
+    Pixel { x: u32, y: u32 },
     /// A vertex of an instance, both from 0.
-    Vertex {
-        /// The instance.
-        instance: usize,
-        /// The vertex.
-        vertex: usize,
-    },
+    Vertex { instance: usize, vertex: usize },
 }
 
 impl std::fmt::Display for ProgramPlace {
