@@ -1,37 +1,31 @@
 //! Elementary functions with the same bits everywhere: those of the standard library vary by platform.
 
 /// The natural logarithm.
-#[must_use]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
 /// The logarithm to base 10.
-#[must_use]
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
 
 /// x to the power y.
-#[must_use]
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
 /// The angle of the point (x, y) from the x axis, in radians.
-#[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
 /// Sine and cosine of an angle in radians.
-#[must_use]
 pub fn sin_cos(radians: f64) -> (f64, f64) {
     libm::sincos(radians)
 }
 
 /// The point of the unit circle at `turns` full turns from (1, 0), counter-clockwise. Quarters are exact.
-#[must_use]
 pub fn on_circle(turns: f64) -> [f64; 2] {
     let quarters = turns * 4.0;
     let whole = (quarters + 0.5).floor();

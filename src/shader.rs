@@ -38,41 +38,25 @@ pub struct SourceLine {
 
 /// Why a shader cannot be used.
 #[derive(Debug, thiserror::Error, Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ShaderError {
     /// The file cannot be read.
     #[error("shader `{name}` cannot be read")]
     #[diagnostic(code(crossbar::shader::unreadable), help("check the path"))]
-    Unreadable {
-        /// The file.
-        name: String,
-        /// What the system said.
-        source: io::Error,
-    },
+    Unreadable { name: String, source: io::Error },
     /// The file is no text.
     #[error("expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`")]
     #[diagnostic(code(crossbar::shader::text), help("name a file with shader assembly, not a compiled shader"))]
-    NotText {
-        /// The file.
-        name: String,
-        /// The first byte that is no text.
-        byte: u8,
-        /// Its place in the file.
-        offset: usize,
-    },
+    NotText { name: String, byte: u8, offset: usize },
     /// The file is far longer than any shader.
     #[error("expected a shader of at most {MAX_BYTES} bytes, found more in `{name}`")]
     #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
-    TooLong {
-        /// The file.
-        name: String,
-    },
+    TooLong { name: String },
     /// The text is not shader assembly.
     #[error("`{name}` has {}", count(errors.len(), "syntax error"))]
     #[diagnostic(code("asm::syntax"))]
     Syntax {
-        /// What the shader is called.
         name: String,
-        /// Its text.
         #[source_code]
         source_code: Arc<SourceText>,
         /// Every error, in the order of the text; at least one.
@@ -83,13 +67,9 @@ pub enum ShaderError {
     #[error("`{name}` is no legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
     #[diagnostic(code("check"))]
     Illegal {
-        /// What the shader is called.
         name: String,
-        /// The version that it claims.
         version: Version,
-        /// The device.
         device: String,
-        /// Its text.
         #[source_code]
         source_code: Arc<SourceText>,
         /// Every violation, in the order of the text; at least one.

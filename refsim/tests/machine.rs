@@ -1,5 +1,7 @@
 //! The emulated card from the outside: draws into targets, counts, errors, threads.
 
+#[path = "machine/mistakes.rs"]
+mod mistakes;
 #[path = "common/running.rs"]
 mod running;
 
@@ -7,11 +9,11 @@ use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{
-    AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, VertexSource, VertexStreams,
+    AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
 };
 use refsim::num::Format;
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
-use refsim::raster::{Primitive, Vertex, Viewport};
+use refsim::raster::{Primitive, Vertex};
 use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
 use running::{bits, checked, constants, ideal};
 
@@ -44,6 +46,16 @@ fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     (image.raw(0, 0, y, x) as u32).to_le_bytes()
 }
 
+/// A draw of quads.
+fn quads<'a>(
+    vertices: &'a [Vertex],
+    program: &'a CheckedProgram,
+    host: &'a Constants,
+    target: TextureId,
+) -> DrawCall<'a> {
+    DrawCall::new(VertexSource::Transformed(vertices), Primitive::QuadList, program, host, target)
+}
+
 const COLOR: &str = "ps_1_4\nmov r0, v0";
 
 #[test]
@@ -59,8 +71,7 @@ fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
         let target = machine.create_target(TexelFormat::Bgra8, n, n).unwrap();
         let vertices = screen(n);
         let host = Constants::default();
-        let call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target)
-            .with_texture(0, texture, SamplerState::NEAREST_CLAMP);
+        let call = quads(&vertices, &program, &host, target).with_texture(0, texture, SamplerState::NEAREST_CLAMP);
         let events = machine.draw(&call).unwrap();
         assert_eq!(events.fragments.passed, u64::from(n * n), "{device}: every pixel once");
         assert_eq!(events.fragments.fetches[0], u64::from(n * n));
@@ -91,8 +102,7 @@ fn programs_of_any_length_agree() {
             vertex.texcoords[0] = bits([1.0 + i as f32 / 65536.0, 0.999, 1.0, 0.5]);
         }
         let host = Constants::default();
-        let source = VertexSource::Transformed(&vertices);
-        machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap();
+        machine.draw(&quads(&vertices, &program, &host, target)).unwrap();
         bytes.push(machine.read_back(target).unwrap().bytes().to_vec());
     }
     assert_eq!(bytes[0], bytes[1]);
@@ -135,8 +145,7 @@ fn draw_quads(
     let mut total = DrawEvents::default();
     let step = if at_once { vertices.len() } else { 4 };
     for part in vertices.chunks(step) {
-        let mut call = DrawCall::new(VertexSource::Transformed(part), Primitive::QuadList, program, &host, target)
-            .with_texture(0, texture, SamplerState::NEAREST_CLAMP);
+        let mut call = quads(part, program, &host, target).with_texture(0, texture, SamplerState::NEAREST_CLAMP);
         call.depth_buffer = Some(depth);
         call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
         call.blend = Some(BlendState::both(BlendFactor::SrcAlpha, BlendFactor::InvSrcAlpha, BlendOp::Add));
@@ -257,82 +266,12 @@ fn rendering_to_a_texture_and_reading_it() {
     let b = machine.create_target(TexelFormat::Rgba32f, 8, 8).unwrap();
     let vertices = screen(8);
     let host = Constants::default();
-    let source = || VertexSource::Transformed(&vertices);
-    machine.draw(&DrawCall::new(source(), Primitive::QuadList, &fill, &host, a)).unwrap();
-    let second =
-        DrawCall::new(source(), Primitive::QuadList, &copy, &host, b).with_texture(0, a, SamplerState::NEAREST_CLAMP);
+    machine.draw(&quads(&vertices, &fill, &host, a)).unwrap();
+    let second = quads(&vertices, &copy, &host, b).with_texture(0, a, SamplerState::NEAREST_CLAMP);
     machine.draw(&second).unwrap();
     assert_eq!(machine.read_back(b).unwrap().raw(0, 0, 5, 5) as u32, 0.5f32.to_bits());
-    let lost =
-        DrawCall::new(source(), Primitive::QuadList, &copy, &host, a).with_texture(0, a, SamplerState::NEAREST_CLAMP);
+    let lost = quads(&vertices, &copy, &host, a).with_texture(0, a, SamplerState::NEAREST_CLAMP);
     assert_eq!(machine.draw(&lost), Err(MachineError::FeedbackLoop { sampler: 0, target: 0 }));
-}
-
-#[test]
-fn every_mistake_has_its_error() {
-    let profile = Profile::named("r200").unwrap();
-    let program = checked(COLOR, &profile);
-    let vertex_program = checked("vs_1_1\ndcl_position v0\nmov oPos, v0", &profile);
-    let mut machine = Machine::new(profile.clone(), ExecutorKind::Scalar);
-    let mut other = Machine::new(ideal("e8m23"), ExecutorKind::Scalar);
-    let target = machine.create_target(TexelFormat::Bgra8, 8, 8).unwrap();
-    let small = machine.create_depth(DepthFormat::Unorm16, 4, 4).unwrap();
-    let vertices = screen(8);
-    let host = Constants::default();
-    let call = || DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target);
-    let foreign = (0..9).map(|_| other.create_target(TexelFormat::Rgba32f, 8, 8).unwrap()).last().unwrap();
-
-    let mut check = |edit: &dyn Fn(&mut DrawCall<'_>), expected: &str| {
-        let mut call = call();
-        edit(&mut call);
-        let message = machine.draw(&call).expect_err(expected).to_string();
-        assert!(message.contains(expected), "expected `{expected}` in `{message}`");
-    };
-    check(&|c| c.targets = vec![foreign], "does not hold");
-    check(&|c| c.targets = vec![target, target], "allows 1 (limits.render_targets)");
-    check(&|c| c.targets.clear(), "no target");
-    check(&|c| c.depth.test = Some(CompareFunction::Less), "no depth buffer");
-    check(&|c| c.depth_buffer = Some(small), "4x4");
-    check(&|c| c.primitive = Primitive::LineList, "LineList");
-    check(&|c| c.viewport = Some(Viewport::new(0, 8)), "viewport");
-    check(&|c| c.indices = Some(&[0, 1, 9]), "index 2 is 9");
-    check(
-        &|c| c.samplers[3] = Some(refsim::machine::BoundTexture { texture: foreign, state: SamplerState::default() }),
-        "does not hold",
-    );
-
-    let bad = |e: MachineError| e.to_string();
-    assert!(bad(machine.create_target(TexelFormat::Rgba32f, 8, 8).unwrap_err()).contains("(formats.target)"));
-    assert!(
-        bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba16, 8, 8).unwrap()).unwrap_err())
-            .contains("(formats.texture)")
-    );
-    assert!(
-        bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba8, 4096, 1).unwrap()).unwrap_err())
-            .contains("max_texture_size")
-    );
-    let swapped =
-        DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &vertex_program, &host, target);
-    assert!(bad(machine.draw(&swapped).unwrap_err()).contains("expected a Pixel program, found `vs_1_1`"));
-    let data = [[0; 4]; 3];
-    for (streams, expected) in [
-        (vec![(0, StepRate::Vertex)], "has 3 entries, the draw needs 4 (one a vertex)"),
-        (vec![(16, StepRate::Instance)], "found v16"),
-        (vec![(1, StepRate::Instance), (1, StepRate::Instance)], "two streams feed v1"),
-    ] {
-        let streams =
-            streams.into_iter().map(|(register, step)| AttributeStream { register, step, data: &data }).collect();
-        let streams = VertexStreams { vertex_count: 4, instance_count: 2, streams };
-        let source = VertexSource::Program { program: &vertex_program, constants: &host, streams };
-        let message =
-            bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
-        assert!(message.contains(expected), "expected `{expected}` in `{message}`");
-    }
-    let streams = VertexStreams { vertex_count: 0, instance_count: usize::MAX, streams: Vec::new() };
-    let source = VertexSource::Program { program: &vertex_program, constants: &host, streams };
-    let message = bad(machine.draw(&DrawCall::new(source, Primitive::QuadList, &program, &host, target)).unwrap_err());
-    assert!(message.contains("instances, a draw can have 16777216"), "{message}");
-    assert_eq!(machine.read_back(target).unwrap().bytes(), [0; 256], "nothing was drawn");
 }
 
 #[test]
@@ -345,8 +284,7 @@ fn float_textures_are_filtered_only_where_the_card_can() {
     let vertices = screen(8);
     let host = constants(&[]);
     let linear = SamplerState { mag: Filter::Linear, ..SamplerState::NEAREST_CLAMP };
-    let mut call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target)
-        .with_texture(0, texture, linear);
+    let mut call = quads(&vertices, &program, &host, target).with_texture(0, texture, linear);
     assert!(matches!(machine.draw(&call), Err(MachineError::FloatFilter { sampler: 0, .. })));
     call.samplers[0].as_mut().unwrap().state = SamplerState::NEAREST_CLAMP;
     call.blend = Some(BlendState::both(BlendFactor::One, BlendFactor::One, BlendOp::Add));
@@ -384,8 +322,7 @@ fn a_changed_texture_is_read_as_it_is_now() {
         let target = machine.create_target(TexelFormat::Rgba8, n, n).unwrap();
         let (vertices, host) = (screen(n), Constants::default());
         let copy = |machine: &mut Machine, from, to| {
-            let call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, to)
-                .with_texture(0, from, SamplerState::NEAREST_CLAMP);
+            let call = quads(&vertices, &program, &host, to).with_texture(0, from, SamplerState::NEAREST_CLAMP);
             machine.draw(&call).unwrap();
             machine.read_back(to).unwrap().clone()
         };

@@ -78,7 +78,6 @@ impl KernelText {
     }
 
     /// The program for a block of so many texels: there are no loops in these languages.
-    #[must_use]
     pub fn unrolled(&self, texels: usize) -> String {
         let [head, body, tail] = self.parts();
         let mut text = String::with_capacity(head.len() + texels * body.len() + tail.len() + 40);
@@ -91,20 +90,17 @@ impl KernelText {
     }
 
     /// Instructions outside of the repeated part.
-    #[must_use]
     pub fn overhead(&self) -> usize {
         let [head, _, tail] = self.parts();
         instructions(head) + instructions(tail)
     }
 
     /// Instructions per texel: those of the repeated part.
-    #[must_use]
     pub fn per_texel(&self) -> usize {
         instructions(self.parts()[1])
     }
 
     /// The most texels that a program of so many instructions can take.
-    #[must_use]
     pub fn block(&self, max_instructions: usize) -> usize {
         max_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
     }

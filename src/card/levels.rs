@@ -28,7 +28,6 @@ impl Levels {
     }
 
     /// The levels, the finest first; `base` itself is not among them.
-    #[must_use]
     pub fn targets(&self) -> &[TextureId] {
         &self.targets
     }

@@ -74,13 +74,11 @@ impl PingPong {
     }
 
     /// The target that a pass writes.
-    #[must_use]
     pub fn written_by(&self, pass: usize) -> TextureId {
         self.0[pass % 2]
     }
 
     /// The target that a pass may read: the one that the pass before has written.
-    #[must_use]
     pub fn read_by(&self, pass: usize) -> TextureId {
         self.0[(pass + 1) % 2]
     }

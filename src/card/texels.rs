@@ -23,7 +23,6 @@ impl Texels {
     }
 
     /// One row.
-    #[must_use]
     pub fn vector(texels: Vec<[f32; 4]>) -> Self {
         Self { width: texels.len(), height: 1, texels }
     }
@@ -32,7 +31,6 @@ impl Texels {
     ///
     /// # Panics
     /// If there is no such row.
-    #[must_use]
     pub fn row(&self, y: usize) -> &[[f32; 4]] {
         &self.texels[y * self.width..(y + 1) * self.width]
     }
@@ -53,7 +51,6 @@ impl Texels {
     }
 
     /// The texels of an image of one level; components that the format lacks read as the card reads them.
-    #[must_use]
     pub fn from_image(image: &Image) -> Self {
         let [width, height] = [image.width(), image.height()].map(|side| side as usize);
         let value = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);

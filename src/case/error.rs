@@ -17,19 +17,16 @@ pub(super) type Source = Arc<SourceText>;
 
 /// Why a case cannot be run.
 #[derive(Debug, thiserror::Error, Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseError {
     /// The file is no TOML, or something in it is not what the schema says.
     #[error("{message}")]
     #[diagnostic(code(crossbar::case), help("{help}"))]
     Schema {
-        /// What is wrong.
         message: String,
-        /// What to do.
         help: String,
-        /// The text.
         #[source_code]
         source_code: Source,
-        /// Where in the text.
         #[label("here")]
         span: Option<SourceSpan>,
     },
@@ -37,33 +34,22 @@ pub enum CaseError {
     #[error("`{}` cannot be read", path.display())]
     #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are taken from the folder of the case"))]
     Unreadable {
-        /// The file.
         path: PathBuf,
-        /// What the system said.
         source: std::io::Error,
         /// The text of the case, if a case names the file.
         #[source_code]
         source_code: Option<Source>,
-        /// Where in the case.
         #[label("named here")]
         span: Option<SourceSpan>,
     },
     /// The case is no text.
     #[error("expected a case file in UTF-8, found byte {byte:#04x} at offset {offset}")]
     #[diagnostic(code(crossbar::case::text), help("save the file as UTF-8"))]
-    NotText {
-        /// The byte.
-        byte: u8,
-        /// Its place in the file.
-        offset: usize,
-    },
+    NotText { byte: u8, offset: usize },
     /// The case is longer than any case needs to be.
     #[error("expected a case file of at most {most} bytes, found a longer one")]
     #[diagnostic(code(crossbar::case::length), help("keep texels in image files"))]
-    TooLong {
-        /// The limit in bytes.
-        most: u64,
-    },
+    TooLong { most: u64 },
     /// The device cannot do what the case asks.
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
@@ -72,14 +58,10 @@ pub enum CaseError {
     #[error("the case cannot be drawn: {error}")]
     #[diagnostic(code(crossbar::case::steps), help("{help}"))]
     StepBudget {
-        /// Which pixel or vertex, and how many steps it had.
         error: Box<MachineError>,
-        /// What to do.
         help: String,
-        /// The program's text.
         #[source_code]
         source_code: Source,
-        /// The instruction that was one too many.
         #[label("one step too many")]
         span: SourceSpan,
     },
@@ -99,19 +81,16 @@ pub enum CaseError {
 
 /// What runs otherwise than a case says, or may.
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseWarning {
     /// Something in the case.
     #[error("{message}")]
     #[diagnostic(code(crossbar::case), severity(Warning), help("{help}"))]
     Case {
-        /// What is so.
         message: String,
-        /// What to do.
         help: String,
-        /// The text.
         #[source_code]
         source_code: Source,
-        /// Where in the text.
         #[label("here")]
         span: SourceSpan,
     },

@@ -41,59 +41,29 @@ pub struct FragmentPass {
 
 /// The stage of the pipeline at which the traces of a fragment first differ.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "left and right are the sides that are compared")]
 pub enum TraceStage {
-    /// What the vertex stage gives for a corner of the triangle. [`first_difference`] does not see corners;
+    /// What the vertex stage gives for a corner of the triangle, 0 to 2. [`first_difference`] does not see corners;
     /// [`differing_corner`] compares them.
-    Vertex {
-        /// The corner of the triangle, 0 to 2.
-        corner: usize,
-    },
+    Vertex { corner: usize },
     /// The triangle covers the pixel on one side only, or the order differs: what the vertex stage or the set-up of
     /// triangles computes. Which pass each side has there.
-    Coverage {
-        /// On the left.
-        left: Option<FragmentPass>,
-        /// On the right.
-        right: Option<FragmentPass>,
-    },
+    Coverage { left: Option<FragmentPass>, right: Option<FragmentPass> },
     /// What the rasteriser interpolates.
     Input,
     /// An input register: the interpolated value brought to the register format.
     Delivered,
-    /// What an instruction writes.
-    Instruction {
-        /// Its index in the program.
-        index: usize,
-    },
+    /// What an instruction, by its index in the program, writes.
+    Instruction { index: usize },
     /// Which components an instruction writes: its predicate.
-    Mask {
-        /// Its index in the program.
-        index: usize,
-        /// Components written on the left.
-        left: Mask,
-        /// Components written on the right.
-        right: Mask,
-    },
+    Mask { index: usize, left: Mask, right: Mask },
     /// Which instruction comes next: a branch. `None` where the program has ended.
-    Flow {
-        /// On the left.
-        left: Option<usize>,
-        /// On the right.
-        right: Option<usize>,
-    },
+    Flow { left: Option<usize>, right: Option<usize> },
     /// What the program leaves behind that no register shows: kill, depth, clamped colour. With the instruction, if
     /// there is only one that can have done it.
-    Output {
-        /// Its index in the program.
-        instruction: Option<usize>,
-    },
+    Output { instruction: Option<usize> },
     /// The alpha test or the depth test.
-    Test {
-        /// What became of the fragment on the left.
-        left: FragmentFate,
-        /// What became of it on the right.
-        right: FragmentFate,
-    },
+    Test { left: FragmentFate, right: FragmentFate },
     /// What is stored: quantising, blending, masking; or the executor's own draw, which computes less than its trace.
     Merge,
 }

@@ -13,13 +13,11 @@ pub struct Edge {
 
 impl Edge {
     /// Whether a single triangle has it.
-    #[must_use]
     pub fn is_boundary(&self) -> bool {
         self.triangles.len() == 1
     }
 
     /// Whether at most two triangles have it.
-    #[must_use]
     pub fn is_manifold(&self) -> bool {
         self.triangles.len() <= 2
     }
@@ -35,14 +33,12 @@ pub struct Adjacency {
 
 impl Adjacency {
     /// All edges in rising order of their vertices. A triangle's edge from a vertex to itself is left out.
-    #[must_use]
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
     /// The edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; none from
     /// a vertex to itself, nor of a triangle that does not exist.
-    #[must_use]
     pub fn edges_of(&self, triangle: u32) -> [Option<u32>; 3] {
         self.edges_of.get(triangle as usize).copied().unwrap_or_default()
     }
@@ -57,7 +53,6 @@ impl Adjacency {
 
 impl Mesh {
     /// Which triangles meet at each edge. Vertices are told apart by index; see [`Mesh::welded`].
-    #[must_use]
     pub fn adjacency(&self) -> Adjacency {
         let mut sides: Vec<([u32; 2], u32, usize)> = Vec::with_capacity(self.len() * 3);
         for (id, &[a, b, c]) in (0_u32..).zip(self.triangles()) {
@@ -85,20 +80,17 @@ impl Mesh {
     }
 
     /// The edges of [`Mesh::adjacency`].
-    #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
         self.adjacency().edges
     }
 
     /// Number of edges that only one triangle has: 0 for a closed surface.
-    #[must_use]
     pub fn boundary_edge_count(&self) -> usize {
         self.edges().iter().filter(|edge| edge.is_boundary()).count()
     }
 
     /// Number of edges through which more than one triangle runs the same way: 0 where the surface is oriented
     /// consistently and no edge has three triangles.
-    #[must_use]
     pub fn orientation_conflicts(&self) -> usize {
         let mut directed: Vec<[u32; 2]> = Vec::with_capacity(self.len() * 3);
         for &[a, b, c] in self.triangles() {

@@ -20,7 +20,6 @@ pub struct Aimed {
 
 /// `per_edge` rays from `eye` to random points strictly inside every edge that two or more triangles share. The same
 /// seed gives the same rays. An edge so near the eye, or so far, that the direction vanishes or overflows is left out.
-#[must_use]
 pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> Vec<Aimed> {
     let stream = CounterRng::new(seed);
     let mut rays = Vec::new();
@@ -40,7 +39,6 @@ pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> V
 }
 
 /// One ray from `eye` to every vertex that a triangle uses.
-#[must_use]
 pub fn aimed_at_vertices(mesh: &Mesh, eye: [f32; 3]) -> Vec<Aimed> {
     let mut used = vec![false; mesh.positions().len()];
     for &index in mesh.triangles().iter().flatten() {

@@ -49,7 +49,6 @@ pub struct Judgement {
 }
 
 /// Judges a candidate against the true first hit (`None`: the ray hits nothing).
-#[must_use]
 pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -> Judgement {
     let (verdict, t_error) = match (truth, candidate.triangle) {
         (None, None) => (HitVerdict::Right, None),
@@ -69,7 +68,6 @@ pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -
 }
 
 /// The error of a t against an exact one, computed exactly and rounded once.
-#[must_use]
 pub fn t_error(exact: &ExactT, t: f32) -> TError {
     if !t.is_finite() {
         return TError { absolute: f64::INFINITY, relative: f64::INFINITY };

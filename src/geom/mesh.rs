@@ -20,51 +20,23 @@ pub struct Mesh {
 
 /// Why positions and indices make no mesh.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MeshError {
     /// A corner names a vertex that does not exist.
     #[error("triangle {triangle} uses vertex {index}, expected an index below {vertices} (counted from 0)")]
-    IndexOutOfRange {
-        /// The triangle, counted from 0.
-        triangle: usize,
-        /// The index it used.
-        index: u32,
-        /// Number of vertices there are.
-        vertices: usize,
-    },
+    IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
-    NotFinite {
-        /// The vertex, counted from 0.
-        vertex: usize,
-        /// What was found.
-        value: f32,
-    },
+    NotFinite { vertex: usize, value: f32 },
     /// A mesh has one normal, or one pair of texture coordinates, per vertex, or none at all.
     #[error("found {found} {what}, expected one per vertex: {vertices}")]
-    AttributeCount {
-        /// `normals` or `texture coordinates`.
-        what: &'static str,
-        /// How many were given.
-        found: usize,
-        /// Number of vertices there are.
-        vertices: usize,
-    },
+    AttributeCount { what: &'static str, found: usize, vertices: usize },
     /// A component of a normal or a texture coordinate is NaN or infinite.
     #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
-    AttributeNotFinite {
-        /// `normals` or `texture coordinates`.
-        what: &'static str,
-        /// The vertex, counted from 0.
-        vertex: usize,
-        /// What was found.
-        value: f32,
-    },
+    AttributeNotFinite { what: &'static str, vertex: usize, value: f32 },
     /// More triangles than 31 bits can name.
     #[error("found {found} triangles, expected at most {}", i32::MAX)]
-    TooMany {
-        /// Number of triangles given.
-        found: usize,
-    },
+    TooMany { found: usize },
 }
 
 /// How two triangles touch.
@@ -136,43 +108,36 @@ impl Mesh {
     }
 
     /// Vertex positions.
-    #[must_use]
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
     }
 
     /// Normals per vertex as they were given; `None` of a mesh without. [`Mesh::vertex_normals`] computes them.
-    #[must_use]
     pub fn normals(&self) -> Option<&[[f32; 3]]> {
         (!self.normals.is_empty()).then_some(&self.normals)
     }
 
     /// Texture coordinates per vertex; `None` of a mesh without.
-    #[must_use]
     pub fn texcoords(&self) -> Option<&[[f32; 2]]> {
         (!self.texcoords.is_empty()).then_some(&self.texcoords)
     }
 
     /// Corner indices of each triangle; the front is the side from which they run counter-clockwise.
-    #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
     /// Number of triangles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
     /// Whether there is no triangle.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
     /// The three corners of a triangle, or `None` where there is no triangle of that id.
-    #[must_use]
     pub fn corners(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
         let indices = self.triangles.get(triangle as usize)?;
         Some(indices.map(|index| self.positions[index as usize]))
@@ -184,7 +149,6 @@ impl Mesh {
     }
 
     /// Smallest and largest coordinates of the vertices that triangles use; `None` without a triangle.
-    #[must_use]
     pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
         let mut corners = self.iter_corners().flatten();
         let first = corners.next()?;
@@ -203,14 +167,12 @@ impl Mesh {
     }
 
     /// The area of a triangle; 0 where there is no triangle of that id.
-    #[must_use]
     pub fn area(&self, triangle: u32) -> f64 {
         self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
     }
 
     /// Normals per vertex: the mean of the triangles that meet there, weighted by their areas, at length 1; zero where
     /// that has no direction.
-    #[must_use]
     pub fn vertex_normals(&self) -> Vec<DVec3> {
         let mut normals = vec![DVec3::ZERO; self.positions.len()];
         for (corners, indices) in self.iter_corners().zip(&self.triangles) {
@@ -222,7 +184,6 @@ impl Mesh {
 
     /// The same triangles without attributes, in which vertices at the same place are one: files repeat vertices where
     /// normals or texture coordinates jump, which would tear [`Mesh::adjacency`] apart.
-    #[must_use]
     pub fn welded(&self) -> Self {
         let mut welder = Welder::default();
         let triangles = self.iter_corners().map(|corners| corners.map(|position| welder.vertex(position))).collect();
@@ -231,7 +192,6 @@ impl Mesh {
 
     /// How two triangles touch. Corners are compared by position, so a mesh whose file repeats its vertices is judged
     /// like one that shares them. `None` also for an id that does not exist.
-    #[must_use]
     pub fn contact(&self, a: u32, b: u32) -> Contact {
         let (Some(a), Some(b)) = (self.corners(a), self.corners(b)) else {
             return Contact::None;
@@ -244,7 +204,6 @@ impl Mesh {
     }
 
     /// Whether two triangles share an edge or a vertex.
-    #[must_use]
     pub fn are_adjacent(&self, a: u32, b: u32) -> bool {
         self.contact(a, b) != Contact::None
     }

@@ -9,13 +9,11 @@ pub struct CounterRng {
 
 impl CounterRng {
     /// The stream of a seed.
-    #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self { seed }
     }
 
     /// 64 random bits.
-    #[must_use]
     pub const fn bits(self, index: u64, sample: u64, dimension: u64) -> u64 {
         let mut state = scramble(self.seed ^ 0x6a09_e667_f3bc_c908);
         state = scramble(state ^ index);
@@ -24,7 +22,6 @@ impl CounterRng {
     }
 
     /// A multiple of 2^-24 in [0, 1), exact in f32 and f64.
-    #[must_use]
     pub fn unit(self, index: u64, sample: u64, dimension: u64) -> f64 {
         (self.bits(index, sample, dimension) >> 40) as f64 / 16_777_216.0
     }

@@ -45,13 +45,11 @@ impl Ray {
     }
 
     /// Where the ray starts (t = 0).
-    #[must_use]
     pub fn origin(&self) -> [f32; 3] {
         self.origin
     }
 
     /// Where it goes: t counts in multiples of this vector.
-    #[must_use]
     pub fn direction(&self) -> [f32; 3] {
         self.direction
     }

@@ -39,13 +39,11 @@ pub const DEFAULT_RATE: u32 = 12;
 
 /// Why there is no teapot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TeapotError {
     /// The rate is outside 1..=256.
     #[error("expected a tessellation of 1 to {MAX_RATE} quads along a patch side, found {found}")]
-    Rate {
-        /// What was asked.
-        found: u32,
-    },
+    Rate { found: u32 },
 }
 
 /// A part of the teapot.
@@ -64,7 +62,6 @@ pub enum TeapotPart {
 }
 
 /// The part that a patch (0 to 31) belongs to.
-#[must_use]
 pub fn part_of_patch(patch: u32) -> TeapotPart {
     match patch {
         0..=11 => TeapotPart::Body,

@@ -3,20 +3,17 @@
 use glam::DVec3;
 
 /// f32 coordinates as f64, exactly.
-#[must_use]
 pub fn wide(vector: [f32; 3]) -> DVec3 {
     vector.map(f64::from).into()
 }
 
 /// Each component rounded to f32.
-#[must_use]
 pub fn narrow(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().into()
 }
 
 /// The vector divided by its length, if that is positive and finite. glam's `normalize` multiplies by the reciprocal
 /// instead, which rounds twice and gives other bits.
-#[must_use]
 pub fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length();
     (length > 0.0 && length.is_finite()).then(|| vector / length)

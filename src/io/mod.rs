@@ -1,6 +1,8 @@
 //! Files in and out: models, scenes, pictures, rays and hits, and the writing that never leaves half a file.
 
 pub mod atomic;
+pub mod error;
+mod lines;
 pub mod model;
 mod number;
 pub mod obj;
@@ -11,14 +13,15 @@ pub mod scene_file;
 pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
-pub use model::{ModelError, load_mesh};
+pub use error::{FilePlace, ModelError, ReadError};
+pub use model::load_mesh;
 pub use number::{NumberError, parse_f32, to_f32};
-pub use obj::{ObjError, load_obj, parse_obj, write_obj};
+pub use obj::{load_obj, parse_obj, write_obj};
 pub use picture::{PictureFileError, load_picture};
-pub use ply::{PlyError, load_ply, parse_ply};
+pub use ply::{load_ply, parse_ply};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};
-pub use scene_obj::{MtlError, SceneObjError, load_scene, parse_mtl, parse_scene, write_mtl, write_scene};
+pub use scene_obj::{load_scene, parse_mtl, parse_scene, write_mtl, write_scene};
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -2,25 +2,10 @@
 
 use std::path::Path;
 
-use thiserror::Error;
-
-use super::obj::{MAX_BYTES, ObjError, parse_obj};
-use super::ply::{PlyError, parse_ply};
-use super::read_limited;
+use super::error::ModelError;
+use super::obj::{load_model, parse_obj};
+use super::ply::parse_ply;
 use crate::geom::Mesh;
-
-/// Why a file is no mesh.
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum ModelError {
-    /// An OBJ file, or one of no known kind.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Obj(#[from] ObjError),
-    /// A PLY file.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Ply(#[from] PlyError),
-}
 
 /// Whether a model is a PLY file: by its first line, or by the ending of its name.
 pub(super) fn is_ply(bytes: &[u8], path: &Path) -> bool {
@@ -33,7 +18,6 @@ pub(super) fn is_ply(bytes: &[u8], path: &Path) -> bool {
 /// # Errors
 /// [`ModelError`], with the path, and the line or element where there is one.
 pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
-    let read = read_limited(path, MAX_BYTES).map_err(|source| ObjError::Read { path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ObjError::TooLong { path: path.into() })?;
-    Ok(if is_ply(&bytes, path) { parse_ply(&bytes, path)? } else { parse_obj(&bytes, path)? })
+    let bytes = load_model(path)?;
+    if is_ply(&bytes, path) { parse_ply(&bytes, path) } else { parse_obj(&bytes, path) }
 }

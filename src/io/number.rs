@@ -27,9 +27,6 @@ impl NumberError {
 }
 
 /// The number that a decimal text stands for, rounded to the nearest single-precision number.
-///
-/// # Errors
-/// [`NumberError`].
 pub fn parse_f32(text: &str) -> Result<f32, NumberError> {
     let number: f32 = text.parse().map_err(|_| NumberError::NoNumber)?;
     match number.is_finite() {

@@ -15,125 +15,39 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
-use super::{NumberError, parse_f32, quoted, read_limited};
-use crate::geom::{Mesh, MeshError};
+use super::error::{FilePlace, ModelError, ReadError, read};
+use super::lines::{logical_lines, single, words};
+use super::quoted;
+use crate::geom::Mesh;
 
 /// Longest file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// Why a file is no mesh. Lines count from 1.
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum ObjError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the model {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file is longer than [`MAX_BYTES`].
-    #[error("{}: expected a model of at most {MAX_BYTES} bytes, found more", path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A line is not what its first word says.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// What belongs there.
-        expected: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// A face names a vertex, a texture coordinate or a normal that the file does not have.
-    #[error("{}:{line}: {what} {index}, expected 1 to {count} (or -1 to -{count})", path.display())]
-    IndexOutOfRange {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// What the index is of.
-        what: IndexTarget,
-        /// The index as written.
-        index: i64,
-        /// How many could be named there.
-        count: usize,
-    },
-    /// There is nothing to hit.
-    #[error("{}: expected at least one face (a line `f 1 2 3`), found none", path.display())]
-    NoFaces {
-        /// The file.
-        path: PathBuf,
-    },
-    /// tobj refuses what our pass has accepted.
-    #[error("{}: {reason}", path.display())]
-    Loader {
-        /// The file.
-        path: PathBuf,
-        /// What tobj says.
-        reason: tobj::LoadError,
-    },
-    /// The parts do not make a mesh.
-    #[error("{}: {reason}", path.display())]
-    Mesh {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: MeshError,
-    },
+/// The bytes of a model.
+pub(super) fn load_model(path: &Path) -> Result<Vec<u8>, ReadError> {
+    read(path, "model", MAX_BYTES)
 }
 
-/// What an index of a corner names, in the order in which a corner writes them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IndexTarget {
-    /// A `v` line.
-    Vertex,
-    /// A `vt` line.
-    TextureCoordinate,
-    /// A `vn` line.
-    Normal,
-}
-
-impl fmt::Display for IndexTarget {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Vertex => "a face uses vertex",
-            Self::TextureCoordinate => "a corner uses texture coordinate",
-            Self::Normal => "a corner uses normal",
-        })
-    }
-}
-
-/// A number of single precision in a line of a file.
-pub(super) fn single(word: &[u8]) -> Result<f32, NumberError> {
-    std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f32)
+/// Refuses what [`load_model`] would.
+pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), ReadError> {
+    let fits = bytes.len() as u64 <= MAX_BYTES;
+    if fits { Ok(()) } else { Err(ReadError::TooLong { what: "model", path: name.into(), limit: MAX_BYTES }) }
 }
 
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`ObjError`], with the path, and the line where there is one.
-pub fn load_obj(path: &Path) -> Result<Mesh, ObjError> {
-    let read = read_limited(path, MAX_BYTES).map_err(|source| ObjError::Read { path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ObjError::TooLong { path: path.into() })?;
-    parse_obj(&bytes, path)
+/// [`ModelError`], with the path, and the line where there is one.
+pub fn load_obj(path: &Path) -> Result<Mesh, ModelError> {
+    parse_obj(&load_model(path)?, path)
 }
 
 /// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic.
 ///
 /// # Errors
-/// [`ObjError`], with the line where there is one.
-pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ObjError> {
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(ObjError::TooLong { path: name.into() });
-    }
+/// [`ModelError`], with the line where there is one.
+pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+    within_limit(bytes, name)?;
     let mut reader = ObjReader::new(name);
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &words(&text), &text)?;
@@ -142,11 +56,11 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ObjError> {
 }
 
 /// What tobj makes of checked lines.
-fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
+fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ModelError> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut clean.as_bytes(), &options, no_materials)
-        .map_err(|reason| ObjError::Loader { path: name.into(), reason })?;
+        .map_err(|reason| ModelError::Loader(name.into(), reason))?;
     // Without group lines there is one model.
     let read = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
     let mut mesh = Mesh::new(read.positions.as_chunks().0.to_vec(), read.indices.as_chunks().0.to_vec());
@@ -156,13 +70,10 @@ fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ObjError> {
     if !read.texcoords.is_empty() {
         mesh = mesh.and_then(|mesh| mesh.with_texcoords(read.texcoords.as_chunks().0.to_vec()));
     }
-    mesh.map_err(|reason| ObjError::Mesh { path: name.into(), reason })
+    mesh.map_err(|reason| ModelError::Mesh(name.into(), reason))
 }
 
 /// Writes a mesh so that it reads back with the same bits in every corner.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     // Rust prints the shortest decimal that reads back to the same f32.
     for [x, y, z] in mesh.positions() {
@@ -192,67 +103,30 @@ fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) 
     }
 }
 
-/// Lines with their numbers, without comments; a line that ends in `\` goes on in the next.
-pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
-    // Some editors mark UTF-8 with three bytes; left there, they would hide the first vertex.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
-    std::iter::from_fn(move || {
-        let (number, first) = lines.next()?;
-        let mut text = strip(first).to_vec();
-        while text.last() == Some(&b'\\') {
-            text.pop();
-            text.push(b' ');
-            let Some((_, next)) = lines.next() else { break };
-            text.extend_from_slice(strip(next));
-        }
-        Some((number, text))
-    })
-}
-
-/// A line without its comment and the white space around it.
-fn strip(line: &[u8]) -> &[u8] {
-    let end = line.iter().position(|&byte| byte == b'#').unwrap_or(line.len());
-    line[..end].trim_ascii()
-}
-
-/// The words of a line.
-pub(super) fn words(text: &[u8]) -> Vec<&[u8]> {
-    text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect()
-}
-
 /// The first pass: what it has seen, and the checked lines for tobj.
-pub(super) struct ObjReader<'a> {
-    name: &'a Path,
+#[derive(Default)]
+pub(super) struct ObjReader {
+    name: PathBuf,
     /// Checked `v`, `vt` and `vn` lines.
     clean: String,
-    vertices: usize,
-    texcoords: usize,
+    /// How many of each of [`TARGETS`].
+    counts: [usize; 3],
     normals: Vec<[f32; 3]>,
     /// Indices from 1 of vertex, texture coordinate and normal; 0 for none.
     corners: Vec<[usize; 3]>,
     /// Where the corners of each face begin.
     faces: Vec<usize>,
     /// Indices that named something not yet seen, with their lines.
-    forward: Vec<(usize, IndexTarget, i64)>,
+    forward: Vec<(usize, usize, i64)>,
 }
 
-impl<'a> ObjReader<'a> {
-    pub(super) fn new(name: &'a Path) -> Self {
-        Self {
-            name,
-            clean: String::new(),
-            vertices: 0,
-            texcoords: 0,
-            normals: Vec::new(),
-            corners: Vec::new(),
-            faces: Vec::new(),
-            forward: Vec::new(),
-        }
+impl ObjReader {
+    pub(super) fn new(name: &Path) -> Self {
+        Self { name: name.into(), ..Self::default() }
     }
 
     /// Checks one line, given as words and as it stands.
-    pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ObjError> {
+    pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ModelError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
             Some((&b"vt", numbers)) => self.texcoord(line, text, numbers),
@@ -262,7 +136,7 @@ impl<'a> ObjReader<'a> {
         }
     }
 
-    fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
+    fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
         // x y z, then nothing, a weight, or a color of three or four.
         if !matches!(numbers.len(), 3 | 4 | 6 | 7) {
             return Err(self.syntax(line, "a vertex `v x y z`", text));
@@ -273,31 +147,32 @@ impl<'a> ObjReader<'a> {
         {
             return Err(self.syntax(line, "a vertex without a weight other than 1", weight));
         }
-        self.vertices += 1;
+        self.counts[0] += 1;
         Ok(())
     }
 
-    fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
+    fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
         // A third number is the depth of a volume texture.
         let (&[u, v] | &[u, v, _]) = numbers else {
             return Err(self.syntax(line, "a texture coordinate `vt u v`", text));
         };
         self.numbers(line, "vt", &[u, v])?;
-        self.texcoords += 1;
+        self.counts[1] += 1;
         Ok(())
     }
 
-    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ObjError> {
+    fn normal(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
         if numbers.len() != 3 {
             return Err(self.syntax(line, "a normal `vn x y z`", text));
         }
         let normal = self.numbers(line, "vn", numbers)?;
+        self.counts[2] += 1;
         self.normals.push([normal[0], normal[1], normal[2]]);
         Ok(())
     }
 
     /// Checks numbers and writes them to a line of this key for tobj.
-    fn numbers(&mut self, line: usize, key: &str, words: &[&[u8]]) -> Result<Vec<f32>, ObjError> {
+    fn numbers(&mut self, line: usize, key: &str, words: &[&[u8]]) -> Result<Vec<f32>, ModelError> {
         self.clean.push_str(key);
         let mut numbers = Vec::with_capacity(words.len());
         for word in words {
@@ -310,11 +185,11 @@ impl<'a> ObjReader<'a> {
         Ok(numbers)
     }
 
-    fn number(&self, line: usize, word: &[u8]) -> Result<f32, ObjError> {
+    fn number(&self, line: usize, word: &[u8]) -> Result<f32, ModelError> {
         single(word).map_err(|fault| self.syntax(line, fault.expected(), word))
     }
 
-    fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), ObjError> {
+    fn face(&mut self, line: usize, text: &[u8], corners: &[&[u8]]) -> Result<(), ModelError> {
         if corners.len() < 3 {
             return Err(self.syntax(line, "a face of at least three corners `f 1 2 3`", text));
         }
@@ -324,9 +199,9 @@ impl<'a> ObjReader<'a> {
                 return Err(self.syntax(line, "a corner `1`, `1/1`, `1//1` or `1/1/1`", corner));
             };
             let mut places = [0; 3];
-            for (place, (what, index)) in places.iter_mut().zip(TARGETS.into_iter().zip(indices)) {
+            for (target, index) in indices.into_iter().enumerate() {
                 if let Some(index) = index {
-                    *place = self.place(line, what, index)?;
+                    places[target] = self.place(line, target, index)?;
                 }
             }
             self.corners.push(places);
@@ -335,8 +210,8 @@ impl<'a> ObjReader<'a> {
     }
 
     /// An index counted from 1, if it names something, perhaps further down in the file.
-    fn place(&mut self, line: usize, what: IndexTarget, index: i64) -> Result<usize, ObjError> {
-        let count = self.count(what);
+    fn place(&mut self, line: usize, target: usize, index: i64) -> Result<usize, ModelError> {
+        let count = self.counts[target];
         let place = match index {
             0 => None,
             1.. => usize::try_from(index).ok(),
@@ -344,17 +219,9 @@ impl<'a> ObjReader<'a> {
         };
         let place = place.filter(|&place| place > 0);
         if place.is_some_and(|place| place > count) {
-            self.forward.push((line, what, index));
+            self.forward.push((line, target, index));
         }
-        place.ok_or_else(|| ObjError::IndexOutOfRange { path: self.name.into(), line, what, index, count })
-    }
-
-    fn count(&self, what: IndexTarget) -> usize {
-        match what {
-            IndexTarget::Vertex => self.vertices,
-            IndexTarget::TextureCoordinate => self.texcoords,
-            IndexTarget::Normal => self.normals.len(),
-        }
+        place.ok_or_else(|| self.out_of_range(line, target, index))
     }
 
     /// The corners of each face: indices from 1 of vertex, texture coordinate and normal; 0 for none.
@@ -375,22 +242,23 @@ impl<'a> ObjReader<'a> {
 
     /// The mesh of the checked lines, once it is known how many vertices there are; with texture coordinates and
     /// normals if all corners have them, or of positions alone.
-    pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ObjError> {
-        for &(line, what, index) in &self.forward {
-            let count = self.count(what);
+    pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ModelError> {
+        for &(line, target, index) in &self.forward {
+            let count = self.counts[target];
             // Some exporters leave the coordinates out and keep their indices.
-            if what == IndexTarget::TextureCoordinate && count == 0 {
+            if target == 1 && count == 0 {
                 continue;
             }
             if usize::try_from(index).map_or(true, |index| index > count) {
-                return Err(ObjError::IndexOutOfRange { path: self.name.into(), line, what, index, count });
+                return Err(self.out_of_range(line, target, index));
             }
         }
         if self.faces.is_empty() {
-            return Err(ObjError::NoFaces { path: self.name.into() });
+            let (place, expected) = (self.name.as_path().into(), "at least one face (a line `f 1 2 3`)".into());
+            return Err(ModelError::Syntax { place, expected, found: "none".to_owned() });
         }
         let all = |place: usize| attributes && self.corners.iter().all(|corner| corner[place] > 0);
-        let (texcoords, normals) = (self.texcoords > 0 && all(1), all(2));
+        let (texcoords, normals) = (self.counts[1] > 0 && all(1), all(2));
         let mut clean = std::mem::take(&mut self.clean);
         for face in self.faces() {
             clean.push('f');
@@ -400,16 +268,22 @@ impl<'a> ObjReader<'a> {
             }
             clean.push('\n');
         }
-        load_clean(&clean, self.name)
+        load_clean(&clean, &self.name)
     }
 
-    pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ObjError {
-        ObjError::Syntax { path: self.name.into(), line, expected, found: quoted(found) }
+    pub(super) fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ModelError {
+        let place = FilePlace::line(&self.name, line);
+        ModelError::Syntax { place, expected: expected.into(), found: quoted(found) }
+    }
+
+    fn out_of_range(&self, line: usize, target: usize, index: i64) -> ModelError {
+        let (place, count) = (FilePlace::line(&self.name, line), self.counts[target]);
+        ModelError::IndexOutOfRange { place, what: TARGETS[target], index, count }
     }
 }
 
-/// What the indices of a corner name.
-const TARGETS: [IndexTarget; 3] = [IndexTarget::Vertex, IndexTarget::TextureCoordinate, IndexTarget::Normal];
+/// What the indices of a corner name, in the order in which it writes them.
+const TARGETS: [&str; 3] = ["a face uses vertex", "a corner uses texture coordinate", "a corner uses normal"];
 
 /// The indices of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
 fn corner_indices(corner: &[u8]) -> Option<[Option<i64>; 3]> {
@@ -428,7 +302,7 @@ fn corner_indices(corner: &[u8]) -> Option<[Option<i64>; 3]> {
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<Mesh, ObjError> {
+    fn parse(text: &str) -> Result<Mesh, ModelError> {
         parse_obj(text.as_bytes(), Path::new("m.obj"))
     }
 
@@ -455,43 +329,30 @@ mod tests {
     #[test]
     fn errors_say_where_and_what() {
         let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-        assert_eq!(message("v 0 0 0"), "m.obj: expected at least one face (a line `f 1 2 3`), found none");
-        assert_eq!(message("v 0 nan 0\nf 1 1 1"), "m.obj:1: expected a finite number, found `nan`");
+        let range = "expected 1 to 3 (or -1 to -3)";
         let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
-        assert_eq!(message("\nv 0 1e39 0"), format!("m.obj:2: expected {large}, found `1e39`"));
-        assert_eq!(message("v 0 0"), "m.obj:1: expected a vertex `v x y z`, found `v 0 0`");
-        assert_eq!(message("v 0 0 0 2"), "m.obj:1: expected a vertex without a weight other than 1, found `2`");
-        assert_eq!(
-            message(&format!("{triangle}f 1 2")),
-            "m.obj:4: expected a face of at least three corners `f 1 2 3`, found `f 1 2`"
-        );
-        assert_eq!(
-            message(&format!("{triangle}f 1 2 4")),
-            "m.obj:4: a face uses vertex 4, expected 1 to 3 (or -1 to -3)"
-        );
-        assert_eq!(
-            message(&format!("{triangle}f 1 2 -4")),
-            "m.obj:4: a face uses vertex -4, expected 1 to 3 (or -1 to -3)"
-        );
-        assert_eq!(
-            message(&format!("{triangle}f 0 1 2")),
-            "m.obj:4: a face uses vertex 0, expected 1 to 3 (or -1 to -3)"
-        );
-        let far = message(&format!("{triangle}f 1 2 9223372036854775807"));
-        assert!(far.starts_with("m.obj:4: a face uses vertex 9223372036854775807"), "{far}");
-        assert!(
-            message(&format!("{triangle}f 1 2 -9223372036854775808")).starts_with("m.obj:4: a face uses vertex -9")
-        );
-        assert_eq!(
-            message(&format!("{triangle}f 1 2 x")),
-            "m.obj:4: expected a corner `1`, `1/1`, `1//1` or `1/1/1`, found `x`"
-        );
-        assert!(
-            load_obj(Path::new("/no/such/file.obj"))
-                .unwrap_err()
-                .to_string()
-                .eq("cannot read the model /no/such/file.obj")
-        );
+        for (text, expected) in [
+            ("v 0 0 0", ": expected at least one face (a line `f 1 2 3`), found none"),
+            ("v 0 nan 0\nf 1 1 1", ":1: expected a finite number, found `nan`"),
+            ("\nv 0 1e39 0", &format!(":2: expected {large}, found `1e39`")),
+            ("v 0 0", ":1: expected a vertex `v x y z`, found `v 0 0`"),
+            ("v 0 0 0 2", ":1: expected a vertex without a weight other than 1, found `2`"),
+        ] {
+            assert_eq!(message(text), format!("m.obj{expected}"));
+        }
+        for (corners, expected) in [
+            ("1 2", "expected a face of at least three corners `f 1 2 3`, found `f 1 2`"),
+            ("1 2 4", &format!("a face uses vertex 4, {range}")),
+            ("1 2 -4", &format!("a face uses vertex -4, {range}")),
+            ("0 1 2", &format!("a face uses vertex 0, {range}")),
+            ("1 2 9223372036854775807", &format!("a face uses vertex 9223372036854775807, {range}")),
+            ("1 2 -9223372036854775808", &format!("a face uses vertex -9223372036854775808, {range}")),
+            ("1 2 x", "expected a corner `1`, `1/1`, `1//1` or `1/1/1`, found `x`"),
+        ] {
+            assert_eq!(message(&format!("{triangle}f {corners}")), format!("m.obj:4: {expected}"));
+        }
+        let missing = Path::new("/no/such/file.obj");
+        assert_eq!(load_obj(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.obj");
     }
 
     #[test]

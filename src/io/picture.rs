@@ -1,11 +1,10 @@
 //! Picture files: PNG, Radiance HDR and OpenEXR.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::read_limited;
+use super::error::{ReadError, read};
 use crate::picture::{Picture, PictureError};
 
 /// Longest file that is read, in bytes (256 MiB).
@@ -13,29 +12,15 @@ pub const MAX_BYTES: u64 = 256 << 20;
 
 /// Why a file is no picture.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureFileError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the picture {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file is longer than [`MAX_BYTES`].
-    #[error("{}: expected a picture of at most {MAX_BYTES} bytes, found more", path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-    },
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
     /// The bytes are no picture.
     #[error("{}: {reason}", path.display())]
-    Decode {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: PictureError,
-    },
+    Decode { path: PathBuf, reason: PictureError },
 }
 
 /// Reads a picture; its first bytes say in which format, whatever the file's name.
@@ -43,8 +28,6 @@ pub enum PictureFileError {
 /// # Errors
 /// [`PictureFileError`], with the path.
 pub fn load_picture(path: &Path) -> Result<Picture, PictureFileError> {
-    let bytes = read_limited(path, MAX_BYTES)
-        .map_err(|source| PictureFileError::Read { path: path.into(), source })?
-        .ok_or_else(|| PictureFileError::TooLong { path: path.into() })?;
+    let bytes = read(path, "picture", MAX_BYTES)?;
     Picture::decode(&bytes).map_err(|reason| PictureFileError::Decode { path: path.into(), reason })
 }

@@ -8,77 +8,16 @@
 //! The file is read element by element, so that an error names the line or the element, and no memory is taken on the
 //! word of a count in the header.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::borrow::Cow;
+use std::path::Path;
 
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
-use thiserror::Error;
 
-use super::obj::MAX_BYTES;
-use super::{quoted, read_limited};
-use crate::geom::{Mesh, MeshError};
-
-/// Why a file is no mesh. Lines count from 1.
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum PlyError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the model {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file is longer than [`MAX_BYTES`].
-    #[error("{}: expected a model of at most {MAX_BYTES} bytes, found more", path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A line of the header or of ASCII data is not what belongs there.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// What belongs there.
-        expected: String,
-        /// What stands there.
-        found: String,
-    },
-    /// An element of binary data is not what the header says.
-    #[error("{}: {element} {index} (counted from 0): expected {expected}, found {found}", path.display())]
-    Element {
-        /// The file.
-        path: PathBuf,
-        /// The element's name.
-        element: String,
-        /// Which of its kind.
-        index: usize,
-        /// What belongs there.
-        expected: String,
-        /// What stands there.
-        found: &'static str,
-    },
-    /// The header does not declare a mesh.
-    #[error("{}: expected {expected}, found none", path.display())]
-    Missing {
-        /// The file.
-        path: PathBuf,
-        /// What is missing.
-        expected: &'static str,
-    },
-    /// The parts do not make a mesh.
-    #[error("{}: {reason}", path.display())]
-    Mesh {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        reason: MeshError,
-    },
-}
+use super::error::{FilePlace, ModelError};
+use super::obj::{load_model, within_limit};
+use super::quoted;
+use crate::geom::Mesh;
 
 /// Names of the numbers of a vertex that are used.
 const NUMBERS: [&[&str]; 8] =
@@ -89,32 +28,26 @@ const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 /// Reads a mesh from a file.
 ///
 /// # Errors
-/// [`PlyError`], with the path, and the line or element where there is one.
-pub fn load_ply(path: &Path) -> Result<Mesh, PlyError> {
-    let read = read_limited(path, MAX_BYTES).map_err(|source| PlyError::Read { path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| PlyError::TooLong { path: path.into() })?;
-    parse_ply(&bytes, path)
+/// [`ModelError`], with the path, and the line or element where there is one.
+pub fn load_ply(path: &Path) -> Result<Mesh, ModelError> {
+    parse_ply(&load_model(path)?, path)
 }
 
 /// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic.
 ///
 /// # Errors
-/// [`PlyError`], with the line or element where there is one.
-pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, PlyError> {
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(PlyError::TooLong { path: name.into() });
-    }
+/// [`ModelError`], with the line or element where there is one.
+pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
+    within_limit(bytes, name)?;
     let (header, lines, data) = header(bytes, name)?;
     let has = |element: &str, property: &[&str]| {
         header.elements.get(element).is_some_and(|e| property.iter().any(|&name| e.properties.contains_key(name)))
     };
     if !NUMBERS[..3].iter().all(|names| has("vertex", names)) {
-        let expected = "an element `vertex` with the properties `x`, `y` and `z`";
-        return Err(PlyError::Missing { path: name.into(), expected });
+        return Err(missing(name, "an element `vertex` with the properties `x`, `y` and `z`"));
     }
     if !has("face", &INDICES) {
-        let expected = "an element `face` with a list `vertex_indices` or `vertex_index`";
-        return Err(PlyError::Missing { path: name.into(), expected });
+        return Err(missing(name, "an element `face` with a list `vertex_indices` or `vertex_index`"));
     }
     let mut mesh = MeshReader::default();
     let mut data = Data { name, encoding: header.encoding, line: lines, rest: data };
@@ -132,13 +65,16 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, PlyError> {
     mesh.finish(attributes, name)
 }
 
+/// The file does not hold a mesh.
+fn missing(name: &Path, expected: &'static str) -> ModelError {
+    ModelError::Syntax { place: name.into(), expected: expected.into(), found: "none".to_owned() }
+}
+
 /// The header, how many lines it has, and the data behind it.
-fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]), PlyError> {
-    let syntax = |line: usize, expected: &str, found: String| PlyError::Syntax {
-        path: name.into(),
-        line,
-        expected: expected.to_owned(),
-        found,
+fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]), ModelError> {
+    let syntax = |line: usize, expected: &str, found: String| {
+        let expected = expected.to_owned().into();
+        ModelError::Syntax { place: FilePlace::line(name, line), expected, found }
     };
     let (mut lines, mut length, mut text) = (0, 0, "");
     for line in bytes.split_inclusive(|&byte| byte == b'\n') {
@@ -192,18 +128,18 @@ struct ElementPlace<'a> {
 }
 
 impl ElementPlace<'_> {
-    fn error(self, expected: impl Into<String>, found: &'static str) -> PlyError {
-        let (path, expected) = (self.name.into(), expected.into());
+    fn error(self, expected: impl Into<Cow<'static, str>>, found: &'static str) -> ModelError {
+        let (expected, place) = (expected.into(), self.name.into());
         match self.line {
-            Some((line, found)) => PlyError::Syntax { path, line, expected, found },
-            None => PlyError::Element { path, element: visible(self.element), index: self.index, expected, found },
+            Some((line, found)) => ModelError::Syntax { place: FilePlace::line(self.name, line), expected, found },
+            None => ModelError::Element { place, element: visible(self.element), index: self.index, expected, found },
         }
     }
 }
 
 impl<'a> Data<'a> {
     /// The next element, which is the one of this index of its kind.
-    fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), PlyError>
+    fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), ModelError>
     where
         'a: 'b,
     {
@@ -303,9 +239,9 @@ impl MeshReader {
         Ok(())
     }
 
-    fn finish(self, [normals, texcoords]: [bool; 2], name: &Path) -> Result<Mesh, PlyError> {
+    fn finish(self, [normals, texcoords]: [bool; 2], name: &Path) -> Result<Mesh, ModelError> {
         if self.triangles.is_empty() {
-            return Err(PlyError::Missing { path: name.into(), expected: "at least one face" });
+            return Err(missing(name, "at least one face"));
         }
         let of = |mesh: Mesh| {
             let three =
@@ -316,7 +252,7 @@ impl MeshReader {
         };
         let positions = self.vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
         let mesh = Mesh::new(positions, self.triangles.clone()).and_then(of);
-        mesh.map_err(|reason| PlyError::Mesh { path: name.into(), reason })
+        mesh.map_err(|reason| ModelError::Mesh(name.into(), reason))
     }
 }
 

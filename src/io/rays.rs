@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{NumberError, parse_f32, quoted};
+use super::error::ReadError;
+use super::lines::single;
+use super::{NumberError, quoted};
 use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
 
@@ -25,79 +27,30 @@ const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Why a file is no table of rays. Lines count from 1, the header's.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RaysError {
-    /// The file cannot be opened or read.
-    #[error("cannot read the rays {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The file is longer than [`MAX_BYTES`].
-    #[error("{}: expected a table of at most {MAX_BYTES} bytes, found more", path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-    },
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
     /// The first line is not the header.
     #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
-    Header {
-        /// The file.
-        path: PathBuf,
-        /// What stands there.
-        found: String,
-    },
+    Header { path: PathBuf, found: String },
     /// A line does not have six fields.
     #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} fields", path.display())]
-    Fields {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// How many there are.
-        found: usize,
-    },
+    Fields { path: PathBuf, line: u64, found: usize },
     /// A field is not a number of single precision.
     #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
-    Number {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// The column's name.
-        column: &'static str,
-        /// What is wrong with it.
-        reason: NumberError,
-        /// What stands there.
-        found: String,
-    },
+    Number { path: PathBuf, line: u64, column: &'static str, reason: NumberError, found: String },
     /// The six numbers are no ray.
     #[error("{}:{line}: {reason}", path.display())]
-    Ray {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: u64,
-        /// Why not.
-        reason: RayError,
-    },
+    Ray { path: PathBuf, line: u64, reason: RayError },
     /// The table's syntax is broken.
     #[error("{}: the table cannot be read: {reason}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// What the csv reader says.
-        reason: String,
-    },
+    Table { path: PathBuf, reason: String },
     /// No memory for more rays.
     #[error("{}: no memory for more than {rays} rays", path.display())]
-    Memory {
-        /// The file.
-        path: PathBuf,
-        /// Rays that were read.
-        rays: usize,
-    },
+    Memory { path: PathBuf, rays: usize },
 }
 
 /// Reads rays from a file.
@@ -105,11 +58,19 @@ pub enum RaysError {
 /// # Errors
 /// [`RaysError`], with the path, and the line where there is one.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
-    let file = File::open(path).map_err(|source| RaysError::Read { path: path.into(), source })?;
+    let file = File::open(path).map_err(|source| unreadable(path, source))?;
     let mut limited = file.take(MAX_BYTES + 1);
     let rays = read_rays(&mut limited, path);
     // A table that was cut may be broken where it was cut.
-    if limited.limit() == 0 { Err(RaysError::TooLong { path: path.into() }) } else { rays }
+    if limited.limit() == 0 {
+        Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into())
+    } else {
+        rays
+    }
+}
+
+fn unreadable(path: &Path, source: io::Error) -> ReadError {
+    ReadError::Unreadable { what: "rays", path: path.into(), source }
 }
 
 /// Reads rays from bytes; `name` stands for the file in messages. A table without rays is fine.
@@ -124,7 +85,7 @@ fn read_rays(input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(input);
     let broken = |reason: csv::Error| match reason.into_kind() {
-        csv::ErrorKind::Io(source) => RaysError::Read { path: name.into(), source },
+        csv::ErrorKind::Io(source) => unreadable(name, source).into(),
         other => RaysError::Table { path: name.into(), reason: format!("{other:?}") },
     };
     let mut record = csv::ByteRecord::new();
@@ -148,18 +109,14 @@ fn ray(record: &csv::ByteRecord, name: &Path) -> Result<Ray, RaysError> {
     }
     let mut numbers = [0.0_f32; 6];
     for ((number, field), column) in numbers.iter_mut().zip(record).zip(HEADER) {
-        let parsed = std::str::from_utf8(field).map_err(|_| NumberError::NoNumber).and_then(parse_f32);
         let wrong = |reason| RaysError::Number { path: name.into(), line, column, reason, found: quoted(field) };
-        *number = parsed.map_err(wrong)?;
+        *number = single(field).map_err(wrong)?;
     }
     let [ox, oy, oz, dx, dy, dz] = numbers;
     Ray::new([ox, oy, oz], [dx, dy, dz]).map_err(|reason| RaysError::Ray { path: name.into(), line, reason })
 }
 
 /// Writes rays in the form that [`parse_rays`] reads back bit for bit.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", HEADER.join(","))?;
     for ray in rays {
@@ -170,9 +127,6 @@ pub fn write_rays(rays: &[Ray], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes one line per ray: its number from 0, the triangle or -1, and t or `inf`.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_hits(hits: &[Candidate], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "ray,triangle,t")?;
     for (ray, hit) in hits.iter().enumerate() {

@@ -24,9 +24,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use thiserror::Error;
 
+use super::error::ModelError;
 use super::number::Single;
 use super::read_limited;
-use super::scene_obj::{SceneObjError, load_scene, write_mtl, write_scene};
+use super::scene_obj::{load_scene, write_mtl, write_scene};
 use crate::scene::{CameraError, PointLight, Scene, View};
 
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
@@ -34,64 +35,33 @@ const LONGEST: u64 = 1 << 20;
 
 /// Why a file is no scene.
 #[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneFileError {
     /// The file cannot be opened or read.
     #[error("cannot read the scene {}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Read { path: PathBuf, source: io::Error },
     /// The file is longer than 1 MiB, or not UTF-8.
     #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
-    NoText {
-        /// The file.
-        path: PathBuf,
-    },
+    NoText { path: PathBuf },
     /// The file is no TOML, or does not say what a scene file says.
     #[error("{}:{line}: {message}", path.display())]
-    Toml {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What the reader says.
-        message: String,
-    },
+    Toml { path: PathBuf, line: usize, message: String },
     /// A view makes no picture.
     #[error("{}: view {view:?}: {reason}", path.display())]
-    View {
-        /// The file.
-        path: PathBuf,
-        /// The view.
-        view: String,
-        /// Why.
-        reason: CameraError,
-    },
+    View { path: PathBuf, view: String, reason: CameraError },
     /// Two views of one name.
     #[error("{}: expected views of different names, found {view:?} twice", path.display())]
-    SameName {
-        /// The file.
-        path: PathBuf,
-        /// The name.
-        view: String,
-    },
+    SameName { path: PathBuf, view: String },
     /// A light's figures are not finite, or its intensity is negative.
     #[error(
         "{}: point light {light} (counted from 1): expected a finite position, and an intensity of at least 0",
         path.display()
     )]
-    Light {
-        /// The file.
-        path: PathBuf,
-        /// The light.
-        light: usize,
-    },
+    Light { path: PathBuf, light: usize },
     /// Something about the mesh or its materials.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Mesh(#[from] SceneObjError),
+    Mesh(#[from] ModelError),
 }
 
 #[derive(Deserialize)]
@@ -126,9 +96,6 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 }
 
 /// Reads a scene: a scene file, or an OBJ (by the name's ending).
-///
-/// # Errors
-/// [`SceneFileError`].
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
         return Ok(load_scene(path)?);
@@ -194,9 +161,6 @@ pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>
 }
 
 /// Writes a scene file that names `mesh`; views and point lights read back with the same bits.
-///
-/// # Errors
-/// Those of the writer.
 pub fn write_scene_file(scene: &Scene, mesh: &str, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "mesh = {}", toml::Value::from(mesh))?;
     for View { name, eye, target, up, tan_half_height } in &scene.views {

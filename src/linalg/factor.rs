@@ -10,33 +10,21 @@ const MAX_ITERATIONS: usize = 100;
 
 /// Why a matrix has no such factorisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FactorError {
     /// An element that is infinite or no number.
     #[error("expected finite elements, found {found} that are not")]
-    NotFinite {
-        /// How many are not finite.
-        found: usize,
-    },
+    NotFinite { found: usize },
     /// The iteration did not end.
     #[error(
         "expected eigenvalues or singular values of {rows} x {columns} elements within {MAX_ITERATIONS} iterations each"
     )]
-    NoConvergence {
-        /// Rows of the matrix.
-        rows: usize,
-        /// Columns of the matrix.
-        columns: usize,
-    },
+    NoConvergence { rows: usize, columns: usize },
     /// Columns that depend on each other, or more columns than rows.
     #[error(
         "expected {columns} independent columns, found column {column} (counted from 0) to depend on those before it"
     )]
-    RankDeficient {
-        /// Columns of the matrix.
-        columns: usize,
-        /// The first that depends on others.
-        column: usize,
-    },
+    RankDeficient { columns: usize, column: usize },
 }
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.
@@ -137,7 +125,6 @@ impl Qr {
     ///
     /// # Panics
     /// If `right` has not one element per row.
-    #[must_use]
     pub fn least_squares(&self, right: &[f64]) -> Vec<f64> {
         let mut projected = DVector::from_column_slice(right);
         self.0.q_tr_mul(&mut projected);

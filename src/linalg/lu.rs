@@ -39,7 +39,6 @@ impl Lu {
     ///
     /// # Panics
     /// If `right` has not one element per row.
-    #[must_use]
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = DVector::from_column_slice(right);
         let solved = self.0.solve_mut(&mut x);

@@ -24,27 +24,16 @@ pub struct Matrix {
 
 /// Why a matrix cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MatrixError {
     /// Too many elements.
     #[error(
         "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {rows} x {columns}"
     )]
-    TooLarge {
-        /// The rows asked for.
-        rows: usize,
-        /// The columns asked for.
-        columns: usize,
-    },
+    TooLarge { rows: usize, columns: usize },
     /// The number of values is not rows times columns.
     #[error("expected {rows} x {columns} values, found {values}")]
-    Count {
-        /// The rows asked for.
-        rows: usize,
-        /// The columns asked for.
-        columns: usize,
-        /// The values given.
-        values: usize,
-    },
+    Count { rows: usize, columns: usize, values: usize },
 }
 
 impl Matrix {
@@ -68,19 +57,16 @@ impl Matrix {
     }
 
     /// The number of rows.
-    #[must_use]
     pub fn row_count(&self) -> usize {
         self.rows
     }
 
     /// The number of columns.
-    #[must_use]
     pub fn column_count(&self) -> usize {
         self.columns
     }
 
     /// Whether there are as many rows as columns.
-    #[must_use]
     pub fn is_square(&self) -> bool {
         self.rows == self.columns
     }
@@ -89,7 +75,6 @@ impl Matrix {
     ///
     /// # Panics
     /// If there is no such row.
-    #[must_use]
     pub fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
@@ -113,13 +98,11 @@ impl Matrix {
     }
 
     /// The elements of the diagonal.
-    #[must_use]
     pub fn diagonal(&self) -> Vec<f64> {
         self.rows().take(self.columns).enumerate().map(|(i, row)| row[i]).collect()
     }
 
     /// The product with a vector, one [`dot`] per row.
-    #[must_use]
     pub fn times(&self, vector: &[f64]) -> Vec<f64> {
         if self.values.len() < MIN_PARALLEL_ELEMENTS {
             return self.rows().map(|row| dot(row, vector)).collect();
@@ -144,7 +127,6 @@ impl Matrix {
     }
 
     /// The transposed matrix.
-    #[must_use]
     pub fn transposed(&self) -> Self {
         let mut values = vec![0.0; self.values.len()];
         values.par_chunks_exact_mut(self.rows.max(1)).enumerate().for_each(|(column, into)| {

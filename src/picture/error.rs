@@ -21,63 +21,32 @@ pub enum PictureFormat {
 
 /// A picture that cannot be made, written or read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureError {
     /// The number of samples does not fit the picture's size.
     #[error("expected {expected} samples for a picture of {width}x{height}, found {found}")]
     #[diagnostic(code(crossbar::picture::samples))]
-    Samples {
-        /// Pixels per row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Samples that a picture of this size has.
-        expected: u64,
-        /// Samples given.
-        found: u64,
-    },
+    Samples { width: u32, height: u32, expected: u64, found: u64 },
     /// The encoder refused.
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::picture::encode))]
-    Encode {
-        /// The format.
-        format: PictureFormat,
-        /// What the encoder said.
-        reason: String,
-    },
-    /// The first bytes are those of no format that is read.
+    Encode { format: PictureFormat, reason: String },
+    /// The first bytes, in hexadecimal, are those of no format that is read.
     #[error("expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}")]
     #[diagnostic(code(crossbar::picture::format))]
-    Unrecognized {
-        /// The first bytes, in hexadecimal.
-        found: String,
-    },
+    Unrecognized { found: String },
     /// The picture is larger than any that is read.
     #[error(
         "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels"
     )]
     #[diagnostic(code(crossbar::picture::size))]
-    TooLarge {
-        /// Pixels per row.
-        width: u64,
-        /// Rows.
-        height: u64,
-        /// Channels.
-        channels: usize,
-    },
-    /// The file is broken, or of a kind that is not read.
+    TooLarge { width: u64, height: u64, channels: usize },
+    /// The file is broken, or of a kind that is not read, of the format that its first bytes promise.
     #[error("expected {format} data, found something else: {reason}")]
     #[diagnostic(code(crossbar::picture::decode))]
-    Decode {
-        /// The format that the first bytes promise.
-        format: PictureFormat,
-        /// What the decoder said.
-        reason: String,
-    },
+    Decode { format: PictureFormat, reason: String },
     /// There is no color to show.
     #[error("expected channels R, G and B, or Y; found {}", if found.is_empty() { "none" } else { found })]
     #[diagnostic(code(crossbar::picture::color))]
-    NoColor {
-        /// The names of the channels.
-        found: String,
-    },
+    NoColor { found: String },
 }

@@ -24,9 +24,6 @@ impl Picture {
     /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB
     /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is
     /// read.
-    ///
-    /// # Errors
-    /// [`PictureError`].
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),

@@ -37,7 +37,6 @@ pub struct Accumulator {
 
 impl Accumulator {
     /// The accumulator of a floating-point register; `None` for fixed point.
-    #[must_use]
     pub fn of(format: &Format, packing: Packing, block: usize) -> Option<Self> {
         let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
         let least_exponent = 2 - (1 << (exp_bits - 1));

@@ -23,7 +23,6 @@ const SLACK: f64 = 1.001;
 const TINY: f64 = f32::MIN_POSITIVE as f64 * UNIT_F32;
 
 /// The contraction factor g: the infinity norm (maximum absolute row sum) of `1 - diag(M)^-1 M`.
-#[must_use]
 pub fn contraction(matrix: &Matrix) -> f64 {
     let of_row = |(i, row): (usize, &[f64])| {
         let all: f64 = row.iter().map(|m| m.abs()).sum();
@@ -44,7 +43,6 @@ pub struct ErrorBound {
 impl ErrorBound {
     /// For an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`, the largest
     /// element of `diag(M)^-1 E`.
-    #[must_use]
     pub fn from_zero(contraction: f64, largest: f64) -> Self {
         Self { contraction, error: largest / (1.0 - contraction) }
     }
@@ -92,7 +90,6 @@ impl Magnitudes {
 ///
 /// # Panics
 /// If the texture is not a radiosity texture of this system.
-#[must_use]
 pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4]) {
     let rows = card.matrix().height;
     let (mut partial, mut totals) = (card.zero(), vec![Magnitudes::default(); rows]);
@@ -125,7 +122,6 @@ pub fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f64; 4])
 /// step has k roundings, k depending on the layout, and a relative error of `gamma = k u / (1 - k u)` of the
 /// magnitudes that are summed. Starting from 0, add `g^steps |e| / (1 - g)` for the error of the initial guess.
 /// Infinite where k u is not below 1, or g is not.
-#[must_use]
 pub fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     let texels = card.matrix().width;
     let roundings = match card.packing() {

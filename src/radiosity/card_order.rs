@@ -32,9 +32,6 @@ pub struct CardSystem {
 impl CardSystem {
     /// All three channels of a system, one texel per element. `block` texels per pass, at least 1; textures of at
     /// most `limit` texels per side.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
     pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, TooLarge> {
         let size = system.factors().len();
         let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
@@ -49,9 +46,6 @@ impl CardSystem {
     }
 
     /// One channel, given as matrix and right-hand side, four elements per texel.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
     pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
         let size = matrix.row_count();
         let (matrix, diagonal) = divided(matrix);
@@ -62,9 +56,6 @@ impl CardSystem {
     }
 
     /// A system of zeros, for measuring time, which does not depend on values.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
     pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, TooLarge> {
         let [width, rows] = match packing {
             Packing::Rgb => [size; 2],
@@ -76,49 +67,41 @@ impl CardSystem {
     }
 
     /// The layout of elements in texels.
-    #[must_use]
     pub fn packing(&self) -> Packing {
         self.packing
     }
 
     /// How many patches.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.size
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.size == 0
     }
 
     /// Texels of a block.
-    #[must_use]
     pub fn block(&self) -> usize {
         self.block
     }
 
     /// A's texture.
-    #[must_use]
     pub fn matrix(&self) -> &Texels {
         &self.matrix
     }
 
     /// e's texture.
-    #[must_use]
     pub fn emittance(&self) -> &Texels {
         &self.emittance
     }
 
     /// Passes per iteration: the matrix's width over the block's.
-    #[must_use]
     pub fn passes(&self) -> usize {
         self.matrix.width.div_ceil(self.block)
     }
 
     /// A texture of zeros, where an iteration begins.
-    #[must_use]
     pub fn zero(&self) -> Texels {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
@@ -128,13 +111,11 @@ impl CardSystem {
     ///
     /// # Panics
     /// If a texture is too small, or there is no such pass.
-    #[must_use]
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
         self.observed(radiosity, partial, pass, |_| ()).0
     }
 
     /// One iteration: all passes.
-    #[must_use]
     pub fn step(&self, radiosity: &Texels) -> Texels {
         (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
     }
@@ -224,9 +205,6 @@ fn luminance_row<W: RoundingObserver>(begin: f32, matrix: &[[f32; 4]], b: &[[f32
 }
 
 /// The right-hand sides over the diagonal of the system's matrix: one texture of three channels, or one per channel.
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, TooLarge> {
     let factors = system.factors().matrix();
     let divided = |(i, e): (usize, &[f64; 3])| {

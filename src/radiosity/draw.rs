@@ -15,6 +15,7 @@ const EDGE_ON: f64 = 1e-9;
 
 /// Patches cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrawError {
     /// The card refused.
     #[error(transparent)]
@@ -24,12 +25,7 @@ pub enum DrawError {
     Kernel(#[from] KernelError),
     /// Not one radiosity per patch.
     #[error("expected {patches} radiosities, one per patch, found {found}")]
-    Count {
-        /// The patches.
-        patches: usize,
-        /// Radiosities given.
-        found: usize,
-    },
+    Count { patches: usize, found: usize },
 }
 
 /// A perspective projection: an eye, and the axes of its clip space.

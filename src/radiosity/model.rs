@@ -10,32 +10,27 @@ pub const OVERHEAD: u32 = 8;
 pub const BLOCK: u32 = block(MAX_INSTRUCTIONS);
 
 /// Texels of a block that a program of so many instructions can take, at least 1.
-#[must_use]
 pub const fn block(instructions: u32) -> u32 {
     let fits = instructions.saturating_sub(OVERHEAD) / PER_TEXEL;
     if fits == 0 { 1 } else { fits }
 }
 
 /// Passes of an iteration: ceil(N / 254) with one element per texel, ceil(N / 1016) with four.
-#[must_use]
 pub const fn passes(patches: u32, elements_a_texel: u32, block: u32) -> u32 {
     patches.div_ceil(elements_a_texel).div_ceil(block)
 }
 
 /// Floating-point operations of an iteration as the paper counts them: 2 N^2, indexing not included, one channel.
-#[must_use]
 pub fn operations(patches: u32) -> f64 {
     2.0 * f64::from(patches) * f64::from(patches)
 }
 
 /// MFLOP/s of so many iterations per second.
-#[must_use]
 pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
     operations(patches) * iterations_per_s / 1e6
 }
 
 /// Bytes of matrix that an iteration reads, `bytes` per texel.
-#[must_use]
 pub fn matrix_bytes(patches: u32, elements_a_texel: u32, bytes: u32) -> f64 {
     f64::from(patches) * f64::from(patches.div_ceil(elements_a_texel)) * f64::from(bytes)
 }

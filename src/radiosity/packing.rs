@@ -1,4 +1,4 @@
-//! Matrices and vectors as textures of four f32 per texel (section 3): layouts and their inverses.
+//! Matrices and vectors as textures of four f32 per texel (section 3): layouts.
 //!
 //! | layout | texel (x, y) of a matrix | texel x of a vector |
 //! |---|---|---|
@@ -25,7 +25,6 @@ pub enum Packing {
 
 impl Packing {
     /// Elements of a matrix's row that a texel holds.
-    #[must_use]
     pub const fn elements(self) -> u32 {
         match self {
             Self::Rgb => 1,
@@ -34,7 +33,6 @@ impl Packing {
     }
 
     /// Texels across and down of a matrix of so many patches.
-    #[must_use]
     pub const fn matrix_texels(self, patches: usize) -> [usize; 2] {
         match self {
             Self::Rgb => [patches; 2],
@@ -78,9 +76,6 @@ fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
 }
 
 /// Three matrices of one size, one texel per element. `limit` is the card's largest texture side.
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLarge> {
     filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].row_count()), limit, |x, y| {
         let [r, g, b] = matrices.map(|m| element(m, y, x));
@@ -89,9 +84,6 @@ pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, TooLar
 }
 
 /// Three vectors, one texel per element.
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge> {
     filled("a vector", [values.len(), 1], limit, |x, _| {
         let [r, g, b] = values[x].map(|value| value as f32);
@@ -101,9 +93,6 @@ pub fn rgb_vector(values: &[[f64; 3]], limit: usize) -> Result<Texels, TooLarge>
 
 /// Four columns per texel. The number of rows is rounded up to a multiple of four, as that of a vector with four
 /// elements per texel is.
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
     filled("a matrix", Packing::Luminance.matrix_texels(matrix.row_count()), limit, |x, y| {
         [0, 1, 2, 3].map(|c| element(matrix, y, 4 * x + c))
@@ -111,9 +100,6 @@ pub fn luminance_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarg
 }
 
 /// A vector, four elements per texel.
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge> {
     let value = |i: usize| values.get(i).map_or(0.0, |&value| value as f32);
     filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
@@ -121,9 +107,6 @@ pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, TooLarge
 
 /// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8
 /// of the paper).
-///
-/// # Errors
-/// [`TooLarge`].
 pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, TooLarge> {
     let half = matrix.row_count().div_ceil(2);
     filled("a matrix", [half, half], limit, |x, y| {
@@ -131,48 +114,9 @@ pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, Too
     })
 }
 
-/// The inverse of [`rgb_matrix`]: the first `size` rows and columns of a channel's matrix.
-///
-/// # Panics
-/// If the texture is smaller.
-#[must_use]
-pub fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<f32>> {
-    (0..size).map(|y| texels.row(y)[..size].iter().map(|texel| texel[channel]).collect()).collect()
-}
-
 /// The inverse of [`rgb_vector`].
-#[must_use]
 pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
     texels.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
-}
-
-/// The inverse of [`luminance_matrix`].
-///
-/// # Panics
-/// If the texture is smaller.
-#[must_use]
-pub fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
-    (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
-}
-
-/// The inverse of [`luminance_vector`]: the first `size` elements.
-///
-/// # Panics
-/// If the texture is smaller.
-#[must_use]
-pub fn from_luminance_vector(texels: &Texels, size: usize) -> Vec<f32> {
-    texels.texels.as_flattened()[..size].to_vec()
-}
-
-/// The inverse of [`block_channel_matrix`].
-///
-/// # Panics
-/// If the texture is smaller.
-#[must_use]
-pub fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
-    let half = texels.width;
-    let at = |y: usize, x: usize| texels.row(y % half)[x % half][2 * (y / half) + x / half];
-    (0..size).map(|y| (0..size).map(|x| at(y, x)).collect()).collect()
 }
 
 /// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`,
@@ -180,7 +124,6 @@ pub fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> 
 ///
 /// # Panics
 /// If the two differ in size.
-#[must_use]
 pub fn block_channel_product(a: &Texels, b: &Texels) -> Texels {
     let half = a.width;
     assert_eq!([a.height, b.width, b.height], [half; 3], "two block-channel matrices of one size");

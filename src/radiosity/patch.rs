@@ -30,7 +30,6 @@ pub struct PatchPoint {
 
 impl Patch {
     /// A patch of three or four corners; `None` for any other number, or if it has no area.
-    #[must_use]
     pub fn new(outline: &[DVec3], face: u32, material: u32) -> Option<Self> {
         let sides = outline.len();
         let corners = match *outline {
@@ -53,44 +52,37 @@ impl Patch {
     }
 
     /// Its corners, counter-clockwise from the front: three or four.
-    #[must_use]
     pub fn corners(&self) -> &[DVec3] {
         &self.corners[..self.sides]
     }
 
     /// Its area, above 0, in the square of the scene's unit.
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
     /// Its centre of gravity.
-    #[must_use]
     pub fn center(&self) -> DVec3 {
         self.center
     }
 
     /// Its normal, of length 1.
-    #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.normal
     }
 
     /// The distance of the farthest corner from the centre.
-    #[must_use]
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
     /// How far a point lies in front of its plane (behind it: below 0).
-    #[must_use]
     pub fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.center)
     }
 
     /// A parametrisation over the unit square: bilinear for four corners; for three, one side of the square is one
     /// corner. Integrals over the patch are integrals over the square of value times density.
-    #[must_use]
     pub fn at(&self, u: f64, v: f64) -> PatchPoint {
         let [a, b, c, d] = self.corners;
         if self.sides == 3 {

@@ -36,9 +36,6 @@ pub struct Patches {
 impl Patches {
     /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex
     /// quadrilateral.
-    ///
-    /// # Errors
-    /// [`PatchError`].
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, PatchError> {
         let mesh = scene.mesh();
         let Some(bounds) = mesh.bounds() else { return Err(PatchError::Empty) };
@@ -64,13 +61,11 @@ impl Patches {
     }
 
     /// All patches, in the order of the matrix's rows.
-    #[must_use]
     pub fn list(&self) -> &[Patch] {
         &self.list
     }
 
     /// The triangles of the scene, which visibility rays are traced against.
-    #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -79,13 +74,11 @@ impl Patches {
     ///
     /// # Panics
     /// If there is no such triangle.
-    #[must_use]
     pub fn face_of(&self, triangle: u32) -> u32 {
         self.face_of[triangle as usize]
     }
 
     /// The diagonal of the scene's bounding box.
-    #[must_use]
     pub fn extent(&self) -> f64 {
         self.extent
     }
@@ -95,7 +88,6 @@ impl Patches {
     ///
     /// # Panics
     /// If there is no such patch.
-    #[must_use]
     pub fn open_parts(&self, patch: usize) -> &[Patch] {
         let whole = std::slice::from_ref(&self.list[patch]);
         self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)
@@ -105,13 +97,11 @@ impl Patches {
     ///
     /// # Panics
     /// If there is no such patch.
-    #[must_use]
     pub fn open_area(&self, patch: usize) -> f64 {
         self.open_parts(patch).iter().map(Patch::area).sum()
     }
 
     /// The patches that something covers in part, and those that are covered altogether.
-    #[must_use]
     pub fn covered(&self) -> [usize; 2] {
         let altogether = self.open.values().filter(|parts| parts.is_empty()).count();
         [self.open.len() - altogether, altogether]
@@ -139,20 +129,17 @@ impl Patches {
 
     /// The area of each patch, as form factors count it: that of its open parts, since nothing else takes part in the
     /// exchange of light. A patch that is covered altogether exchanges nothing, and has its whole area.
-    #[must_use]
     pub fn areas(&self) -> Vec<f64> {
         let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };
         (0..self.list.len()).map(area).collect()
     }
 
     /// The reflectance of each patch: red, green, blue.
-    #[must_use]
     pub fn reflectances(&self) -> Vec<[f64; 3]> {
         self.list.iter().map(|patch| self.materials[patch.material as usize].0).collect()
     }
 
     /// The emittance of each patch: pi times its material's radiance.
-    #[must_use]
     pub fn emittances(&self) -> Vec<[f64; 3]> {
         let emittance = |patch: &Patch| self.materials[patch.material as usize].1.map(|l| std::f64::consts::PI * l);
         self.list.iter().map(emittance).collect()

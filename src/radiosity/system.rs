@@ -8,39 +8,23 @@ use crate::linalg::Matrix;
 
 /// Why there is no system.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SystemError {
     /// No patches.
     #[error("expected patches, found none")]
     Empty,
-    /// Not one value per patch.
+    /// Not one reflectance, emittance or the like per patch.
     #[error("expected {patches} {what}, one per patch, found {found}")]
-    Count {
-        /// `reflectances`, `emittances`, ...
-        what: &'static str,
-        /// The patches.
-        patches: usize,
-        /// How many values.
-        found: usize,
-    },
+    Count { what: &'static str, patches: usize, found: usize },
     /// A reflectance of 1 or more, or below 0.
     #[error(
         "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
          a surface that absorbs nothing has no solution"
     )]
-    Reflectance {
-        /// The patch.
-        patch: usize,
-        /// What was found.
-        value: f64,
-    },
+    Reflectance { patch: usize, value: f64 },
     /// An emittance below 0, or none at all.
     #[error("expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)")]
-    Emittance {
-        /// The patch.
-        patch: usize,
-        /// What was found.
-        value: f64,
-    },
+    Emittance { patch: usize, value: f64 },
 }
 
 /// Red, green and blue per patch.
@@ -63,7 +47,6 @@ pub struct RgbSolution {
 
 impl RgbSolution {
     /// The radiosity of each patch.
-    #[must_use]
     pub fn radiosity(&self) -> PerPatch {
         let [red, green, blue] = &self.channels;
         (0..red.radiosity.len()).map(|i| [red, green, blue].map(|channel| channel.radiosity[i])).collect()
@@ -72,9 +55,6 @@ impl RgbSolution {
 
 impl System {
     /// A system of as many patches as there are form factors. Reflectances lie in [0, 1).
-    ///
-    /// # Errors
-    /// [`SystemError`].
     pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, SystemError> {
         if factors.is_empty() {
             return Err(SystemError::Empty);
@@ -117,19 +97,16 @@ impl System {
     }
 
     /// The form factors.
-    #[must_use]
     pub fn factors(&self) -> &FormFactors {
         &self.factors
     }
 
     /// The reflectance of each patch.
-    #[must_use]
     pub fn reflectance(&self) -> &[[f64; 3]] {
         &self.reflectance
     }
 
     /// The emittance of each patch.
-    #[must_use]
     pub fn emittance(&self) -> &[[f64; 3]] {
         &self.emittance
     }
@@ -138,7 +115,6 @@ impl System {
     ///
     /// # Panics
     /// For another channel.
-    #[must_use]
     pub fn right_hand_side(&self, channel: usize) -> Vec<f64> {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
@@ -147,7 +123,6 @@ impl System {
     ///
     /// # Panics
     /// For a channel above 2.
-    #[must_use]
     pub fn matrix(&self, channel: usize) -> Matrix {
         let mut matrix = self.factors.matrix().clone();
         for (i, rho) in self.reflectance.iter().enumerate() {
@@ -159,9 +134,6 @@ impl System {
     }
 
     /// Solves one channel. `start` is the initial guess, for example the solution before a change of light.
-    ///
-    /// # Errors
-    /// [`SolveError`].
     pub fn solve_channel(
         &self,
         channel: usize,
@@ -198,7 +170,6 @@ impl System {
     ///
     /// # Panics
     /// If there is not one radiosity per patch.
-    #[must_use]
     pub fn residual(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         assert_eq!(radiosity.len(), self.factors.len(), "one radiosity per patch");
         [0, 1, 2].map(|c| {
@@ -211,7 +182,6 @@ impl System {
 
     /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room.
     /// It is 0 for reciprocal form factors and an exact solution.
-    #[must_use]
     pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();

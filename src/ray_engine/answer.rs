@@ -12,14 +12,12 @@ pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 
 /// A card cannot intersect rays with triangles.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum EngineError {
     /// The card's shader versions have no intersection program.
     #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
     #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
-    NoKernel {
-        /// The device.
-        device: String,
-    },
+    NoKernel { device: String },
     /// The device refuses a program.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -27,10 +25,7 @@ pub enum EngineError {
     /// More triangles than ids.
     #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colors), found {found}")]
     #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
-    TooManyTriangles {
-        /// Triangles of the mesh.
-        found: usize,
-    },
+    TooManyTriangles { found: usize },
     /// Rays that fill no rectangle.
     #[error(transparent)]
     #[diagnostic(code(ray_engine::batch))]

@@ -87,18 +87,12 @@ impl Settings {
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RenderError {
     /// The ray caster failed.
     #[error(transparent)]
     Cast(#[from] CastError),
     /// A figure that makes no sense.
     #[error("expected {expected} for {what}, found {found}")]
-    Settings {
-        /// Which.
-        what: &'static str,
-        /// What it must be.
-        expected: &'static str,
-        /// What it is.
-        found: String,
-    },
+    Settings { what: &'static str, expected: &'static str, found: String },
 }

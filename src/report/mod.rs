@@ -26,20 +26,16 @@ use crate::picture::PictureError;
 
 /// A table, chart or picture that cannot be encoded.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReportError {
     /// A picture.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// The encoder refused.
+    /// The encoder of `CSV`, `JSON` or `SVG` refused.
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::report::encode))]
-    Encode {
-        /// `CSV`, `JSON` or `SVG`.
-        format: &'static str,
-        /// What the encoder said.
-        reason: String,
-    },
+    Encode { format: &'static str, reason: String },
 }
 
 impl ReportError {

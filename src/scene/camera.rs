@@ -31,32 +31,20 @@ pub struct Camera {
 
 /// Why there is no such camera.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CameraError {
-    /// A figure is not finite.
+    /// A figure of `eye`, `target` or `up` is not finite.
     #[error("expected finite figures for {what}, found {found:?}")]
-    NotFinite {
-        /// `eye`, `target` or `up`.
-        what: &'static str,
-        /// What was given.
-        found: [f32; 3],
-    },
+    NotFinite { what: &'static str, found: [f32; 3] },
     /// Eye and target are one point, or `up` is zero or runs along the view.
     #[error("eye, target and up span no picture: expected a target other than the eye, and an up not along the view")]
     Flat,
     /// The tangent of half the field of view is not in (0, 1e6].
     #[error("expected a tangent of half the vertical field of view above 0 and up to 1000000, found {found}")]
-    FieldOfView {
-        /// What was given.
-        found: f32,
-    },
+    FieldOfView { found: f32 },
     /// The picture has no pixels, or more than 2^30.
     #[error("expected a picture of 1 to 2^30 pixels, found {width}x{height}")]
-    Size {
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-    },
+    Size { width: u32, height: u32 },
 }
 
 impl Camera {
@@ -108,38 +96,32 @@ impl Camera {
     }
 
     /// Where all rays start.
-    #[must_use]
     pub fn eye(&self) -> [f32; 3] {
         self.eye
     }
 
     /// Pixels across.
-    #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
     /// Pixels down.
-    #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
     /// The unit vector along the middle of the view, which also is the direction's component all pixels share.
-    #[must_use]
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
     /// Direction through the centre of a pixel, unnormalised: its component along the view is 1. Pixels outside the
     /// picture continue its plane.
-    #[must_use]
     pub fn direction(&self, x: u32, y: u32) -> [f32; 3] {
         narrow(self.exact_direction(x, y))
     }
 
     /// The same direction at length 1, within one rounding of f32 per component.
-    #[must_use]
     pub fn unit_direction(&self, x: u32, y: u32) -> [f32; 3] {
         let direction = self.exact_direction(x, y);
         narrow(unit(direction).unwrap_or(direction))
@@ -149,25 +131,21 @@ impl Camera {
     ///
     /// # Panics
     /// Never for pixels of the picture: their direction is finite and not zero.
-    #[must_use]
     pub fn ray(&self, x: u32, y: u32) -> Ray {
         Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
     }
 
     /// The rays of all pixels, row by row from the upper left.
-    #[must_use]
     pub fn rays(&self) -> Vec<Ray> {
         (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.ray(x, y))).collect()
     }
 
     /// To the right edge of the picture from its centre, at distance 1.
-    #[must_use]
     pub fn right(&self) -> DVec3 {
         self.right
     }
 
     /// To the upper edge of the picture from its centre, at distance 1.
-    #[must_use]
     pub fn up(&self) -> DVec3 {
         self.up
     }
@@ -178,7 +156,6 @@ impl Camera {
 
     /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32;
     /// the middle of pixel (0, 0) is at (0.5, 0.5).
-    #[must_use]
     pub fn direction_at(&self, x: f64, y: f64) -> DVec3 {
         let across = 2.0 * x / f64::from(self.width) - 1.0;
         let upwards = 1.0 - 2.0 * y / f64::from(self.height);

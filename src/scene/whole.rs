@@ -41,27 +41,14 @@ impl View {
 
 /// Why parts make no scene.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneError {
     /// Not one material and one set of normals per triangle.
     #[error("expected {triangles} {what}, one a triangle, found {found}")]
-    Count {
-        /// `materials` or `normals`.
-        what: &'static str,
-        /// Triangles of the mesh.
-        triangles: usize,
-        /// How many were given.
-        found: usize,
-    },
+    Count { what: &'static str, triangles: usize, found: usize },
     /// A triangle names a material that there is not.
     #[error("triangle {triangle} has material {material}, expected one below {materials} (counted from 0)")]
-    Material {
-        /// The triangle, counted from 0.
-        triangle: usize,
-        /// What it names.
-        material: u32,
-        /// How many there are.
-        materials: usize,
-    },
+    Material { triangle: usize, material: u32, materials: usize },
 }
 
 /// Triangles with what renderers need to know of them.

@@ -190,15 +190,8 @@ fn the_output_merge() {
     assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("target 0 red")));
     assert_eq!((&found["values"][0]["left_bits"], &found["values"][0]["right_bits"]), (&json!("0x80"), &json!("0x7f")));
     assert_eq!(red["surfaces"][0]["largest"]["ulps"], 1.0);
-    let depth = json(&[
-        "two_triangles.toml",
-        "--left-device",
-        "r300",
-        "--right-device",
-        "r300",
-        "--right-switch",
-        "depth-rounding=truncate",
-    ]);
+    let sides = "two_triangles.toml --left-device r300 --right-device r300 --right-switch depth-rounding=truncate";
+    let depth = json(&sides.split(' ').collect::<Vec<_>>());
     let found = &depth["first"]["difference"];
     assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("depth")));
     assert_eq!(found["values"][0]["left_bits"], "0x400000");

@@ -2,20 +2,7 @@
 
 use crate::crossbar;
 
-const COMMANDS: &[&str] = &[
-    "alu",
-    "check",
-    "compare",
-    "devices",
-    "intersect",
-    "leaky-teapot",
-    "radiosity",
-    "render",
-    "reproduce",
-    "run",
-    "scene",
-    "timeline",
-];
+const COMMANDS: &str = "alu check compare devices intersect leaky-teapot radiosity render reproduce run scene timeline";
 
 #[test]
 fn program() {
@@ -24,8 +11,8 @@ fn program() {
 
 #[test]
 fn commands() {
-    for command in COMMANDS {
-        insta::assert_snapshot!(*command, crossbar(&[command, "--help"], "").transcript());
+    for command in COMMANDS.split(' ') {
+        insta::assert_snapshot!(command, crossbar(&[command, "--help"], "").transcript());
     }
 }
 
@@ -42,12 +29,12 @@ fn every_command_is_listed_here() {
         .filter_map(|line| line.split_whitespace().next())
         .filter(|name| *name != "help")
         .collect();
-    assert_eq!(listed, COMMANDS);
+    assert_eq!(listed.join(" "), COMMANDS);
 }
 
 #[test]
 fn every_command_has_an_example_and_speaks_json() {
-    for command in COMMANDS {
+    for command in COMMANDS.split(' ') {
         let help = crossbar(&[command, "--help"], "").stdout;
         assert!(help.contains("Example"), "{command} shows an example");
         assert!(help.contains(&format!("crossbar {command}")), "{command}'s example can be copied");

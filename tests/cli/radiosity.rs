@@ -112,18 +112,8 @@ fn a_sweep_over_patches_and_switches() {
 
 #[test]
 fn the_card_draws_its_own_form_factors() {
-    let (ran, _folder) = radiosity(&[
-        "cornell-room-blocks",
-        "--patches",
-        "60",
-        "--factors",
-        "hemicube",
-        "--hemicube",
-        "16",
-        "--size",
-        "8x8",
-        "--json",
-    ]);
+    let arguments = "cornell-room-blocks --patches 60 --factors hemicube --hemicube 16 --size 8x8 --json";
+    let (ran, _folder) = radiosity(&arguments.split(' ').collect::<Vec<_>>());
     let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect(&ran.stderr);
     assert_eq!(found["room"][0]["form_factors"], "hemicubes of 16");
     let sum = found["room"][0]["least_row_sum"].as_f64().expect("a number");

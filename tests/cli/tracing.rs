@@ -115,21 +115,8 @@ fn a_radeon_8500_traces_rays_of_any_origin_in_one_pass() {
     let rays = "ox,oy,oz,dx,dy,dz\n0.25,0.25,1,0,0,-1\n0.25,0.25,-0.5,0,0,2\n0.9,0.9,1,0,0,-1\n0.25,0.25,-1,0,0,-1\n";
     fs::write(folder.path().join("r.csv"), rays).expect("written");
     let trace = |sides: &str| {
-        let arguments = [
-            "intersect",
-            "--mesh",
-            "m.obj",
-            "--rays",
-            "r.csv",
-            "--out",
-            "h.csv",
-            "--device",
-            "r200",
-            "--executor",
-            "batch",
-            "--sides",
-            sides,
-        ];
+        let arguments = "intersect --mesh m.obj --rays r.csv --out h.csv --device r200 --executor batch --sides";
+        let arguments: Vec<&str> = arguments.split(' ').chain([sides]).collect();
         let ran = crossbar_in(folder.path(), &arguments, "");
         assert_eq!(ran.code, Some(0), "{}", ran.transcript());
         let text = fs::read_to_string(folder.path().join("h.csv")).expect("written");
@@ -176,22 +163,9 @@ fn render_writes_a_picture_and_layers() {
 #[test]
 fn leaky_teapot_writes_everything_it_promises() {
     let folder = tempfile::tempdir().expect("a folder");
-    let arguments = [
-        "leaky-teapot",
-        "--size",
-        "20x16",
-        "--tessellation",
-        "2",
-        "--device",
-        "r200",
-        "--device",
-        "r300",
-        "--rays-per-edge",
-        "1",
-        "--out",
-        "a/b",
-        "--json",
-    ];
+    let arguments =
+        "leaky-teapot --size 20x16 --tessellation 2 --device r200 --device r300 --rays-per-edge 1 --out a/b --json";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
     let ran = crossbar_in(folder.path(), &arguments, "");
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
     let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
@@ -203,21 +177,9 @@ fn leaky_teapot_writes_everything_it_promises() {
         .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    let expected = [
-        "edges.csv",
-        "exact.exr",
-        "exact.png",
-        "index.html",
-        "r200-map.png",
-        "r200.exr",
-        "r200.png",
-        "r300-map.png",
-        "r300.exr",
-        "r300.png",
-        "rows.csv",
-        "study.json",
-    ];
-    assert_eq!(names, expected, "these files and no others");
+    let expected = "edges.csv exact.exr exact.png index.html r200-map.png \
+                    r200.exr r200.png r300-map.png r300.exr r300.png rows.csv study.json";
+    assert_eq!(names.join(" "), expected, "these files and no others");
     let page = fs::read_to_string(out.join("index.html")).expect("the page");
     assert!(page.matches("data:image/png;base64,").count() == 5, "exact, two pictures, two maps");
     assert!(!page.contains("http://") && !page.contains("https://"), "self-contained");

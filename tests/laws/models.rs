@@ -23,38 +23,12 @@ fn round_trip(mesh: &Mesh) -> Mesh {
 }
 
 fn word() -> impl Strategy<Value = String> {
-    const KNOWN: [&str; 29] = [
-        "v",
-        "f",
-        "vt",
-        "vn",
-        "o",
-        "g",
-        "usemtl",
-        "mtllib",
-        "\n",
-        "\n",
-        "\n",
-        "\\\n",
-        "#",
-        "0",
-        "1",
-        "2",
-        "-1",
-        "3/1/1",
-        "1//",
-        "/",
-        "1e39",
-        "nan",
-        "inf",
-        "-0",
-        "1e-45",
-        "9223372036854775807",
-        "-9223372036854775808",
-        "18446744073709551616",
-        "é",
+    const KNOWN: [&str; 26] = [
+        "v", "f", "vt", "vn", "o", "g", "usemtl", "mtllib", "\n", "\n", "\n", "\\\n", "#", "0", "1", "2", "-1",
+        "3/1/1", "1//", "/", "1e39", "nan", "inf", "-0", "1e-45", "é",
     ];
-    prop::sample::select(&KNOWN[..]).prop_map(str::to_owned)
+    const LONG: [&str; 3] = ["9223372036854775807", "-9223372036854775808", "18446744073709551616"];
+    prop::sample::select([&KNOWN[..], &LONG].concat()).prop_map(str::to_owned)
 }
 
 proptest! {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crossbar::geom::Mesh;
-use crossbar::io::{PlyError, load_mesh, load_obj, parse_ply};
+use crossbar::io::{ModelError, load_mesh, load_obj, parse_ply};
 use proptest::prelude::*;
 
 use crate::mutation::mutated;
@@ -66,7 +66,7 @@ fn encoded(encoding: &'static str) -> Vec<u8> {
     out.bytes
 }
 
-fn parse(bytes: &[u8]) -> Result<Mesh, PlyError> {
+fn parse(bytes: &[u8]) -> Result<Mesh, ModelError> {
     parse_ply(bytes, Path::new("m.ply"))
 }
 

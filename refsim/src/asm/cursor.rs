@@ -58,7 +58,7 @@ impl<'a> Cursor<'a> {
     /// The next token is not what has to stand there.
     pub(super) fn unexpected(&self, expected: &str, help: &str) -> SyntaxError {
         let token = self.peek();
-        SyntaxError::new(ErrorKind::UnexpectedToken, token.span, expected, token.found(), help)
+        token.error(ErrorKind::UnexpectedToken, expected, help)
     }
 
     /// One of these words after a point, if it stands there.

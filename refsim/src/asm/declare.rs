@@ -29,22 +29,6 @@ pub(super) fn usage_suffix(usage: Usage) -> (&'static str, Option<u8>) {
     }
 }
 
-const NUMBERED: [fn(u8) -> Usage; 13] = [
-    Usage::Position,
-    Usage::BlendWeight,
-    Usage::BlendIndices,
-    Usage::Normal,
-    Usage::PointSize,
-    Usage::TexCoord,
-    Usage::Tangent,
-    Usage::Binormal,
-    Usage::TessFactor,
-    Usage::Color,
-    Usage::Fog,
-    Usage::Depth,
-    Usage::Sample,
-];
-
 const SAMPLERS: [Usage; 3] = [Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume];
 
 fn usage(part: &str, span: Span) -> Parsed<Usage> {
@@ -54,7 +38,7 @@ fn usage(part: &str, span: Span) -> Parsed<Usage> {
     }
     let name = lower.trim_end_matches(|c: char| c.is_ascii_digit());
     let digits = &lower[name.len()..];
-    let Some(make) = NUMBERED.iter().find(|make| usage_suffix(make(0)).0 == name) else {
+    let Some(make) = Usage::NUMBERED.iter().find(|make| usage_suffix(make(0)).0 == name) else {
         return Err(SyntaxError::new(
             ErrorKind::UnknownUsage,
             span,
@@ -84,11 +68,9 @@ impl<'a> Parser<'a> {
     pub(super) fn declaration(&mut self, token: Token<'a>) {
         let hints = self.declaration_hints(&token);
         let destination = if self.at_list_end() {
-            Err(SyntaxError::new(
+            Err(self.peek().error(
                 ErrorKind::MalformedOperand,
-                self.peek().span,
                 "the declared register",
-                self.peek().found(),
                 "write `dcl t0.xy` or `dcl_2d s0`, for example",
             ))
         } else {
@@ -262,11 +244,9 @@ impl<'a> Parser<'a> {
         }
         let token = self.peek();
         if report {
-            self.record(SyntaxError::new(
+            self.record(token.error(
                 ErrorKind::OperandCount,
-                token.span,
                 format!("the end of the line after `{name}` and its register"),
-                token.found(),
                 help,
             ));
         }

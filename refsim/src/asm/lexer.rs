@@ -55,6 +55,11 @@ impl Token<'_> {
             _ => quote(self.text),
         }
     }
+
+    /// The token is not what belongs there.
+    pub(super) fn error(&self, kind: ErrorKind, expected: impl Into<String>, help: impl Into<String>) -> SyntaxError {
+        SyntaxError::new(kind, self.span, expected, self.found(), help)
+    }
 }
 
 /// Splits `text` from byte `from` on; it must not be longer than [`super::MAX_TEXT`].

@@ -18,6 +18,7 @@ mod cursor;
 mod declare;
 mod error;
 mod gl;
+mod letters;
 mod lexer;
 mod limits;
 mod list;

@@ -1,33 +1,12 @@
 //! Operands: registers with their addresses, swizzles, masks and modifiers.
 
 use super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use super::letters::{components, mask, swizzle};
 use super::lexer::{Token, TokenKind};
 use super::limits::MAX_REGISTER;
 use super::parser::Parser;
 use super::word;
 use crate::isa::{Destination, Mask, Modifier, Predicate, Register, RegisterFile, Relative, Source, Span, Swizzle};
-
-/// The files, longest prefixes first.
-const FILES: [RegisterFile; 18] = [
-    RegisterFile::DepthOut,
-    RegisterFile::PositionOut,
-    RegisterFile::FogOut,
-    RegisterFile::PointSizeOut,
-    RegisterFile::ColorOut,
-    RegisterFile::DiffuseOut,
-    RegisterFile::TexCoordOut,
-    RegisterFile::Loop,
-    RegisterFile::Temp,
-    RegisterFile::Input,
-    RegisterFile::Texture,
-    RegisterFile::Constant,
-    RegisterFile::ConstantInt,
-    RegisterFile::ConstantBool,
-    RegisterFile::Sampler,
-    RegisterFile::Address,
-    RegisterFile::Predicate,
-    RegisterFile::Label,
-];
 
 /// A source modifier written after the register.
 #[derive(Clone, Copy)]
@@ -56,59 +35,8 @@ struct NamedRegister<'a> {
     selector: Option<(&'a str, Span)>,
 }
 
-/// Reads a swizzle's letters: one to four of `xyzw` or of `rgba`, the last repeated.
-pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
-    let bad = || {
-        SyntaxError::new(
-            ErrorKind::Swizzle,
-            span,
-            "one to four letters of xyzw or of rgba",
-            quote(letters),
-            "write `.x`, `.xyz` or `.wzyx`, for example; the two sets of letters don't mix",
-        )
-    };
-    let components = components(letters).ok_or_else(bad)?;
-    let last = *components.last().ok_or_else(bad)?;
-    let mut lanes = [last; 4];
-    lanes[..components.len()].copy_from_slice(&components);
-    Ok(Swizzle(lanes))
-}
-
-/// The component numbers of one to four letters of one set.
-fn components(letters: &str) -> Option<Vec<u8>> {
-    if letters.is_empty() || letters.len() > 4 {
-        return None;
-    }
-    ["xyzw", "rgba"].iter().find_map(|set| {
-        letters
-            .bytes()
-            .map(|letter| set.bytes().position(|l| l == letter.to_ascii_lowercase()))
-            .map(|position| position.map(|p| p as u8))
-            .collect()
-    })
-}
-
-fn mask(letters: &str, span: Span) -> Parsed<Mask> {
-    let bad = |help: &str| {
-        SyntaxError::new(
-            ErrorKind::Mask,
-            span,
-            "letters of xyzw or of rgba in this order, each once at most",
-            quote(letters),
-            help,
-        )
-    };
-    let Some(components) = components(letters) else {
-        return Err(bad("write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix"));
-    };
-    if !components.is_sorted_by(|a, b| a < b) {
-        return Err(bad("a destination takes a mask, no swizzle: put the swizzle on the sources"));
-    }
-    Ok(Mask(components.iter().fold(0, |bits, c| bits | 1 << c)))
-}
-
 fn is_file(letters: &str) -> Option<RegisterFile> {
-    FILES.into_iter().find(|f| f.prefix().eq_ignore_ascii_case(letters))
+    RegisterFile::DIRECT3D.iter().copied().find(|f| f.prefix().eq_ignore_ascii_case(letters))
 }
 
 /// A register number; `None` where it exceeds [`MAX_REGISTER`].
@@ -188,13 +116,7 @@ impl<'a> Parser<'a> {
         let open = self.next();
         let not = self.accept(TokenKind::Bang).is_some();
         let bad = |token: Token<'_>, expected: &str| {
-            SyntaxError::new(
-                ErrorKind::Predicate,
-                token.span,
-                expected,
-                token.found(),
-                "write `(p0)`, `(!p0)` or `(p0.x)` in front of the instruction",
-            )
+            token.error(ErrorKind::Predicate, expected, "write `(p0)`, `(!p0)` or `(p0.x)` in front of the instruction")
         };
         let name = self.next_in_line();
         if name.kind != TokenKind::Word || !name.text.eq_ignore_ascii_case("p0") {
@@ -225,7 +147,7 @@ impl<'a> Parser<'a> {
             TokenKind::Newline | TokenKind::End => "the operand is missing",
             _ => "an operand is a register, with modifiers and letters: `-r0_bx2.xyz`",
         };
-        SyntaxError::new(ErrorKind::MalformedOperand, token.span, expected, token.found(), help)
+        token.error(ErrorKind::MalformedOperand, expected, help)
     }
 
     /// A destination, without the modifiers that its instruction's word carries.
@@ -337,11 +259,9 @@ impl<'a> Parser<'a> {
         if self.accept(TokenKind::Dot).is_some() {
             let letters = self.peek();
             if letters.kind != TokenKind::Word {
-                return Err(SyntaxError::new(
+                return Err(letters.error(
                     ErrorKind::Swizzle,
-                    letters.span,
                     "letters after the point",
-                    letters.found(),
                     "write `.x`, `.xyz` or `.rgba`, for example",
                 ));
             }
@@ -391,13 +311,7 @@ impl<'a> Parser<'a> {
     }
 
     fn address_error(&self, token: Token<'_>, expected: &str) -> SyntaxError {
-        SyntaxError::new(
-            ErrorKind::RelativeAddress,
-            token.span,
-            expected,
-            token.found(),
-            "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`",
-        )
+        token.error(ErrorKind::RelativeAddress, expected, "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`")
     }
 
     /// `[a0.x + 3]` and its kin: sums of numbers and one address register at most.

@@ -120,11 +120,9 @@ impl<'a> Parser<'a> {
         let token = self.peek();
         let all = Version::ALL.map(Version::token).join(" ");
         if token.kind != TokenKind::Word || !word::is_version(token.text) {
-            self.record(SyntaxError::new(
+            self.record(token.error(
                 ErrorKind::MissingVersion,
-                token.span,
                 "a shader version as the first word",
-                token.found(),
                 format!("start the program with one of {all}"),
             ));
             return;
@@ -132,11 +130,9 @@ impl<'a> Parser<'a> {
         self.next();
         match token.text.parse() {
             Ok(version) => self.version = Some((version, token.span)),
-            Err(_) => self.record(SyntaxError::new(
+            Err(_) => self.record(token.error(
                 ErrorKind::UnknownVersion,
-                token.span,
                 format!("one of {all}"),
-                token.found(),
                 match token.text.to_ascii_lowercase().as_str() {
                     "ps_2_x" => "name the flavour: ps_2_a (NV3x) or ps_2_b (R4xx)",
                     "ps_1_0" | "ps.1.0" => "every ps_1_0 program is a ps_1_1 program",
@@ -161,7 +157,7 @@ impl<'a> Parser<'a> {
             "," => "a comma stands between two operands only",
             _ => "one instruction a line: mnemonic, destination, sources",
         };
-        self.record(SyntaxError::new(ErrorKind::UnexpectedToken, token.span, expected, token.found(), help));
+        self.record(token.error(ErrorKind::UnexpectedToken, expected, help));
     }
 
     fn statement(&mut self) {
@@ -197,11 +193,9 @@ impl<'a> Parser<'a> {
         } else if declaration {
             self.declaration(token);
         } else if word::is_version(token.text) {
-            self.record(SyntaxError::new(
+            self.record(token.error(
                 ErrorKind::RepeatedVersion,
-                token.span,
                 "one version, in front",
-                token.found(),
                 "put each program into a text of its own",
             ));
             self.skip_line();

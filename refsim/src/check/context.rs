@@ -54,32 +54,9 @@ impl<'a> Context<'a> {
         }
     }
 
-    pub(super) fn add(&mut self, violation: Violation) {
-        self.violations.push(violation);
-    }
-
-    /// A violation whose message says it all.
-    pub(super) fn breach(&mut self, rule: RuleId, span: Span, message: impl Into<String>) {
-        self.add(Violation::new(rule, span, message));
-    }
-
-    /// A violation of a figure.
-    #[expect(clippy::too_many_arguments, reason = "each is one of the facts that the message is made of")]
-    pub(super) fn exceed(
-        &mut self,
-        rule: RuleId,
-        span: Span,
-        found: u32,
-        allowed: &Allowed,
-        message: String,
-        label: String,
-        advice: &str,
-    ) {
-        let mut violation = Violation::new(rule, span, message).label(label).help(allowed.help(advice));
-        violation.key = Some(allowed.key);
-        violation.limit = Some(allowed.value);
-        violation.found = Some(found);
-        self.add(violation);
+    /// Notes a violation, which may say more than its message.
+    pub(super) fn breach(&mut self, rule: RuleId, span: Span, message: impl Into<String>) -> &mut Violation {
+        self.violations.push_mut(Violation::new(rule, span, message))
     }
 
     pub(super) fn is_sound(&self, index: usize) -> bool {

@@ -6,9 +6,9 @@
 
 use std::collections::BTreeMap;
 
+use super::RuleId;
 use super::context::{Context, is_arithmetic, is_texture};
 use super::reads::{destination_reads, matrix_rows, source_lanes};
-use super::{RuleId, Violation};
 use crate::isa::{
     DestinationRule, Instruction, Mask, Modifier, Opcode, RegisterFile, Relative, Source, Span, Stage, Swizzle, Version,
 };
@@ -199,7 +199,7 @@ fn need(
         }
         _ => "write every component before it is read",
     };
-    context.add(Violation::new(rule, span, message).label("read here").help(help));
+    context.breach(rule, span, message).label("read here").help(help);
 }
 
 /// V12 and V48: what must have been written at the end.
@@ -216,9 +216,8 @@ fn results(context: &mut Context<'_>, written: &Written) {
     let last = context.program.instructions.iter().rev().find(|i| is_arithmetic(i.opcode) || is_texture(i.opcode));
     let span = last.map_or(context.program.version_span, |i| i.span);
     let message = format!("program ends without writing `{name}.{}`", letters(missing));
-    context.add(
-        Violation::new(rule, span, message)
-            .label("the end of the program")
-            .help(format!("write all components of {name}: they are the result")),
-    );
+    context
+        .breach(rule, span, message)
+        .label("the end of the program")
+        .help(format!("write all components of {name}: they are the result"));
 }

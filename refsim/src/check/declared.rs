@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::RuleId;
 use super::context::Context;
-use super::{RuleId, Violation};
 use crate::isa::{RegisterFile, Stage, Usage};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -19,10 +19,9 @@ pub(super) fn check(context: &mut Context<'_>) {
             continue;
         }
         if declaration.position > 0 {
-            context.add(
-                Violation::new(rule, declaration.span, format!("`{register}` is declared after an instruction"))
-                    .help("move every dcl in front of the first instruction"),
-            );
+            context
+                .breach(rule, declaration.span, format!("`{register}` is declared after an instruction"))
+                .help("move every dcl in front of the first instruction");
         }
         let sampler = matches!(declaration.usage, Usage::Sampler2d | Usage::SamplerCube | Usage::SamplerVolume);
         let fits = match register.file {
@@ -40,7 +39,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             } else {
                 "pixel programs declare t# and v# plainly, and s# with a texture type: dcl_2d s0"
             };
-            context.add(Violation::new(rule, declaration.span, message).help(help));
+            context.breach(rule, declaration.span, message).help(help);
             continue;
         }
         if super::operands::number_in_range(context, register, declaration.span)
@@ -77,7 +76,7 @@ fn undeclared(context: &mut Context<'_>, rule: RuleId, declared: &BTreeSet<(Regi
                     _ if vertex => format!("write `dcl_position {register}`, or another usage"),
                     _ => format!("write `dcl {register}`"),
                 };
-                context.add(Violation::new(rule, span, format!("`{register}` is used but not declared")).help(how));
+                context.breach(rule, span, format!("`{register}` is used but not declared")).help(how);
             }
         }
     }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::RuleId;
 use super::allowed::Limit;
 use super::context::Context;
-use super::{RuleId, Violation};
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
 /// A block that is open.
@@ -106,7 +106,7 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
         };
         if !fits {
             let message = format!("`{name}` takes `{}`, expected {expected}", source.register);
-            context.add(Violation::new(RuleId::FlowOperands, source.span, message).label("this operand"));
+            context.breach(RuleId::FlowOperands, source.span, message).label("this operand");
         }
     }
     if instruction.coissue && version.is_ps_1_x() {
@@ -127,7 +127,9 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
                 block.patch = index;
                 block.has_else = true;
             }
-            _ => context.breach(RuleId::UnclosedBlock, instruction.span, "`else` without an open `if`"),
+            _ => {
+                context.breach(RuleId::UnclosedBlock, instruction.span, "`else` without an open `if`");
+            }
         },
         Opcode::EndIf => end(context, walk, index, instruction, &[Opcode::If, Opcode::IfC]),
         Opcode::EndRep => end(context, walk, index, instruction, &[Opcode::Rep]),
@@ -192,7 +194,7 @@ fn depth(context: &mut Context<'_>, limit: Limit, found: u32, what: &str, span: 
     if found == allowed.value + 1 {
         let message = format!("{what} nested {found} deep, {} allows {}", allowed.owner, allowed.value);
         let advice = "unroll, or select with cmp";
-        context.exceed(RuleId::NestingDepth, span, found, &allowed, message, "this level".to_owned(), advice);
+        context.breach(RuleId::NestingDepth, span, message).label("this level").exceeds(found, &allowed, advice);
     }
 }
 
@@ -218,14 +220,9 @@ fn end(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &I
 
 fn label(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     if !walk.ended {
-        context.add(
-            Violation::new(
-                RuleId::Subroutines,
-                instruction.span,
-                "`label` follows a section that does not end with `ret`",
-            )
-            .help("end the main program and every subroutine with ret"),
-        );
+        context
+            .breach(RuleId::Subroutines, instruction.span, "`label` follows a section that does not end with `ret`")
+            .help("end the main program and every subroutine with ret");
     }
     close(context, walk);
     let number = instruction.sources.first().map_or(0, |s| s.register.index);
@@ -241,8 +238,7 @@ fn close(context: &mut Context<'_>, walk: &mut Walk) {
     for block in walk.blocks.drain(..) {
         let span = context.program.instructions[block.start].span;
         let name = block.opcode.info().mnemonic;
-        context
-            .add(Violation::new(RuleId::UnclosedBlock, span, format!("`{name}` is never closed")).label("opened here"));
+        context.breach(RuleId::UnclosedBlock, span, format!("`{name}` is never closed")).label("opened here");
     }
 }
 
@@ -283,10 +279,9 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
             continue;
         };
         if target < call.at {
-            context.add(
-                Violation::new(RuleId::Subroutines, span(call.at), format!("`l{}` stands before its call", call.label))
-                    .help("subroutines call only later ones, so that none can call itself"),
-            );
+            context
+                .breach(RuleId::Subroutines, span(call.at), format!("`l{}` stands before its call", call.label))
+                .help("subroutines call only later ones, so that none can call itself");
             continue;
         }
         context.jump[call.at] = Some(target);
@@ -301,14 +296,13 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     for &(at, section, within) in &walk.gradients {
         if within || section.is_some_and(|s| parted.get(&s).copied().unwrap_or(false)) {
             let name = program.instructions[at].opcode.info().mnemonic;
-            context.add(
-                Violation::new(
+            context
+                .breach(
                     RuleId::DivergentGradient,
                     span(at),
                     format!("`{name}` needs its neighbours, which may have parted"),
                 )
-                .help("move it out of the flow that a computed value decides, or read with texldd"),
-            );
+                .help("move it out of the flow that a computed value decides, or read with texldd");
         }
     }
 }
@@ -323,13 +317,9 @@ fn static_count(context: &mut Context<'_>) {
         let found = spans.len() as u32;
         let message =
             format!("program has {found} flow control instructions, {} allows {}", allowed.owner, allowed.value);
-        context.exceed(
-            RuleId::NestingDepth,
-            *span,
+        context.breach(RuleId::NestingDepth, *span, message).label("one too many").exceeds(
             found,
             &allowed,
-            message,
-            "one too many".to_owned(),
             "unroll or select",
         );
     }

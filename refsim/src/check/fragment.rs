@@ -3,9 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::RuleId;
 use super::allowed::Limit;
 use super::context::{Context, ordinal};
-use super::{RuleId, Violation};
 use crate::isa::{
     ConstantValue, FIRST_ENVIRONMENT, FIRST_NAMED, Instruction, Opcode, OpcodeClass, Precision, Register, RegisterFile,
     Source, Span, Spelling, Version,
@@ -46,12 +46,9 @@ pub(super) fn check(context: &mut Context<'_>) {
 fn missing(context: &mut Context<'_>, instruction: &Instruction) {
     let name = Spelling::of(instruction.opcode).map_or(instruction.opcode.info().mnemonic, |s| s.name);
     let version = context.version;
-    let found = Violation::new(
-        RuleId::UnsupportedInstruction,
-        instruction.span,
-        format!("`{name}` is not an instruction of {version}"),
-    );
-    context.add(found.label("this one").help("write it with the instructions that the extension has"));
+    let message = format!("`{name}` is not an instruction of {version}");
+    let advice = "write it with the instructions that the extension has";
+    context.breach(RuleId::UnsupportedInstruction, instruction.span, message).label("this one").help(advice);
 }
 
 fn all_registers(instruction: &Instruction) -> impl Iterator<Item = (Register, Span)> + '_ {
@@ -80,11 +77,9 @@ fn registers(context: &mut Context<'_>, instruction: &Instruction) {
         if u32::from(number) >= count {
             let name = written_name(register, number);
             let message = format!("`{name}` does not exist: there are {count}");
-            let mut violation = Violation::new(RuleId::NoSuchRegister, span, message).label("no such register");
+            let violation = context.breach(RuleId::NoSuchRegister, span, message).label("no such register");
+            violation.figure(count, u32::from(number) + 1).help("count from 0");
             violation.key = (key != "version").then_some(key);
-            violation.limit = Some(count);
-            violation.found = Some(u32::from(number) + 1);
-            context.add(violation.help("count from 0"));
         }
     }
 }
@@ -117,7 +112,7 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     for source in vague {
         let message = format!("`{}` reads one component, found four", spelling.name);
         let advice = "choose one: `.x`, `.y`, `.z` or `.w`";
-        context.add(Violation::new(RuleId::ScalarSource, source.span, message).label("which component?").help(advice));
+        context.breach(RuleId::ScalarSource, source.span, message).label("which component?").help(advice);
     }
 }
 
@@ -138,10 +133,7 @@ fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
         _ => return,
     };
     let message = format!("`{}` has no suffix {wrong}", spelling.name);
-    context.add(
-        Violation::new(RuleId::InvalidSuffix, instruction.span, message)
-            .help("see the extension's table of instructions"),
-    );
+    context.breach(RuleId::InvalidSuffix, instruction.span, message).help("see the extension's table of instructions");
 }
 
 /// V61: packed words are of full precision.
@@ -157,7 +149,7 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     };
     if let Some(span) = half {
         let message = "a packed word has 32 bits, a register of half precision 16";
-        context.add(Violation::new(RuleId::PackedPrecision, span, message).help("keep packed words in R# or o[COLR]"));
+        context.breach(RuleId::PackedPrecision, span, message).help("keep packed words in R# or o[COLR]");
     }
 }
 
@@ -183,10 +175,8 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
         }
         if let Some(span) = second {
             let message = format!("instruction reads {} different {what}, allowed is 1", seen.len());
-            let mut violation = Violation::new(RuleId::TooManyOperandReads, span, message).label("the second");
-            violation.limit = Some(1);
-            violation.found = Some(seen.len() as u32);
-            context.add(violation.help("move one of them into a temporary first"));
+            let violation = context.breach(RuleId::TooManyOperandReads, span, message).label("the second");
+            violation.figure(1, seen.len() as u32).help("move one of them into a temporary first");
         }
     }
 }
@@ -198,21 +188,17 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     if let (Some(full), Some(half)) = (full, half) {
         let later = if full.span.start > half.span.start { full } else { half };
         let message = "program writes both o[COLR] and o[COLH]";
-        context.add(
-            Violation::new(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision"),
-        );
+        context.breach(RuleId::FragmentOutputs, later.span, message).help("write the colour in one precision");
     }
     let depths = all.iter().filter_map(|i| i.destination).filter(|d| d.register.file == RegisterFile::DepthOut);
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
         let message = "depth is the z component, which the mask leaves out";
-        context.add(
-            Violation::new(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z"),
-        );
+        context.breach(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z");
     }
     if full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none() {
         let span = context.program.version_span;
         let message = "program writes neither colour nor depth";
-        context.add(Violation::new(RuleId::FragmentOutputs, span, message).help("write a result, for example o[COLR]"));
+        context.breach(RuleId::FragmentOutputs, span, message).help("write a result, for example o[COLR]");
     }
 }
 
@@ -225,10 +211,9 @@ fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
         if first != target {
             let message =
                 format!("image unit {} is read as {} and as {}", unit.register.index, first.name(), target.name());
-            context.add(
-                Violation::new(RuleId::ImageUnitTarget, instruction.span, message)
-                    .help("bind the second texture to another unit"),
-            );
+            context
+                .breach(RuleId::ImageUnitTarget, instruction.span, message)
+                .help("bind the second texture to another unit");
         }
     }
 }
@@ -256,10 +241,8 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
     }
     let Some(span) = first else { return };
     let message = format!("registers weigh {weight}, !!FP1.0 allows {MAX_WEIGHT}");
-    let mut violation = Violation::new(RuleId::RegisterWeight, span, message).label("from here on");
-    violation.limit = Some(MAX_WEIGHT);
-    violation.found = Some(weight);
-    context.add(violation.help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)"));
+    let violation = context.breach(RuleId::RegisterWeight, span, message).label("from here on");
+    violation.figure(MAX_WEIGHT, weight).help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)");
 }
 
 /// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its
@@ -294,13 +277,9 @@ fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let Some(span) = first else { return };
     let message = format!("program has {count} texture indirections, {} allows {}", allowed.owner, allowed.value);
     let label = format!("the {} begins here", ordinal(allowed.value + 1));
-    context.exceed(
-        RuleId::Indirections,
-        span,
+    context.breach(RuleId::Indirections, span, message).label(label).exceeds(
         count,
         &allowed,
-        message,
-        label,
         "read textures together, before what depends on them",
     );
 }

@@ -1,7 +1,7 @@
 //! V07, V13 to V17, V34, V35, V45, V47: rules of operands that hold in every instruction.
 
+use super::RuleId;
 use super::context::{Context, Count, is_arithmetic, is_numeric, is_texture};
-use super::{RuleId, Violation};
 use crate::isa::{
     Destination, DestinationRule, Instruction, Mask, Modifier, Opcode, Register, RegisterFile, Relative, Source, Span,
     Stage, Swizzle, Version,
@@ -54,19 +54,15 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
     match count {
         Count::Limited(allowed) => {
             let message = format!("program names `{found}`, {} {range}", allowed.owner);
-            context.exceed(
-                RuleId::NoSuchRegister,
-                span,
+            context.breach(RuleId::NoSuchRegister, span, message).label("no such register").exceeds(
                 index,
                 &allowed,
-                message,
-                "no such register".to_owned(),
                 "reuse a register",
             );
         }
         Count::Fixed(_) => {
             let message = format!("program names `{found}`, {version} {range}");
-            context.add(Violation::new(RuleId::NoSuchRegister, span, message).label("no such register"));
+            context.breach(RuleId::NoSuchRegister, span, message).label("no such register");
         }
     }
     false
@@ -90,7 +86,7 @@ fn relative(context: &mut Context<'_>, source: &Source) {
     };
     if let Some(message) = breach {
         let help = "only constants are addressed relatively, in vs_1_1 by a0.x, in vs_2_0 by a0 or aL";
-        context.add(Violation::new(RuleId::RelativeAddress, span, message).help(help));
+        context.breach(RuleId::RelativeAddress, span, message).help(help);
     }
 }
 
@@ -127,7 +123,7 @@ fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destin
     };
     if !allowed {
         let message = format!("`{name}` writes `{}`, expected {expected}", destination.register);
-        context.add(Violation::new(rule, destination.span, message).label("the destination"));
+        context.breach(rule, destination.span, message).label("the destination");
     }
 }
 
@@ -164,7 +160,7 @@ fn mask(context: &mut Context<'_>, instruction: &Instruction, destination: &Dest
     if !allowed {
         let name = opcode.info().mnemonic;
         let message = format!("`{name}` writes {}, expected {expected}", mask_text(mask));
-        context.add(Violation::new(rule, destination.span, message).label("this mask"));
+        context.breach(rule, destination.span, message).label("this mask");
     }
 }
 
@@ -180,7 +176,7 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
     let texture = is_texture(opcode) || instruction.opcode.info().destination == DestinationRule::Read;
     let mut add = |rule: RuleId, what: &str| {
         let message = format!("`{name}` has {what}");
-        context.add(Violation::new(rule, instruction.span, message).label("the instruction modifier"));
+        context.breach(rule, instruction.span, message).label("the instruction modifier");
     };
     let shift = destination.shift;
     if shift != 0 {
@@ -249,7 +245,7 @@ fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instructio
     if !allowed {
         let name = opcode.info().mnemonic;
         let message = format!("`{name}` reads `{}`, expected {expected}", source.register);
-        context.add(Violation::new(rule, source.span, message).label("this source"));
+        context.breach(rule, source.span, message).label("this source");
     }
 }
 
@@ -286,7 +282,7 @@ fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source
     if !allowed {
         let letters: String = swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w'][usize::from(*c)]).collect();
         let message = format!("`{}` is read as `.{letters}`, {version} allows {expected} here", source.register);
-        context.add(Violation::new(rule, source.span, message).label("this selector"));
+        context.breach(rule, source.span, message).label("this selector");
     }
 }
 
@@ -325,6 +321,6 @@ fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source:
     };
     if !allowed {
         let message = format!("`{}` carries a source modifier, {version} allows {expected}", source.register);
-        context.add(Violation::new(rule, source.span, message).label("this modifier"));
+        context.breach(rule, source.span, message).label("this modifier");
     }
 }

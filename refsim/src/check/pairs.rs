@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::RuleId;
 use super::context::{Context, is_arithmetic, is_numeric};
-use super::{RuleId, Violation};
 use crate::isa::{Instruction, Mask, Opcode, Register, RegisterFile, Relative, Source, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -66,15 +66,10 @@ fn ports(context: &mut Context<'_>, instruction: &Instruction) {
         let found = different(instruction.sources.iter(), file);
         if found > ports {
             let (version, prefix) = (context.version, file.prefix());
-            let mut violation = Violation::new(
-                RuleId::TooManyReads,
-                instruction.span,
-                format!("instruction reads {found} different `{prefix}#` registers, {version} allows {ports}"),
-            )
-            .help("copy one of them into another file with mov first");
-            violation.limit = Some(ports);
-            violation.found = Some(found);
-            context.add(violation);
+            let message =
+                format!("instruction reads {found} different `{prefix}#` registers, {version} allows {ports}");
+            let violation = context.breach(RuleId::TooManyReads, instruction.span, message).figure(ports, found);
+            violation.help("copy one of them into another file with mov first");
         }
     }
 }
@@ -86,15 +81,15 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
         context.breach(RuleId::MalformedPair, second.span, format!("{version} has no co-issue"));
         return;
     }
-    let bad = |message: &str, help: &str| {
-        Violation::new(RuleId::MalformedPair, second.span, message).label("the second of the pair").help(help)
+    let bad = |context: &mut Context<'_>, message: &str, help: &str| {
+        context.breach(RuleId::MalformedPair, second.span, message).label("the second of the pair").help(help);
     };
     let Some(first) = index.checked_sub(1).map(|i| &context.program.instructions[i]) else {
-        context.add(bad("`+` stands on the first instruction", "the first instruction of a pair has no `+`"));
+        bad(context, "`+` stands on the first instruction", "the first instruction of a pair has no `+`");
         return;
     };
     if first.coissue {
-        context.add(bad("three instructions are co-issued", "a pair has two instructions"));
+        bad(context, "three instructions are co-issued", "a pair has two instructions");
         return;
     }
     if !context.is_sound(index - 1) {
@@ -107,7 +102,7 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
             return;
         }
         if !is_arithmetic(one.opcode) || one.opcode == Opcode::Dp4 {
-            context.add(bad(&format!("`{name}` is co-issued"), "only arithmetic other than dp4 and bem can pair up"));
+            bad(context, &format!("`{name}` is co-issued"), "only arithmetic other than dp4 and bem can pair up");
             return;
         }
     }
@@ -119,12 +114,11 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
     } else if color(b) && a == Mask::ALPHA {
         first
     } else {
-        context
-            .add(bad("the pair does not write .rgb and .a", "one instruction writes within .rgb, the other .a alone"));
+        bad(context, "the pair does not write .rgb and .a", "one instruction writes within .rgb, the other .a alone");
         return;
     };
     if alpha.opcode == Opcode::Dp3 {
-        context.add(bad("the alpha half of the pair is dp3", "dp3 runs in the colour pipe: let it write .rgb"));
+        bad(context, "the alpha half of the pair is dp3", "dp3 runs in the colour pipe: let it write .rgb");
     }
     pair_ports(context, first, second);
 }
@@ -140,11 +134,8 @@ fn pair_ports(context: &mut Context<'_>, first: &Instruction, second: &Instructi
         if found > 3 {
             let prefix = file.prefix();
             let message = format!("pair reads {found} different `{prefix}#` registers, {} allows 3", context.version);
-            let mut violation = Violation::new(RuleId::TooManyPairReads, first.span.join(second.span), message)
-                .help("issue the two one after the other, or share a register");
-            violation.limit = Some(3);
-            violation.found = Some(found);
-            context.add(violation);
+            let violation = context.breach(RuleId::TooManyPairReads, first.span.join(second.span), message);
+            violation.figure(3, found).help("issue the two one after the other, or share a register");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! V18, V19, V31, V32, V33: rules of ps_1_1 to ps_1_3 alone.
 
+use super::RuleId;
 use super::context::{Context, is_texture};
-use super::{RuleId, Violation};
 use crate::isa::{Instruction, Modifier, Opcode, Register, RegisterFile, Span, Swizzle, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -21,10 +21,9 @@ fn selects(context: &mut Context<'_>) {
         let source = &instruction.sources[0];
         let alpha = source.swizzle == Swizzle::replicate(3) && source.modifier == Modifier::None;
         if source.register != Register::new(RegisterFile::Temp, 0) || !alpha {
-            context.add(
-                Violation::new(RuleId::CndCondition, source.span, "the first source of `cnd` is not `r0.a`")
-                    .help("before ps_1_4 cnd compares r0.a with 0.5 and nothing else: mov the value into r0.a"),
-            );
+            context
+                .breach(RuleId::CndCondition, source.span, "the first source of `cnd` is not `r0.a`")
+                .help("before ps_1_4 cnd compares r0.a with 0.5 and nothing else: mov the value into r0.a");
         }
     }
 }
@@ -38,23 +37,16 @@ fn counts(context: &mut Context<'_>) {
         let all: Vec<Span> = context.instructions().filter(|(_, i)| i.opcode == opcode).map(|(_, i)| i.span).collect();
         if let Some(span) = all.get(limit as usize) {
             let (found, name, version) = (all.len() as u32, opcode.info().mnemonic, context.version);
-            let mut violation = Violation::new(
-                RuleId::CmpOrDp4,
-                *span,
-                format!("program has {found} `{name}` instructions, {version} allows {limit}"),
-            );
-            violation.limit = Some(limit);
-            violation.found = Some(found);
-            context.add(violation);
+            let message = format!("program has {found} `{name}` instructions, {version} allows {limit}");
+            context.breach(RuleId::CmpOrDp4, *span, message).figure(limit, found);
         }
     }
     for (_, instruction) in context.instructions() {
         let Some(destination) = instruction.destination.filter(|_| instruction.opcode == Opcode::Cmp) else { continue };
         if instruction.sources.iter().any(|s| s.register == destination.register) {
-            context.add(
-                Violation::new(RuleId::CmpOrDp4, instruction.span, "`cmp` writes one of its own sources")
-                    .help("before ps_1_4 the destination of cmp differs from its sources"),
-            );
+            context
+                .breach(RuleId::CmpOrDp4, instruction.span, "`cmp` writes one of its own sources")
+                .help("before ps_1_4 the destination of cmp differs from its sources");
         }
     }
 }
@@ -99,10 +91,9 @@ fn sequences(context: &mut Context<'_>) {
 }
 
 fn unfinished(context: &mut Context<'_>, span: Span) {
-    context.add(
-        Violation::new(RuleId::TextureChain, span, "a pad is not followed by the rest of its matrix")
-            .help("write texm3x2pad then texm3x2tex, or texm3x3pad twice then texm3x3tex, in consecutive stages"),
-    );
+    context
+        .breach(RuleId::TextureChain, span, "a pad is not followed by the rest of its matrix")
+        .help("write texm3x2pad then texm3x2tex, or texm3x3pad twice then texm3x3tex, in consecutive stages");
 }
 
 fn step(

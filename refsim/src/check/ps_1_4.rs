@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::RuleId;
 use super::context::{Context, is_arithmetic, is_texture};
-use super::{RuleId, Violation};
 use crate::isa::{Instruction, Modifier, Opcode, Register, RegisterFile, Span};
 
 const R5: Register = Register::new(RegisterFile::Temp, 5);
@@ -23,14 +23,9 @@ fn colors(context: &mut Context<'_>) {
     for (index, instruction) in context.instructions() {
         for source in &instruction.sources {
             if source.register.file == RegisterFile::Input && context.phase(index) == 1 {
-                context.add(
-                    Violation::new(
-                        RuleId::ColorReadInPhase1,
-                        source.span,
-                        format!("`{}` is read in phase 1", source.register),
-                    )
-                    .help("colours arrive in phase 2: move the instruction behind `phase`"),
-                );
+                context
+                    .breach(RuleId::ColorReadInPhase1, source.span, format!("`{}` is read in phase 1", source.register))
+                    .help("colours arrive in phase 2: move the instruction behind `phase`");
             }
         }
     }
@@ -45,11 +40,10 @@ fn selectors(context: &mut Context<'_>) {
         let third_is_w = source.swizzle.0[2] == 3;
         if *chosen.entry(source.register.index).or_insert(third_is_w) != third_is_w {
             let message = format!("`{}` is read as .xyz and as .xyw", source.register);
-            context.add(
-                Violation::new(RuleId::MixedSelectors, source.span, message)
-                    .label("the other selector")
-                    .help("choose one of .xyz and .xyw for all reads of a coordinate set"),
-            );
+            context
+                .breach(RuleId::MixedSelectors, source.span, message)
+                .label("the other selector")
+                .help("choose one of .xyz and .xyw for all reads of a coordinate set");
         }
     }
 }
@@ -88,10 +82,9 @@ fn depth(context: &mut Context<'_>) {
             let read = instruction.sources.iter().find(|s| s.register == R5).map(|s| s.span);
             let written = instruction.destination.filter(|d| d.register == R5).map(|d| d.span);
             if let Some(span) = read.or(written) {
-                context.add(
-                    Violation::new(RuleId::TexDepth, span, "`r5` is used after texdepth")
-                        .help("texdepth spends r5: pass its value on with texcrd before"),
-                );
+                context
+                    .breach(RuleId::TexDepth, span, "`r5` is used after texdepth")
+                    .help("texdepth spends r5: pass its value on with texcrd before");
             }
         }
         if instruction.opcode != Opcode::TexDepth {
@@ -118,10 +111,9 @@ fn bump(context: &mut Context<'_>) {
         }
         found += 1;
         if context.phase(index) != 1 {
-            context.add(
-                Violation::new(RuleId::Bem, instruction.span, "`bem` stands in phase 2")
-                    .help("a program without `phase` is all phase 2: put the marker behind bem"),
-            );
+            context
+                .breach(RuleId::Bem, instruction.span, "`bem` stands in phase 2")
+                .help("a program without `phase` is all phase 2: put the marker behind bem");
         }
         if found == 2 {
             context.breach(RuleId::Bem, instruction.span, "program has a second `bem`, ps_1_4 allows 1");
@@ -155,14 +147,13 @@ fn loads(context: &mut Context<'_>) {
         let number = destination.register.index;
         if load {
             if loaded.contains(&number) {
-                context.add(
-                    Violation::new(
+                context
+                    .breach(
                         RuleId::LoadedTwice,
                         instruction.span,
                         format!("`{}` is loaded twice in phase {phase}", destination.register),
                     )
-                    .label("the second load"),
-                );
+                    .label("the second load");
             }
             loaded.push(number);
         }
@@ -180,11 +171,10 @@ fn address(context: &mut Context<'_>, instruction: &Instruction, late: bool) {
     } else {
         format!("`{register}` is an address, but phase 1 did not write its x, y and z")
     };
-    context.add(
-        Violation::new(RuleId::AddressPhase, source.span, message)
-            .label("the address")
-            .help("compute the address in phase 1 and read it in phase 2"),
-    );
+    context
+        .breach(RuleId::AddressPhase, source.span, message)
+        .label("the address")
+        .help("compute the address in phase 1 and read it in phase 2");
 }
 
 /// The stage that a load samples is the number of its destination: it must exist too.
@@ -200,15 +190,10 @@ fn stages(context: &mut Context<'_>) {
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);
             let advice = "texld samples the stage of its destination's number: load a lower register";
-            context.exceed(
-                RuleId::NoSuchRegister,
-                instruction.span,
-                stage,
-                &allowed,
-                message,
-                "this stage".to_owned(),
-                advice,
-            );
+            context
+                .breach(RuleId::NoSuchRegister, instruction.span, message)
+                .label("this stage")
+                .exceeds(stage, &allowed, advice);
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::RuleId;
 use super::allowed::Limit;
 use super::context::Context;
 use super::reads::matrix_rows;
-use super::{RuleId, Violation};
 use crate::isa::{DestinationRule, Instruction, Mask, Modifier, Opcode, RegisterFile, Source, Span, Swizzle};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -34,15 +34,9 @@ fn tokens(context: &mut Context<'_>, instruction: &Instruction) {
     }
     let found = instruction.sources.iter().filter(|s| s.register.file == RegisterFile::Constant).count();
     if found > 2 {
-        let mut violation = Violation::new(
-            RuleId::TooManyConstants,
-            instruction.span,
-            format!("instruction names {found} constants, {} allows 2", context.version),
-        )
-        .help("mov one of them into a temporary first");
-        violation.limit = Some(2);
-        violation.found = Some(found as u32);
-        context.add(violation);
+        let message = format!("instruction names {found} constants, {} allows 2", context.version);
+        let violation = context.breach(RuleId::TooManyConstants, instruction.span, message);
+        violation.figure(2, found as u32).help("mov one of them into a temporary first");
     }
 }
 
@@ -62,7 +56,7 @@ fn scalars(context: &mut Context<'_>, instruction: &Instruction) {
     for source in scalar.iter().filter(|s| !one_component(s)) {
         let rule = if opcode == Opcode::Dp2Add { RuleId::Dp2AddSource } else { RuleId::ScalarSource };
         let message = format!("`{name}` reads several components of `{}`", source.register);
-        context.add(Violation::new(rule, source.span, message).help("choose one: .x, .y, .z or .w"));
+        context.breach(rule, source.span, message).help("choose one: .x, .y, .z or .w");
     }
 }
 
@@ -134,7 +128,7 @@ fn steps(context: &mut Context<'_>, instruction: &Instruction) {
             && (first..first.saturating_add(count)).contains(&destination.register.index);
         if hit {
             let message = format!("`{name}` writes `{}`, which it still reads", destination.register);
-            context.add(Violation::new(RuleId::MacroOperands, source.span, message).help("write another register"));
+            context.breach(RuleId::MacroOperands, source.span, message).help("write another register");
         }
     }
     if let (Opcode::Sgn, [_, a, b]) = (opcode, instruction.sources.as_slice())
@@ -191,10 +185,8 @@ fn outputs(context: &mut Context<'_>) {
     }
     let span = context.program.version_span;
     if written[0].is_none() {
-        let violation = Violation::new(RuleId::OutputWrite, span, "program does not write `oC0`")
-            .label("this program")
-            .help("end with `mov oC0, r0`");
-        context.add(violation);
+        let violation = context.breach(RuleId::OutputWrite, span, "program does not write `oC0`");
+        violation.label("this program").help("end with `mov oC0, r0`");
     } else if let Some(gap) = (1..4).find(|i| written[*i].is_none())
         && let Some(later) = written[gap..].iter().flatten().next()
     {
@@ -234,13 +226,9 @@ fn dependent_reads(context: &mut Context<'_>) {
             allowed.owner, allowed.value
         );
         let label = "the first read that is too deep".to_owned();
-        context.exceed(
-            RuleId::DependentReads,
-            span,
+        context.breach(RuleId::DependentReads, span, message).label(label).exceeds(
             level,
             &allowed,
-            message,
-            label,
             "read earlier, or use a further pass",
         );
     }

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, SourceSpan};
+use miette::{Diagnostic, LabeledSpan};
 
+use super::allowed::Allowed;
 use super::{RuleId, WarningId};
 use crate::isa::{Span, Version};
 
 /// One breach of one rule.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
 pub struct Violation {
     /// The rule.
     pub rule: RuleId,
@@ -43,24 +45,28 @@ impl Violation {
         }
     }
 
-    pub(super) fn label(mut self, label: impl Into<String>) -> Self {
+    pub(super) fn label(&mut self, label: impl Into<String>) -> &mut Self {
         self.label = label.into();
         self
     }
 
-    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+    pub(super) fn help(&mut self, help: impl Into<String>) -> &mut Self {
         self.help = help.into();
         self
     }
-}
 
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
+    /// The figure, and what the program has instead.
+    pub(super) fn figure(&mut self, limit: u32, found: u32) -> &mut Self {
+        (self.limit, self.found) = (Some(limit), Some(found));
+        self
+    }
+
+    /// The figure that `allowed` is.
+    pub(super) fn exceeds(&mut self, found: u32, allowed: &Allowed, advice: &str) {
+        self.key = Some(allowed.key);
+        self.figure(allowed.value, found).help(allowed.help(advice));
     }
 }
-
-impl std::error::Error for Violation {}
 
 impl Diagnostic for Violation {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
@@ -72,9 +78,7 @@ impl Diagnostic for Violation {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let (start, end) = (self.span.start as usize, self.span.end as usize);
-        let span = SourceSpan::new(start.into(), end.saturating_sub(start));
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), span))))
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), self.span))))
     }
 }
 
@@ -94,34 +98,20 @@ pub struct Warning {
 /// Everything that is wrong with a program for a device: never empty.
 ///
 /// The report knows places, not the text; attach the text with [`miette::Report::with_source_code`] to see them.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
+#[error(
+    "the {version} program is not legal on `{device}`: {} violation{}",
+    violations.len(), if violations.len() == 1 { "" } else { "s" }
+)]
+#[diagnostic(code("check"))]
 pub struct CheckReport {
     /// The program's version.
     pub version: Version,
     /// The device.
     pub device: String,
     /// The violations in the order of the text.
+    #[related]
     pub violations: Vec<Violation>,
     /// The warnings in the order of the text.
     pub warnings: Vec<Warning>,
-}
-
-impl fmt::Display for CheckReport {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let n = self.violations.len();
-        let plural = if n == 1 { "" } else { "s" };
-        write!(f, "the {} program is not legal on `{}`: {n} violation{plural}", self.version, self.device)
-    }
-}
-
-impl std::error::Error for CheckReport {}
-
-impl Diagnostic for CheckReport {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new("check"))
-    }
-
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        Some(Box::new(self.violations.iter().map(|v| v as &dyn Diagnostic)))
-    }
 }

@@ -1,7 +1,7 @@
 //! V01, V02, V03, V06, V12 and the operand counts of V47: what can be seen without looking into instructions.
 
 use super::context::Context;
-use super::{RuleId, Violation, Warning, WarningId};
+use super::{RuleId, Warning, WarningId};
 use crate::isa::{ConstantValue, DestinationRule, Opcode, OpcodeClass, RegisterFile, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -20,17 +20,11 @@ pub(super) fn version(context: &mut Context<'_>) {
         return;
     }
     let tokens: Vec<&str> = profile.limits.versions.iter().map(|v| v.token()).collect();
-    let mut violation = Violation::new(
-        RuleId::UnsupportedVersion,
-        program.version_span,
-        format!("program is {}, `{}` runs {}", context.version, profile.name, tokens.join(" ")),
-    )
-    .label("the version")
-    .help(
-        "choose another device, or write the program in a version of this one; the list is `versions` of the profile",
-    );
-    violation.key = Some("versions");
-    context.add(violation);
+    let message = format!("program is {}, `{}` runs {}", context.version, profile.name, tokens.join(" "));
+    let advice =
+        "choose another device, or write the program in a version of this one; the list is `versions` of the profile";
+    let violation = context.breach(RuleId::UnsupportedVersion, program.version_span, message);
+    violation.label("the version").help(advice).key = Some("versions");
 }
 
 fn constants(context: &mut Context<'_>) {
@@ -39,14 +33,9 @@ fn constants(context: &mut Context<'_>) {
     for def in &program.constants {
         let register = def.register;
         if def.position > 0 {
-            context.add(
-                Violation::new(
-                    RuleId::MisplacedDefinition,
-                    def.span,
-                    format!("`{register}` is defined after an instruction"),
-                )
-                .help("move every def in front of the first instruction"),
-            );
+            context
+                .breach(RuleId::MisplacedDefinition, def.span, format!("`{register}` is defined after an instruction"))
+                .help("move every def in front of the first instruction");
         }
         let wanted = match def.value {
             ConstantValue::Float(_) => RegisterFile::Constant,
@@ -85,23 +74,25 @@ fn instructions(context: &mut Context<'_>) {
             let has: Vec<&str> = Version::ALL.iter().filter(|v| info.available(**v)).map(|v| v.token()).collect();
             let message = format!("{version} has no `{name}`");
             let help = format!("`{name}` is in {}", has.join(" "));
-            context.add(Violation::new(RuleId::UnsupportedInstruction, instruction.span, message).help(help));
+            context.breach(RuleId::UnsupportedInstruction, instruction.span, message).help(help);
             continue;
         };
-        let wrong = |what: String| Violation::new(RuleId::Operands, instruction.span, what);
+        let mut wrong = |what: String| {
+            context.breach(RuleId::Operands, instruction.span, what);
+        };
         if instruction.sources.len() != usize::from(sources) {
             let found = instruction.sources.len();
-            context.add(wrong(format!("`{name}` has {found} sources, expected {sources} in {version}")));
+            wrong(format!("`{name}` has {found} sources, expected {sources} in {version}"));
         }
         let destination = info.destination != DestinationRule::None;
         if instruction.destination.is_some() != destination {
             let expected = if destination { "expected one" } else { "expected none" };
             let found = if destination { "no destination" } else { "a destination" };
-            context.add(wrong(format!("`{name}` has {found}, {expected}")));
+            wrong(format!("`{name}` has {found}, {expected}"));
         }
         if instruction.comparison.is_some() != info.comparison {
             let found = if info.comparison { "lacks its comparison" } else { "takes no comparison" };
-            context.add(wrong(format!("`{name}` {found}")));
+            wrong(format!("`{name}` {found}"));
         }
     }
 }
@@ -112,11 +103,10 @@ fn phases(context: &mut Context<'_>) {
     }
     let markers = context.program.instructions.iter().filter(|i| i.opcode == Opcode::Phase);
     for marker in markers.skip(1) {
-        context.add(
-            Violation::new(RuleId::RepeatedPhase, marker.span, "program has a second `phase`, ps_1_4 allows 1")
-                .label("the second marker")
-                .help("a program has two phases at most: use a further pass"),
-        );
+        context
+            .breach(RuleId::RepeatedPhase, marker.span, "program has a second `phase`, ps_1_4 allows 1")
+            .label("the second marker")
+            .help("a program has two phases at most: use a further pass");
     }
 }
 
@@ -130,15 +120,14 @@ fn order(context: &mut Context<'_>) {
             OpcodeClass::Arithmetic => arithmetic_in = phase,
             OpcodeClass::Texture if arithmetic_in == phase => {
                 let name = instruction.opcode.info().mnemonic;
-                context.add(
-                    Violation::new(
+                context
+                    .breach(
                         RuleId::TextureAfterArithmetic,
                         program.instructions[index].span,
                         format!("`{name}` follows arithmetic"),
                     )
                     .label("a texture instruction too late")
-                    .help("move it in front of the phase's arithmetic, or behind `phase` in ps_1_4"),
-                );
+                    .help("move it in front of the phase's arithmetic, or behind `phase` in ps_1_4");
             }
             _ => {}
         }

@@ -58,7 +58,7 @@ fn budget(context: &mut Context<'_>, phase: u8, limit: Limit, what: &str, slots:
         (Version::Ps1_4, _) => "move work into the other phase, pair .rgb with .a, or split into passes",
         _ => "split the program into passes",
     };
-    context.exceed(RuleId::TooManyInstructions, span, used, &allowed, message, label, advice);
+    context.breach(RuleId::TooManyInstructions, span, message).label(label).exceeds(used, &allowed, advice);
 }
 
 /// What an instruction costs where it stands: the second of a pair only what it costs more than the first, a predicate

@@ -1,7 +1,7 @@
 //! V58 and the rules that vertex programs share with ps_2_0. V48 and V49 are followed by the data flow.
 
+use super::RuleId;
 use super::context::Context;
-use super::{RuleId, Violation};
 use crate::isa::{Mask, RegisterFile, Version};
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -12,10 +12,9 @@ pub(super) fn check(context: &mut Context<'_>) {
         match destination.register.file {
             RegisterFile::FogOut | RegisterFile::PointSizeOut if !x_or_all => {
                 let message = format!("`{}` is written through other components than .x", destination.register);
-                context.add(
-                    Violation::new(RuleId::FogAndPointSizeMask, destination.span, message)
-                        .help("write it without a mask, or .x"),
-                );
+                context
+                    .breach(RuleId::FogAndPointSizeMask, destination.span, message)
+                    .help("write it without a mask, or .x");
             }
             RegisterFile::Address if context.version == Version::Vs1_1 && destination.mask != Mask(1) => {
                 context.breach(RuleId::UnsetAddress, destination.span, "`a0` of vs_1_1 has no component but .x");

@@ -2,8 +2,9 @@
 
 use crate::num::FormatError;
 
-/// A device, switch or value that does not exist.
+/// A device, switch or value that does not exist. Lists are separated by spaces.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DeviceError {
     /// No profile has this name.
     #[error("unknown device `{name}`; expected one of {known}")]
@@ -11,53 +12,21 @@ pub enum DeviceError {
         code(device::unknown),
         help("`ideal-` takes any number format, for example `ideal-fp32` or `ideal-s3.12:rtz`")
     )]
-    UnknownDevice {
-        /// What was asked for.
-        name: String,
-        /// The names that exist, separated by spaces.
-        known: String,
-    },
+    UnknownDevice { name: String, known: String },
     /// The part of `ideal-<format>` after the dash is no number format.
     #[error("device `{name}`: expected a number format after `ideal-`")]
     #[diagnostic(code(device::ideal_format))]
-    IdealFormat {
-        /// What was asked for.
-        name: String,
-        /// What is wrong with the format.
-        #[source]
-        source: FormatError,
-    },
+    IdealFormat { name: String, source: FormatError },
     /// The device has no switch of this name.
     #[error("device `{device}` has no switch `{name}`; expected one of {allowed}")]
     #[diagnostic(code(device::unknown_switch), help("`crossbar devices {device}` lists the switches"))]
-    UnknownSwitch {
-        /// The device.
-        device: String,
-        /// What was asked for.
-        name: String,
-        /// Its switches, separated by spaces.
-        allowed: String,
-    },
+    UnknownSwitch { device: String, name: String, allowed: String },
     /// The switch does not take this value.
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
-    SwitchValue {
-        /// The device.
-        device: String,
-        /// The switch.
-        switch: String,
-        /// What was asked for.
-        value: String,
-        /// What it takes, separated by spaces.
-        allowed: String,
-    },
+    SwitchValue { device: String, switch: String, value: String, allowed: String },
     /// A profile's data are not what the emulator expects.
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
-    Profile {
-        /// The device.
-        device: String,
-        /// What is wrong, and where.
-        problem: String,
-    },
+    Profile { device: String, problem: String },
 }

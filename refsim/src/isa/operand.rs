@@ -1,5 +1,7 @@
 //! Sources and destinations: swizzles, masks and modifiers.
 
+use strum::VariantArray;
+
 use super::{Register, Span};
 
 /// Which register component each of the four lanes reads: entry `i` is the component (0 to 3) that lane `i` sees.
@@ -45,9 +47,9 @@ impl Mask {
     }
 }
 
-/// A source modifier. Arithmetic meaning, with `x` the value after the swizzle; each step rounds once into the
-/// register format, and negation comes last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// A source modifier, Direct3D's before those that only OpenGL has. Arithmetic meaning, with `x` the value after the
+/// swizzle; each step rounds once into the register format, and negation comes last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, VariantArray)]
 pub enum Modifier {
     /// `x`
     None,
@@ -77,6 +79,11 @@ pub enum Modifier {
     Absolute,
     /// `-|x|`
     AbsoluteNegate,
+}
+
+impl Modifier {
+    /// The modifiers of Direct3D's programs.
+    pub const DIRECT3D: &[Self] = Self::VARIANTS.split_at(12).0;
 }
 
 /// One source operand.

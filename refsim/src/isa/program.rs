@@ -53,6 +53,25 @@ pub enum Usage {
     Sample(u8),
 }
 
+impl Usage {
+    /// The usages that have an index.
+    pub const NUMBERED: [fn(u8) -> Self; 13] = [
+        Self::Position,
+        Self::BlendWeight,
+        Self::BlendIndices,
+        Self::Normal,
+        Self::PointSize,
+        Self::TexCoord,
+        Self::Tangent,
+        Self::Binormal,
+        Self::TessFactor,
+        Self::Color,
+        Self::Fog,
+        Self::Depth,
+        Self::Sample,
+    ];
+}
+
 /// A `dcl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Declaration {

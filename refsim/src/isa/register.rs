@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-/// A register file. The comment gives the spelling in programs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+use strum::VariantArray;
+
+/// A register file, Direct3D's before those that only OpenGL has. The comment gives the spelling in programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
 pub enum RegisterFile {
     /// `r#`: temporaries.
     Temp,
@@ -56,6 +58,9 @@ pub enum RegisterFile {
 }
 
 impl RegisterFile {
+    /// The files of Direct3D's programs.
+    pub const DIRECT3D: &[Self] = Self::VARIANTS.split_at(18).0;
+
     /// The prefix under which programs write the file's registers.
     pub const fn prefix(self) -> &'static str {
         match self {

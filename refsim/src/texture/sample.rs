@@ -116,35 +116,26 @@ pub fn sample(
     lod: Lod,
 ) -> [u32; 4] {
     let Some(image) = image else { return unbound(rules.format) };
-    let pick = pick_levels(image, state, rules, lod);
-    let place = SamplePlace::new(image, coordinates);
+    let place = SamplePlace::new(image, state, coordinates);
+    let pick = place.pick_levels(rules, lod);
     if pick.filter == Filter::Nearest && pick.weight == 0 {
-        return match place.nearest(image, state, pick.levels[0]) {
-            Some((slice, y, x)) => {
-                image.texel(pick.levels[0], slice, y, x, rules.signed_texel_minimum).to_format(rules.format)
-            }
-            None => border_texel(image, state, rules).to_format(rules.format),
-        };
+        return place.nearest_value(rules, pick.levels[0]);
     }
     if image.format().record().is_float() {
-        filter_floats(image, state, rules, &place, &pick)
+        place.filter_floats(rules, &pick)
     } else {
-        filter_integers(image, state, rules, &place, &pick)
+        place.filter_integers(rules, &pick)
     }
 }
 
 /// A nearest read of level 0: what [`sample`] does for nearest filters without mip levels, by the shortest way.
 pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, coordinates: [u32; 4]) -> [u32; 4] {
-    let texel = match nearest_texel(image, state, coordinates) {
-        Some((slice, y, x)) => image.texel(0, slice, y, x, rules.signed_texel_minimum),
-        None => border_texel(image, state, rules),
-    };
-    texel.to_format(rules.format)
+    SamplePlace::new(image, state, coordinates).nearest_value(rules, 0)
 }
 
 /// Slice, row and column of the texel of level 0 that a nearest read takes; `None` is the border.
 pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4]) -> Option<(u32, u32, u32)> {
-    SamplePlace::new(image, coordinates).nearest(image, state, 0)
+    SamplePlace::new(image, state, coordinates).nearest(0)
 }
 
 /// Names the texels that [`sample`] combines with a weight above 0: level, slice, row and column of each, in a fixed
@@ -157,12 +148,12 @@ pub fn touched(
     lod: Lod,
     mut each: impl FnMut(u32, u32, u32, u32),
 ) {
-    let pick = pick_levels(image, state, rules, lod);
-    let place = SamplePlace::new(image, coordinates);
+    let place = SamplePlace::new(image, state, coordinates);
+    let pick = place.pick_levels(rules, lod);
     let bits = rules.filter_fraction_bits.min(12);
     let levels = if pick.weight == 0 { &pick.levels[..1] } else { &pick.levels[..] };
     for &level in levels {
-        let taps = place.taps(image, state, pick.filter, level, bits);
+        let taps = place.taps(pick.filter, level, bits);
         for corner in 0..8 {
             let index = |axis: usize| taps[axis].0[corner >> axis & 1];
             let weighs = (0..3).all(|axis| corner >> axis & 1 == 0 || taps[axis].1 != 0);
@@ -173,11 +164,6 @@ pub fn touched(
     }
 }
 
-fn border_texel(image: &Image, state: &SamplerState, rules: &SampleRules) -> Texel {
-    let raw = encode(image.format(), Format::FP32, state.border, TargetRounding::Nearest);
-    decode(image.format(), raw, rules.signed_texel_minimum)
-}
-
 /// The levels to read and the filter within them.
 struct Pick {
     filter: Filter,
@@ -186,56 +172,32 @@ struct Pick {
     weight: u32,
 }
 
-fn pick_levels(image: &Image, state: &SamplerState, rules: &SampleRules, lod: Lod) -> Pick {
-    let bits = u32::from(rules.lod_fraction_bits.min(8));
-    let wanted = match lod {
-        Lod::Base => state.lod_bias,
-        Lod::Level(level) => value::add(level, state.lod_bias),
-    };
-    let lambda = if value::is_nan(wanted) || wanted & 0x7fff_ffff == 0 {
-        0
-    } else if value::is_not_finite(wanted) {
-        if value::is_negative(wanted) { -(128 << bits) } else { 128 << bits }
-    } else {
-        value::scaled_floor(wanted, 1, bits, false).clamp(-(128 << bits), 128 << bits)
-    };
-    let filter = if lambda > 0 { state.min } else { state.mag };
-    let last = i64::from(image.levels().len() as u32) - 1;
-    let first = i64::from(state.max_mip_level).min(last);
-    let (level, weight) = match state.mip {
-        MipFilter::None => (first, 0),
-        MipFilter::Nearest => (((lambda + ((1 << bits) >> 1)) >> bits).clamp(first, last), 0),
-        MipFilter::Linear => {
-            let clamped = lambda.clamp(first << bits, last << bits);
-            (clamped >> bits, clamped & ((1 << bits) - 1))
-        }
-    };
-    Pick { filter, levels: [level as u32, (level + 1).min(last) as u32], weight: weight as u32 }
-}
+/// The taps along each axis, and the weight of the second.
+type Taps = [([Option<u32>; 2], u32); 3];
 
-/// A point on an image: coordinates along up to three axes, and the face of a cube.
-struct SamplePlace {
+/// A point on an image with its sampler: coordinates along up to three axes, and the face of a cube.
+struct SamplePlace<'a> {
+    image: &'a Image,
+    state: &'a SamplerState,
     coordinates: [u32; 3],
     face: u32,
-    kind: TextureKind,
 }
 
-impl SamplePlace {
-    fn new(image: &Image, [x, y, z, _]: [u32; 4]) -> Self {
-        let kind = image.kind();
-        let (coordinates, face) = match kind {
+impl<'a> SamplePlace<'a> {
+    fn new(image: &'a Image, state: &'a SamplerState, [x, y, z, _]: [u32; 4]) -> Self {
+        let (coordinates, face) = match image.kind() {
             TextureKind::Cube => {
                 let (face, u, v) = cube_coordinates([x, y, z]);
                 ([u, v, 0], face as u32)
             }
             _ => ([x, y, z], 0),
         };
-        Self { coordinates, face, kind }
+        Self { image, state, coordinates, face }
     }
 
     /// Number of axes along which texels lie.
     fn axes(&self) -> usize {
-        match self.kind {
+        match self.image.kind() {
             TextureKind::D1 => 1,
             TextureKind::D2 | TextureKind::Rectangle | TextureKind::Cube => 2,
             TextureKind::Volume => 3,
@@ -243,11 +205,11 @@ impl SamplePlace {
     }
 
     /// Mode, extent and scale of an axis at a level.
-    fn axis(&self, image: &Image, state: &SamplerState, level: u32, axis: usize) -> (AddressMode, u32, u32) {
-        let l = image.levels()[level as usize];
+    fn axis(&self, level: u32, axis: usize) -> (AddressMode, u32, u32) {
+        let l = self.image.levels()[level as usize];
         let size = [l.width, l.height, l.slices][axis];
-        let asked = [state.address_u, state.address_v, state.address_w][axis];
-        match self.kind {
+        let asked = [self.state.address_u, self.state.address_v, self.state.address_w][axis];
+        match self.image.kind() {
             TextureKind::Cube => (AddressMode::Clamp, size, size),
             TextureKind::Rectangle if asked == AddressMode::Border => (AddressMode::Border, size, 1),
             TextureKind::Rectangle => (AddressMode::Clamp, size, 1),
@@ -256,27 +218,29 @@ impl SamplePlace {
     }
 
     /// Slice, row and column of the nearest texel of a level.
-    fn nearest(&self, image: &Image, state: &SamplerState, level: u32) -> Option<(u32, u32, u32)> {
+    fn nearest(&self, level: u32) -> Option<(u32, u32, u32)> {
         let mut index = [0, 0, self.face];
         for (axis, slot) in index.iter_mut().enumerate().take(self.axes()) {
-            let (mode, size, scale) = self.axis(image, state, level, axis);
+            let (mode, size, scale) = self.axis(level, axis);
             *slot = nearest_index(mode, self.coordinates[axis], size, scale)?;
         }
         Some((index[2], index[1], index[0]))
     }
 
+    /// What a nearest read of a level gives.
+    fn nearest_value(&self, rules: &SampleRules, level: u32) -> [u32; 4] {
+        let texel = match self.nearest(level) {
+            Some((slice, y, x)) => self.image.texel(level, slice, y, x, rules.signed_texel_minimum),
+            None => self.border_texel(rules),
+        };
+        texel.to_format(rules.format)
+    }
+
     /// The taps along each axis of a level. Unused axes have one tap of full weight.
-    fn taps(
-        &self,
-        image: &Image,
-        state: &SamplerState,
-        filter: Filter,
-        level: u32,
-        bits: u8,
-    ) -> [([Option<u32>; 2], u32); 3] {
+    fn taps(&self, filter: Filter, level: u32, bits: u8) -> Taps {
         let mut taps = [([Some(0), None], 0), ([Some(0), None], 0), ([Some(self.face), None], 0)];
         for (axis, slot) in taps.iter_mut().enumerate().take(self.axes()) {
-            let (mode, size, scale) = self.axis(image, state, level, axis);
+            let (mode, size, scale) = self.axis(level, axis);
             *slot = match filter {
                 Filter::Nearest => ([nearest_index(mode, self.coordinates[axis], size, scale), None], 0),
                 Filter::Linear => linear_taps(mode, self.coordinates[axis], size, scale, bits),
@@ -284,97 +248,111 @@ impl SamplePlace {
         }
         taps
     }
-}
 
-/// The texel of tap `corner` (bit 0 along x, bit 1 along y, bit 2 along z).
-fn corner_texel(
-    image: &Image,
-    level: u32,
-    taps: &[([Option<u32>; 2], u32); 3],
-    corner: usize,
-    rules: &SampleRules,
-    border: Texel,
-) -> Texel {
-    let index = |axis: usize| taps[axis].0[corner >> axis & 1];
-    match (index(2), index(1), index(0)) {
-        (Some(slice), Some(y), Some(x)) => image.texel(level, slice, y, x, rules.signed_texel_minimum),
-        _ => border,
+    fn border_texel(&self, rules: &SampleRules) -> Texel {
+        let raw = encode(self.image.format(), Format::FP32, self.state.border, TargetRounding::Nearest);
+        decode(self.image.format(), raw, rules.signed_texel_minimum)
     }
-}
 
-/// The exact weighted sum, rounded once.
-fn filter_integers(
-    image: &Image,
-    state: &SamplerState,
-    rules: &SampleRules,
-    place: &SamplePlace,
-    pick: &Pick,
-) -> [u32; 4] {
-    let bits = rules.filter_fraction_bits.min(12);
-    let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
-    let border = border_texel(image, state, rules);
-    let mut sums = [0i64; 4];
-    let mut denominators = [1u64; 4];
-    let level_weights = [(1u64 << lod_bits) - u64::from(pick.weight), u64::from(pick.weight)];
-    for (level, level_weight) in pick.levels.into_iter().zip(level_weights) {
-        if level_weight == 0 {
-            continue;
+    fn pick_levels(&self, rules: &SampleRules, lod: Lod) -> Pick {
+        let (image, state) = (self.image, self.state);
+        let bits = u32::from(rules.lod_fraction_bits.min(8));
+        let wanted = match lod {
+            Lod::Base => state.lod_bias,
+            Lod::Level(level) => value::add(level, state.lod_bias),
+        };
+        let lambda = if value::is_nan(wanted) || wanted & 0x7fff_ffff == 0 {
+            0
+        } else if value::is_not_finite(wanted) {
+            if value::is_negative(wanted) { -(128 << bits) } else { 128 << bits }
+        } else {
+            value::scaled_floor(wanted, 1, bits, false).clamp(-(128 << bits), 128 << bits)
+        };
+        let filter = if lambda > 0 { state.min } else { state.mag };
+        let last = i64::from(image.levels().len() as u32) - 1;
+        let first = i64::from(state.max_mip_level).min(last);
+        let (level, weight) = match state.mip {
+            MipFilter::None => (first, 0),
+            MipFilter::Nearest => (((lambda + ((1 << bits) >> 1)) >> bits).clamp(first, last), 0),
+            MipFilter::Linear => {
+                let clamped = lambda.clamp(first << bits, last << bits);
+                (clamped >> bits, clamped & ((1 << bits) - 1))
+            }
+        };
+        Pick { filter, levels: [level as u32, (level + 1).min(last) as u32], weight: weight as u32 }
+    }
+
+    /// The texel of tap `corner` (bit 0 along x, bit 1 along y, bit 2 along z).
+    fn corner_texel(&self, rules: &SampleRules, level: u32, taps: &Taps, corner: usize, border: Texel) -> Texel {
+        let index = |axis: usize| taps[axis].0[corner >> axis & 1];
+        match (index(2), index(1), index(0)) {
+            (Some(slice), Some(y), Some(x)) => self.image.texel(level, slice, y, x, rules.signed_texel_minimum),
+            _ => border,
         }
-        let taps = place.taps(image, state, pick.filter, level, bits);
-        for corner in 0..8 {
-            let weight = (0..3).fold(level_weight, |product, axis| {
-                let second = u64::from(taps[axis].1);
-                product * if corner >> axis & 1 == 1 { second } else { (1 << bits) - second }
-            });
-            if weight == 0 {
+    }
+
+    /// The exact weighted sum, rounded once.
+    fn filter_integers(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
+        let bits = rules.filter_fraction_bits.min(12);
+        let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
+        let border = self.border_texel(rules);
+        let mut sums = [0i64; 4];
+        let mut denominators = [1u64; 4];
+        let level_weights = [(1u64 << lod_bits) - u64::from(pick.weight), u64::from(pick.weight)];
+        for (level, level_weight) in pick.levels.into_iter().zip(level_weights) {
+            if level_weight == 0 {
                 continue;
             }
-            let texel = corner_texel(image, level, &taps, corner, rules, border);
-            for (i, channel) in texel.0.into_iter().enumerate() {
-                if let ChannelValue::Ratio { numerator, denominator } = channel {
-                    sums[i] += weight.cast_signed() * numerator;
-                    denominators[i] = u64::from(denominator);
+            let taps = self.taps(pick.filter, level, bits);
+            for corner in 0..8 {
+                let weight = (0..3).fold(level_weight, |product, axis| {
+                    let second = u64::from(taps[axis].1);
+                    product * if corner >> axis & 1 == 1 { second } else { (1 << bits) - second }
+                });
+                if weight == 0 {
+                    continue;
+                }
+                let texel = self.corner_texel(rules, level, &taps, corner, border);
+                for (i, channel) in texel.0.into_iter().enumerate() {
+                    if let ChannelValue::Ratio { numerator, denominator } = channel {
+                        sums[i] += weight.cast_signed() * numerator;
+                        denominators[i] = u64::from(denominator);
+                    }
                 }
             }
         }
+        let shift = 3 * u32::from(bits) + lod_bits;
+        [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
     }
-    let shift = 3 * u32::from(bits) + lod_bits;
-    [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
-}
 
-/// FP32 steps along x, y, z and between the levels.
-fn filter_floats(
-    image: &Image,
-    state: &SamplerState,
-    rules: &SampleRules,
-    place: &SamplePlace,
-    pick: &Pick,
-) -> [u32; 4] {
-    let bits = rules.filter_fraction_bits.min(12);
-    let border = border_texel(image, state, rules);
-    let at_level = |level: u32| {
-        let taps = place.taps(image, state, pick.filter, level, bits);
-        let weights = [0, 1, 2].map(|axis: usize| taps[axis].1);
-        let mut values = [[0; 4]; 8];
-        for (corner, out) in values.iter_mut().enumerate() {
-            if (0..3).all(|axis| corner >> axis & 1 == 0 || weights[axis] != 0) {
-                *out = corner_texel(image, level, &taps, corner, rules, border).to_format(Format::FP32);
+    /// FP32 steps along x, y, z and between the levels.
+    fn filter_floats(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
+        let bits = rules.filter_fraction_bits.min(12);
+        let border = self.border_texel(rules);
+        let at_level = |level: u32| {
+            let taps = self.taps(pick.filter, level, bits);
+            let weights = [0, 1, 2].map(|axis: usize| taps[axis].1);
+            let mut values = [[0; 4]; 8];
+            for (corner, out) in values.iter_mut().enumerate() {
+                if (0..3).all(|axis| corner >> axis & 1 == 0 || weights[axis] != 0) {
+                    *out = self.corner_texel(rules, level, &taps, corner, border).to_format(Format::FP32);
+                }
             }
-        }
-        for (axis, &weight) in weights.iter().enumerate() {
-            for pair in 0..4 >> axis {
-                values[pair] = lerp(values[2 * pair], values[2 * pair + 1], weight, bits);
+            for (axis, &weight) in weights.iter().enumerate() {
+                for pair in 0..4 >> axis {
+                    values[pair] = lerp(values[2 * pair], values[2 * pair + 1], weight, bits);
+                }
             }
-        }
-        values[0]
-    };
-    let first = at_level(pick.levels[0]);
-    let result = if pick.weight == 0 {
-        first
-    } else {
-        lerp(first, at_level(pick.levels[1]), pick.weight, rules.lod_fraction_bits.min(8))
-    };
-    result.map(|bits| num::ops::convert(&Format::FP32, rules.format, bits).bits)
+            values[0]
+        };
+        let first = at_level(pick.levels[0]);
+        let result = if pick.weight == 0 {
+            first
+        } else {
+            lerp(first, at_level(pick.levels[1]), pick.weight, rules.lod_fraction_bits.min(8))
+        };
+        result.map(|bits| num::ops::convert(&Format::FP32, rules.format, bits).bits)
+    }
 }
 
 /// `a + w * (b - a)` for a weight in units of `2^-bits`; `a` itself for weight 0.

@@ -97,6 +97,7 @@ impl fmt::Display for HostOperation {
 
 /// Why there is no host model, or no time.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum HostError {
     /// The run to calibrate on did nothing.
     #[error("expected counted operations with some weight to calibrate the host on, found none")]
@@ -113,12 +114,7 @@ pub enum HostError {
     /// A log names an operation that the model does not know.
     #[error("unknown host operation `{name}`; expected one of {known}")]
     #[diagnostic(code(timing::host_operation))]
-    UnknownOperation {
-        /// What was named.
-        name: String,
-        /// The names that exist, separated by spaces.
-        known: String,
-    },
+    UnknownOperation { name: String, known: String },
 }
 
 /// How often each operation happened.

@@ -191,7 +191,6 @@ impl Model {
     }
 
     /// The model of a card without a texture cache: every access fetches a line.
-    #[must_use]
     pub fn without_texture_cache(&self) -> Self {
         Self { cache: CacheSize::None, ..self.clone() }
     }

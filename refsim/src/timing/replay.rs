@@ -68,28 +68,18 @@ impl Costs for Model {
     }
 }
 
-/// A log that can't be replayed.
+/// A log that can't be replayed. Its events count from 0.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReplayError {
     /// A fence was asked before it was set.
     #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
     #[diagnostic(code(timing::replay_fence), help("set the fence before it is tested or waited for"))]
-    Fence {
-        /// The place in the log, from 0.
-        event: usize,
-        /// Its name in the log.
-        fence: FenceId,
-    },
+    Fence { event: usize, fence: FenceId },
     /// Host work of an unknown kind.
     #[error("event {event}: the host model can't cost it")]
     #[diagnostic(code(timing::replay_host))]
-    Host {
-        /// The place in the log, from 0.
-        event: usize,
-        /// Why.
-        #[source]
-        source: HostError,
-    },
+    Host { event: usize, source: HostError },
 }
 
 /// What a replay found.

@@ -10,44 +10,6 @@ use refsim::isa::{
     Modifier, Opcode, Predicate, Program, Register, RegisterFile, Relative, Source, Span, Swizzle, Usage, Version,
 };
 
-/// Every register file.
-pub(crate) const FILES: [RegisterFile; 18] = [
-    RegisterFile::Temp,
-    RegisterFile::Input,
-    RegisterFile::Texture,
-    RegisterFile::Constant,
-    RegisterFile::ConstantInt,
-    RegisterFile::ConstantBool,
-    RegisterFile::Sampler,
-    RegisterFile::Address,
-    RegisterFile::Loop,
-    RegisterFile::Predicate,
-    RegisterFile::Label,
-    RegisterFile::ColorOut,
-    RegisterFile::DepthOut,
-    RegisterFile::PositionOut,
-    RegisterFile::FogOut,
-    RegisterFile::PointSizeOut,
-    RegisterFile::DiffuseOut,
-    RegisterFile::TexCoordOut,
-];
-
-/// Every source modifier.
-pub(crate) const MODIFIERS: [Modifier; 12] = [
-    Modifier::None,
-    Modifier::Negate,
-    Modifier::Invert,
-    Modifier::Bias,
-    Modifier::BiasNegate,
-    Modifier::Bx2,
-    Modifier::Bx2Negate,
-    Modifier::X2,
-    Modifier::X2Negate,
-    Modifier::Dz,
-    Modifier::Dw,
-    Modifier::Not,
-];
-
 fn nowhere() -> Span {
     Span::default()
 }
@@ -63,7 +25,7 @@ fn relative() -> impl Strategy<Value = Relative> {
 
 /// Any register, relative addressing included.
 pub(crate) fn register() -> impl Strategy<Value = Register> {
-    (select(&FILES[..]), index(), option::weighted(0.1, relative())).prop_map(|(file, index, relative)| {
+    (select(RegisterFile::DIRECT3D), index(), option::weighted(0.1, relative())).prop_map(|(file, index, relative)| {
         match file.is_unnumbered() {
             true => Register::new(file, 0),
             false => Register { file, index, relative },
@@ -82,7 +44,7 @@ pub(crate) fn swizzle() -> impl Strategy<Value = Swizzle> {
 
 /// Any source operand.
 pub(crate) fn source() -> impl Strategy<Value = Source> {
-    (register(), swizzle(), select(&MODIFIERS[..])).prop_map(|(register, swizzle, modifier)| Source {
+    (register(), swizzle(), select(Modifier::DIRECT3D)).prop_map(|(register, swizzle, modifier)| Source {
         register,
         swizzle,
         modifier,
@@ -158,23 +120,8 @@ fn constant() -> impl Strategy<Value = ConstantDef> {
 }
 
 fn usage() -> impl Strategy<Value = Usage> {
-    let numbered: [fn(u8) -> Usage; 13] = [
-        Usage::Position,
-        Usage::BlendWeight,
-        Usage::BlendIndices,
-        Usage::Normal,
-        Usage::PointSize,
-        Usage::TexCoord,
-        Usage::Tangent,
-        Usage::Binormal,
-        Usage::TessFactor,
-        Usage::Color,
-        Usage::Fog,
-        Usage::Depth,
-        Usage::Sample,
-    ];
     let plain = vec![Usage::Plain, Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume];
-    prop_oneof![select(plain), (0..numbered.len(), any::<u8>()).prop_map(move |(which, n)| numbered[which](n)),]
+    prop_oneof![select(plain), (select(&Usage::NUMBERED[..]), any::<u8>()).prop_map(|(numbered, n)| numbered(n)),]
 }
 
 fn declaration() -> impl Strategy<Value = Declaration> {

@@ -2,8 +2,6 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-use num_traits::Pow;
 use refsim::num::{Denormals, DotOrder, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Specials, Tininess};
 
 use crate::rational::{self, Q, magnitude};
@@ -20,6 +18,8 @@ pub(crate) enum Val {
 }
 
 use Val::{Inf, Nan, Num};
+
+mod powers;
 
 /// The reference for one format.
 pub(crate) struct Reference {
@@ -198,46 +198,6 @@ impl Reference {
         }
     }
 
-    pub(crate) fn exp2(&self, a: Val) -> Outcome {
-        let (negative, q) = match a {
-            Nan { .. } => return self.nan(&[a]).expect("a NaN"),
-            Inf(true) => return self.zero(false),
-            Inf(false) => return self.infinity(false),
-            Num(negative, q) => (negative, q),
-        };
-        if let (FormatKind::Fixed { int_bits, .. }, Overflow::Wrap) = (self.f.kind, self.f.overflow)
-            && signed(negative, q).floor() >= i128::from(int_bits)
-        {
-            return Outcome::new(self.f.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
-        }
-        // 2^(n/d) against c is 2^n against c^d.
-        rational::round(&self.f, self.tininess, false, |c| power_of_two(negative, q.n).cmp_power(c, q.d))
-    }
-
-    pub(crate) fn log2(&self, a: Val) -> Outcome {
-        let q = match a {
-            Nan { .. } => return self.nan(&[a]).expect("a NaN"),
-            Num(_, q) if q.n == 0 => return self.pole(true),
-            Num(true, _) | Inf(true) if !self.magnitudes() => return self.invalid(),
-            Inf(_) => return self.infinity(false),
-            Num(_, q) => q,
-        };
-        let negative = q.cmp(ONE).is_lt();
-        if q.cmp(ONE).is_eq() {
-            return self.zero(false);
-        }
-        // |log2 q| against n/d is q^d against 2^n, or 1/q against it.
-        let q = if negative { Q::new(q.d, q.n) } else { q };
-        rational::round(&self.f, self.tininess, negative, |c| power_of_two(false, c.n).cmp_power(q, c.d).reverse())
-    }
-
-    pub(crate) fn pow(&self, x: u32, y: u32) -> Outcome {
-        let x = if self.f.specials == Specials::Ieee { self.abs(x).bits } else { x };
-        let log = self.log2(self.val(x));
-        let product = self.mul(self.val(y), self.val(log.bits));
-        self.exp2(self.val(product.bits)).also(log.flags | product.flags)
-    }
-
     pub(crate) fn order(&self, a: Val, b: Val) -> Option<Ordering> {
         let place = |v| match v {
             Num(x, q) => signed(x, q),
@@ -385,24 +345,5 @@ impl Reference {
         let zeros = numbers.iter().all(|&(x, q)| q.n == 0 && x == numbers[0].0);
         let zero_sign = if zeros { numbers[0].0 } else { self.cancelled() };
         self.finish(if sum.n == 0 { zero_sign } else { sum.n < 0 }, sum.abs())
-    }
-}
-
-/// `2^n`, or its reciprocal.
-struct Power {
-    inverse: bool,
-    value: BigInt,
-}
-
-fn power_of_two(inverse: bool, n: i128) -> Power {
-    Power { inverse, value: BigInt::from(1) << n }
-}
-
-impl Power {
-    /// This power against `(n/d)^k`.
-    fn cmp_power(&self, c: Q, k: i128) -> Ordering {
-        let power = |n: i128| Pow::pow(BigInt::from(n), u32::try_from(k).expect("a small exponent"));
-        let (n, d) = (power(c.n), power(c.d));
-        if self.inverse { d.cmp(&(n * &self.value)) } else { (d * &self.value).cmp(&n) }
     }
 }

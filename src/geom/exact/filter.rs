@@ -89,7 +89,6 @@ pub(super) fn above(t: f64) -> f64 {
 }
 
 /// What f64 can say. The corners must be finite.
-#[must_use]
 pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     let (o, d) = (wide(ray.origin()), wide(ray.direction()));
     let [a, b, c] = triangle.map(|corner| wide(corner) - o);

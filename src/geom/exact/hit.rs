@@ -26,32 +26,27 @@ pub struct ExactT {
 
 impl ExactT {
     /// `num / den`; `None` when the denominator is zero.
-    #[must_use]
     pub fn new(num: BigUint, den: BigUint) -> Option<Self> {
         (!den.is_zero()).then_some(Self { num, den })
     }
 
     /// Numerator (the fraction need not be in lowest terms).
-    #[must_use]
     pub fn numerator(&self) -> &BigUint {
         &self.num
     }
 
     /// Denominator, positive.
-    #[must_use]
     pub fn denominator(&self) -> &BigUint {
         &self.den
     }
 
     /// The nearest f32, ties to even; infinity where t exceeds the format.
-    #[must_use]
     pub fn to_f32(&self) -> f32 {
         ratio::to_f32(&self.num, &self.den)
     }
 
     /// The nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays and
     /// triangles.
-    #[must_use]
     pub fn to_f64(&self) -> f64 {
         ratio::to_f64(&self.num, &self.den)
     }

@@ -25,7 +25,6 @@ pub use hit::{ExactHit, ExactT, NearestHit, Sides};
 pub use tree::{Tracer, nearest_all};
 
 /// Where a ray hits a triangle of finite corners, if it does: the filter first, integers where it is not sure.
-#[must_use]
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     match filter::guess(ray, triangle, sides) {
         Guess::Miss => None,
@@ -34,7 +33,6 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
 }
 
 /// All hits of a ray, by rising t and then by rising id.
-#[must_use]
 pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
     let mut hits: Vec<ExactHit> = (0..)
         .zip(mesh.iter_corners())
@@ -45,7 +43,6 @@ pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
 }
 
 /// The first hit of a ray among all triangles, each one tried. For many rays use [`nearest_all`] or a [`Tracer`].
-#[must_use]
 pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     let mut shortlist = Shortlist::new();
     for (triangle, corners) in (0..).zip(mesh.iter_corners()) {
@@ -55,14 +52,12 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
 }
 
 /// Whether a triangle has no area, exactly: n = 0.
-#[must_use]
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     !filter::has_area(triangle) && whole::is_degenerate(triangle)
 }
 
 impl Mesh {
     /// Number of triangles without area: two corners at one place, or three on one line, exactly.
-    #[must_use]
     pub fn degenerate_count(&self) -> usize {
         self.iter_corners().filter(is_degenerate).count()
     }

@@ -7,7 +7,6 @@ use num_integer::Integer;
 use num_traits::Zero;
 
 /// The f32 nearest to `num / den`, ties to even; infinity from 2^128 - 2^103 up. `den` must not be zero.
-#[must_use]
 pub fn to_f32(num: &BigUint, den: &BigUint) -> f32 {
     match round(num, den, 24, -149, 128) {
         None => f32::INFINITY,
@@ -20,7 +19,6 @@ pub fn to_f32(num: &BigUint, den: &BigUint) -> f32 {
 }
 
 /// The f64 nearest to `num / den`, ties to even; infinity beyond the format. `den` must not be zero.
-#[must_use]
 pub fn to_f64(num: &BigUint, den: &BigUint) -> f64 {
     match round(num, den, 53, -1074, 1024) {
         None => f64::INFINITY,
@@ -30,7 +28,6 @@ pub fn to_f64(num: &BigUint, den: &BigUint) -> f64 {
 }
 
 /// `a_num / a_den` against `b_num / b_den` by cross multiplication; both denominators positive.
-#[must_use]
 pub fn compare(a_num: &BigUint, a_den: &BigUint, b_num: &BigUint, b_den: &BigUint) -> Ordering {
     (a_num * b_den).cmp(&(b_num * a_den))
 }

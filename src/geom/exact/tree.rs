@@ -53,7 +53,6 @@ struct Probe {
 
 impl<'a> Tracer<'a> {
     /// Builds the tree: each node is halved at the median centre along its widest axis, so that its depth is bounded.
-    #[must_use]
     pub fn new(mesh: &'a Mesh) -> Self {
         let corners: Vec<_> = mesh.iter_corners().collect();
         let mut items: Vec<(u32, DVec3)> =
@@ -68,7 +67,6 @@ impl<'a> Tracer<'a> {
     }
 
     /// The first hit of a ray; the same answer as [`super::nearest`].
-    #[must_use]
     pub fn nearest(&self, ray: &Ray, sides: Sides) -> Option<NearestHit> {
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
         let probe = Probe { origin, direction, inverse: 1.0 / direction };
@@ -102,14 +100,12 @@ impl<'a> Tracer<'a> {
     }
 
     /// The first hits of many rays, in parallel; the result does not depend on the number of threads.
-    #[must_use]
     pub fn nearest_all(&self, rays: &[Ray], sides: Sides) -> Vec<Option<NearestHit>> {
         rays.par_iter().with_min_len(CHUNK).map(|ray| self.nearest(ray, sides)).collect()
     }
 }
 
 /// The first hits of many rays, in parallel.
-#[must_use]
 pub fn nearest_all(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<Option<NearestHit>> {
     Tracer::new(mesh).nearest_all(rays, sides)
 }

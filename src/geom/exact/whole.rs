@@ -46,7 +46,6 @@ fn dot(a: &IntegerVector, b: &IntegerVector) -> BigInt {
 }
 
 /// Where the ray hits the triangle, if it does. The corners must be finite.
-#[must_use]
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     let (origin, direction) = (ray.origin(), ray.direction());
     let place = common_exponent(triangle.iter().flatten().chain(&origin));
@@ -83,7 +82,6 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
 }
 
 /// The first hit among all triangles, with no filter and no tree: what the others are tested against.
-#[must_use]
 pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     let mut first: Option<NearestHit> = None;
     for (triangle, corners) in (0..).zip(mesh.iter_corners()) {
@@ -98,7 +96,6 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
 }
 
 /// Whether n = 0.
-#[must_use]
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     let place = common_exponent(triangle.iter().flatten());
     let [a, b, c] = triangle.map(|corner| vector(corner, place));

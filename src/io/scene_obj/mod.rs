@@ -7,7 +7,6 @@
 //!
 //! [`write`] gives text that reads back with the same bits.
 
-mod error;
 pub mod mtl;
 mod reader;
 mod write;
@@ -15,12 +14,13 @@ mod write;
 use std::io;
 use std::path::Path;
 
-pub use error::SceneObjError;
-pub use mtl::{MtlError, parse_mtl};
+pub use mtl::parse_mtl;
 pub use write::{write_mtl, write_scene};
 
+use super::error::ModelError;
+use super::lines::{logical_lines, words};
 use super::model::is_ply;
-use super::obj::{MAX_BYTES, ObjError, logical_lines, words};
+use super::obj::{MAX_BYTES, load_model, within_limit};
 use super::ply::parse_ply;
 use super::read_limited;
 use crate::scene::Scene;
@@ -30,10 +30,9 @@ use reader::SceneReader;
 /// no views and no point lights.
 ///
 /// # Errors
-/// [`SceneObjError`], with the path, and the line where there is one.
-pub fn load_scene(path: &Path) -> Result<Scene, SceneObjError> {
-    let read = read_limited(path, MAX_BYTES).map_err(|source| ObjError::Read { path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ObjError::TooLong { path: path.into() })?;
+/// [`ModelError`], with the path, and the line where there is one.
+pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
+    let bytes = load_model(path)?;
     if is_ply(&bytes, path) {
         return reader::plain_scene(parse_ply(&bytes, path)?, path);
     }
@@ -49,15 +48,13 @@ pub fn load_scene(path: &Path) -> Result<Scene, SceneObjError> {
 /// library. No input makes it panic.
 ///
 /// # Errors
-/// [`SceneObjError`], with the line where there is one.
+/// [`ModelError`], with the line where there is one.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,
     library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-) -> Result<Scene, SceneObjError> {
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(ObjError::TooLong { path: name.into() }.into());
-    }
+) -> Result<Scene, ModelError> {
+    within_limit(bytes, name)?;
     let mut reader = SceneReader::new(name);
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &words(&text), &text, library)?;

@@ -13,11 +13,10 @@
 //! 0) needs glass.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
-use super::super::obj::{logical_lines, single, words};
+use super::super::error::{FilePlace, ModelError};
+use super::super::lines::{logical_lines, single, words};
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
 
@@ -28,66 +27,17 @@ const INDEX: f32 = 1.5;
 /// How far `Kd` + `Ks` may lie above 1: what rounding makes of figures that sum to 1.
 const ROUNDING: f32 = 1e-6;
 
-/// Why a file is no material library. Lines count from 1.
-#[derive(Debug, Error, miette::Diagnostic)]
-pub enum MtlError {
-    /// A line is not what its first word says.
-    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// What belongs there.
-        expected: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// A name is given twice.
-    #[error("{}:{line}: expected each material once, found a second `newmtl {name}`; rename one of the two", path.display())]
-    Twice {
-        /// The file.
-        path: PathBuf,
-        /// The line.
-        line: usize,
-        /// The name.
-        name: String,
-    },
-    /// A material's figures do not go together.
-    #[error("{}:{line}: material {name}: expected {expected}, found {found}", path.display())]
-    Material {
-        /// The file.
-        path: PathBuf,
-        /// The line of its `newmtl`.
-        line: usize,
-        /// The material.
-        name: String,
-        /// What belongs there, and what to do.
-        expected: &'static str,
-        /// What stands there.
-        found: String,
-    },
-    /// tobj refuses what our pass has accepted.
-    #[error("{}: {reason}", path.display())]
-    Loader {
-        /// The file.
-        path: PathBuf,
-        /// What tobj says.
-        reason: tobj::LoadError,
-    },
-}
-
 /// Reads the materials of a library in their order; `name` stands for the file in messages. No input makes it panic.
 ///
 /// # Errors
-/// [`MtlError`], with the line where there is one.
-pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, MtlError> {
+/// [`ModelError`], with the line where there is one.
+pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, ModelError> {
     let mut reader = MtlReader { name, clean: String::new(), materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &text)?;
     }
-    let (read, _) = tobj::load_mtl_buf(&mut reader.clean.as_bytes())
-        .map_err(|reason| MtlError::Loader { path: name.into(), reason })?;
+    let (read, _) =
+        tobj::load_mtl_buf(&mut reader.clean.as_bytes()).map_err(|reason| ModelError::Loader(name.into(), reason))?;
     let pairs = reader.materials.iter().zip(read);
     pairs.map(|((line, material), read)| assemble(&read, name, *line, material)).collect()
 }
@@ -100,33 +50,42 @@ struct MtlReader<'a> {
     seen: BTreeSet<String>,
 }
 
+/// A line of a library with its words.
+struct Statement<'a> {
+    line: usize,
+    text: &'a [u8],
+    key: &'a [u8],
+    values: &'a [&'a [u8]],
+}
+
 impl MtlReader<'_> {
-    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), MtlError> {
+    fn line(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
         let words = words(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
+        let here = &Statement { line, text, key, values };
         match key {
             b"newmtl" => self.material(line, text[6..].trim_ascii()),
-            b"Kd" | b"Ks" | b"Tf" => self.color(line, key, values, text, "three numbers from 0 to 1", |v| v <= 1.0),
-            b"Ke" => self.color(line, key, values, text, "three numbers of at least 0", |_| true),
-            b"Ns" => self.number(line, key, values, text, "`Ns` with a number of at least 0", |_| true),
-            b"Ni" => self.number(line, key, values, text, "`Ni` with a number above 0", |v| v > 0.0),
-            b"d" => self.number(line, key, values, text, "`d` with a number from 0 to 1", |v| v <= 1.0),
-            b"Tr" => self.number(line, key, values, text, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
+            b"Kd" | b"Ks" | b"Tf" => self.color(here, "three numbers from 0 to 1", |v| v <= 1.0),
+            b"Ke" => self.color(here, "three numbers of at least 0", |_| true),
+            b"Ns" => self.number(here, "`Ns` with a number of at least 0", |_| true),
+            b"Ni" => self.number(here, "`Ni` with a number above 0", |v| v > 0.0),
+            b"d" => self.number(here, "`d` with a number from 0 to 1", |v| v <= 1.0),
+            b"Tr" => self.number(here, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
             b"illum" => {
                 let model = |v: f32| v <= 10.0 && v.fract() == 0.0;
-                self.number(line, key, values, text, "`illum` with a whole number from 0 to 10", model)
+                self.number(here, "`illum` with a whole number from 0 to 10", model)
             }
             _ => Ok(()),
         }
     }
 
-    fn material(&mut self, line: usize, name: &[u8]) -> Result<(), MtlError> {
+    fn material(&mut self, line: usize, name: &[u8]) -> Result<(), ModelError> {
         let text = std::str::from_utf8(name).ok().filter(|name| !name.is_empty());
         let Some(text) = text else {
             return Err(self.syntax(line, "the name of a material `newmtl name`", name));
         };
         if !self.seen.insert(text.into()) {
-            return Err(MtlError::Twice { path: self.name.into(), line, name: text.into() });
+            return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), text.into()));
         }
         // tobj gets a number for the name: it need not cope with all that a name may hold.
         self.clean.push_str(&format!("newmtl {}\n", self.materials.len()));
@@ -136,54 +95,46 @@ impl MtlReader<'_> {
 
     fn color(
         &mut self,
-        line: usize,
-        key: &[u8],
-        values: &[&[u8]],
-        text: &[u8],
+        here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), MtlError> {
-        self.not_too_large(line, values)?;
-        let channels: Vec<f32> = values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
+    ) -> Result<(), ModelError> {
+        self.not_too_large(here)?;
+        let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
         // One number stands for three.
-        let channels = match (values.len(), channels[..].len()) {
+        let channels = match (here.values.len(), channels[..].len()) {
             (3, 3) => [channels[0], channels[1], channels[2]],
             (1, 1) => [channels[0]; 3],
-            _ => return Err(self.syntax(line, expected, text)),
+            _ => return Err(self.syntax(here.line, expected, here.text)),
         };
-        self.keep(line, key, &channels, text)
+        self.keep(here, &channels)
     }
 
     fn number(
         &mut self,
-        line: usize,
-        key: &[u8],
-        values: &[&[u8]],
-        text: &[u8],
+        here: &Statement<'_>,
         expected: &'static str,
         allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), MtlError> {
-        self.not_too_large(line, values)?;
-        match values {
-            &[word] => match number(word).filter(|&v| allowed(v)) {
-                Some(value) => self.keep(line, key, &[value], text),
-                None => Err(self.syntax(line, expected, text)),
-            },
-            _ => Err(self.syntax(line, expected, text)),
+    ) -> Result<(), ModelError> {
+        self.not_too_large(here)?;
+        let value = if let &[word] = here.values { number(word).filter(|&v| allowed(v)) } else { None };
+        match value {
+            Some(value) => self.keep(here, &[value]),
+            None => Err(self.syntax(here.line, expected, here.text)),
         }
     }
 
     /// A number that single precision does not hold is no matter of what the key allows.
-    fn not_too_large(&self, line: usize, values: &[&[u8]]) -> Result<(), MtlError> {
-        let large = values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
-        large.map_or(Ok(()), |word| Err(self.syntax(line, NumberError::TooLarge.expected(), word)))
+    fn not_too_large(&self, here: &Statement<'_>) -> Result<(), ModelError> {
+        let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
+        large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))
     }
 
-    fn keep(&mut self, line: usize, key: &[u8], values: &[f32], text: &[u8]) -> Result<(), MtlError> {
+    fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), ModelError> {
         if self.materials.is_empty() {
-            return Err(self.syntax(line, "`newmtl name` before the first figure of a material", text));
+            return Err(self.syntax(here.line, "`newmtl name` before the first figure of a material", here.text));
         }
-        self.clean.push_str(&String::from_utf8_lossy(key));
+        self.clean.push_str(&String::from_utf8_lossy(here.key));
         for value in values {
             self.clean.push_str(&format!(" {value}"));
         }
@@ -191,8 +142,9 @@ impl MtlReader<'_> {
         Ok(())
     }
 
-    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> MtlError {
-        MtlError::Syntax { path: self.name.into(), line, expected, found: quoted(found) }
+    fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> ModelError {
+        let place = FilePlace::line(self.name, line);
+        ModelError::Syntax { place, expected: expected.into(), found: quoted(found) }
     }
 }
 
@@ -202,9 +154,13 @@ fn number(word: &[u8]) -> Option<f32> {
 }
 
 /// A material of what tobj has read.
-fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Result<Material, MtlError> {
-    let wrong =
-        |expected, found: String| MtlError::Material { path: path.into(), line, name: name.into(), expected, found };
+fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Result<Material, ModelError> {
+    let wrong = |expected, found: String| ModelError::Material {
+        place: FilePlace::line(path, line),
+        name: name.into(),
+        expected,
+        found,
+    };
     let unknown = |key: &str| -> Option<Vec<f32>> {
         let text = read.unknown_param.get(key)?;
         text.split_whitespace().map(|word| word.parse().ok()).collect()

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::super::error::{FilePlace, ModelError};
 use super::super::obj::ObjReader;
-use super::{SceneObjError, parse_mtl};
+use super::parse_mtl;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::scene::{Material, Scene};
@@ -18,9 +19,10 @@ const GREY: f32 = 0.5;
 const SLACK: f64 = 1e-4;
 
 /// A scene's lines so far.
-pub(super) struct SceneReader<'a> {
-    name: &'a Path,
-    geometry: ObjReader<'a>,
+#[derive(Default)]
+pub(super) struct SceneReader {
+    name: PathBuf,
+    geometry: ObjReader,
     /// Of each face the index of its name in `used`; none before the first `usemtl`.
     material_of: Vec<Option<usize>>,
     libraries: Vec<PathBuf>,
@@ -31,18 +33,9 @@ pub(super) struct SceneReader<'a> {
     current: Option<usize>,
 }
 
-impl<'a> SceneReader<'a> {
-    pub(super) fn new(name: &'a Path) -> Self {
-        Self {
-            name,
-            geometry: ObjReader::new(name),
-            material_of: Vec::new(),
-            libraries: Vec::new(),
-            materials: Vec::new(),
-            used: Vec::new(),
-            place_of: BTreeMap::new(),
-            current: None,
-        }
+impl SceneReader {
+    pub(super) fn new(name: &Path) -> Self {
+        Self { name: name.into(), geometry: ObjReader::new(name), ..Self::default() }
     }
 
     pub(super) fn line(
@@ -51,7 +44,7 @@ impl<'a> SceneReader<'a> {
         words: &[&[u8]],
         text: &[u8],
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<(), SceneObjError> {
+    ) -> Result<(), ModelError> {
         self.geometry.line(line, words, text)?;
         match words.split_first() {
             Some((&b"f", _)) => self.face(line, text),
@@ -61,17 +54,17 @@ impl<'a> SceneReader<'a> {
         }
     }
 
-    fn face(&mut self, line: usize, text: &[u8]) -> Result<(), SceneObjError> {
+    fn face(&mut self, line: usize, text: &[u8]) -> Result<(), ModelError> {
         let corners = self.geometry.last_face();
         let with_normals = corners.iter().filter(|corner| corner[2] > 0).count();
         if with_normals != 0 && with_normals != corners.len() {
-            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text).into());
+            return Err(self.geometry.syntax(line, "normals at all corners of a face, or at none", text));
         }
         self.material_of.push(self.current);
         Ok(())
     }
 
-    fn material(&mut self, line: usize, rest: &[u8]) -> Result<(), SceneObjError> {
+    fn material(&mut self, line: usize, rest: &[u8]) -> Result<(), ModelError> {
         let name = self.rest_of(line, rest, "the name of a material `usemtl name`")?;
         let next = self.used.len();
         let place = *self.place_of.entry(name.clone()).or_insert(next);
@@ -87,31 +80,29 @@ impl<'a> SceneReader<'a> {
         line: usize,
         rest: &[u8],
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<(), SceneObjError> {
+    ) -> Result<(), ModelError> {
         let file = PathBuf::from(self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?);
         // Exporters repeat the line for each object.
         if self.libraries.contains(&file) {
             return Ok(());
         }
         let path = self.name.parent().unwrap_or(Path::new("")).join(&file);
-        let bytes = library(&file).map_err(|source| SceneObjError::Library {
-            path: self.name.into(),
-            line,
-            library: path.clone(),
-            source,
+        let bytes = library(&file).map_err(|source| {
+            let place = FilePlace::line(&self.name, line);
+            ModelError::Library { place, library: path.clone(), source }
         })?;
         self.materials.extend(parse_mtl(&bytes, &path)?);
         self.libraries.push(file);
         Ok(())
     }
 
-    fn rest_of(&self, line: usize, rest: &[u8], expected: &'static str) -> Result<String, SceneObjError> {
+    fn rest_of(&self, line: usize, rest: &[u8], expected: &'static str) -> Result<String, ModelError> {
         let name = std::str::from_utf8(rest.trim_ascii()).ok().filter(|name| !name.is_empty());
-        name.map(str::to_owned).ok_or_else(|| self.geometry.syntax(line, expected, rest.trim_ascii()).into())
+        name.map(str::to_owned).ok_or_else(|| self.geometry.syntax(line, expected, rest.trim_ascii()))
     }
 
     /// The whole scene, once everything has been read.
-    pub(super) fn scene(self) -> Result<Scene, SceneObjError> {
+    pub(super) fn scene(self) -> Result<Scene, ModelError> {
         let Self { name, mut geometry, material_of: faces, mut materials, used, .. } = self;
         let mesh = geometry.mesh(false)?;
         let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
@@ -139,12 +130,12 @@ impl<'a> SceneReader<'a> {
             }
         }
         Scene::new(mesh, materials, material_of, normals)
-            .map_err(|reason| SceneObjError::Scene { path: name.into(), reason })
+            .map_err(|reason| ModelError::Scene(name.as_path().into(), reason))
     }
 }
 
 /// The scene of a mesh that names no material, with the normals of its vertices.
-pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, SceneObjError> {
+pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
     let normals = mesh.normals().map_or_else(Vec::new, |normals| {
         let corner = |&index: &u32| of_length_one(normals[index as usize]);
         let flat_where_unknown = |fan: [[f32; 3]; 3]| if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan };
@@ -152,7 +143,7 @@ pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, SceneObjErro
     });
     let material_of = vec![0; mesh.len()];
     Scene::new(mesh, vec![Material::diffuse(DEFAULT, [GREY; 3])], material_of, normals)
-        .map_err(|reason| SceneObjError::Scene { path: name.into(), reason })
+        .map_err(|reason| ModelError::Scene(name.into(), reason))
 }
 
 /// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is

@@ -59,7 +59,6 @@ impl CornerSets {
 ///
 /// # Panics
 /// If there is not one radiosity a patch.
-#[must_use]
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
     let CornerSets { sets, of } = CornerSets::new(patches);

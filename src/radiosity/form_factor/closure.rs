@@ -25,13 +25,11 @@ pub struct RowSums {
 
 impl FormFactors {
     /// The sum of each row: 1 for a patch from which all light arrives somewhere.
-    #[must_use]
     pub fn row_sums(&self) -> Vec<f64> {
         self.matrix.times(&vec![1.0; self.len()])
     }
 
     /// Statistics of the row sums. All zero for no patches.
-    #[must_use]
     pub fn summary(&self) -> RowSums {
         let sums = self.row_sums();
         let fold = |start: f64, f: fn(f64, f64) -> f64| {
@@ -49,7 +47,6 @@ impl FormFactors {
     }
 
     /// The largest difference between A_i F_ij and A_j F_ji, relative to the larger of the two.
-    #[must_use]
     pub fn reciprocity_error(&self) -> f64 {
         let of_row = |i: usize| {
             let row = self.matrix.row(i);
@@ -82,7 +79,6 @@ impl FormFactors {
     }
 
     /// The patches that see nothing at all, such as those under a block.
-    #[must_use]
     pub fn blind(&self) -> Vec<usize> {
         self.row_sums().into_iter().enumerate().filter(|&(_, sum)| sum == 0.0).map(|(patch, _)| patch).collect()
     }

@@ -8,59 +8,28 @@ use crate::tracer::CastError;
 
 /// Form factors cannot be computed, or do not meet what was required.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FormFactorError {
     /// The matrix would be too large.
     #[error(transparent)]
     Size(#[from] MatrixError),
     /// Not one area a row.
     #[error("expected {rows} areas, one per row, found {areas}")]
-    Areas {
-        /// Rows of the matrix.
-        rows: usize,
-        /// Areas given.
-        areas: usize,
-    },
+    Areas { rows: usize, areas: usize },
     /// An area or form factor out of range.
     #[error("expected {expected}, found {value} for patch {patch} (counted from 0)")]
-    Value {
-        /// What was expected.
-        expected: &'static str,
-        /// What was found.
-        value: f64,
-        /// The patch.
-        patch: usize,
-    },
+    Value { expected: &'static str, value: f64, patch: usize },
     /// The room is not closed.
     #[error(
         "expected a closed room, found patch {patch} (counted from 0) with form factors that sum to {sum}, and {open} of {patches} \
          patches more than {tolerance} from 1 ({blind} more see nothing); close the room, or allow light to leave it"
     )]
-    Open {
-        /// The patch farthest from 1.
-        patch: usize,
-        /// Its sum.
-        sum: f64,
-        /// Patches outside the tolerance.
-        open: usize,
-        /// Patches that see nothing at all.
-        blind: usize,
-        /// All patches.
-        patches: usize,
-        /// The tolerance.
-        tolerance: f64,
-    },
+    Open { patch: usize, sum: f64, open: usize, blind: usize, patches: usize, tolerance: f64 },
     /// Rows cannot be made to sum to 1 by scaling.
     #[error(
         "form factors cannot be scaled to a closed room: after {rounds} rounds patch {patch} (counted from 0) still sums to {sum}"
     )]
-    NoScaling {
-        /// Rounds tried.
-        rounds: u32,
-        /// The patch farthest from 1.
-        patch: usize,
-        /// Its sum.
-        sum: f64,
-    },
+    NoScaling { rounds: u32, patch: usize, sum: f64 },
     /// A side of patches without samples.
     #[error("expected 1 sample or more along a side of a patch, found 0")]
     NoSamples,
@@ -69,16 +38,7 @@ pub enum FormFactorError {
         "expected an even number of pixels from 2 to {most} along a side of a hemicube, found {found}; its five faces lie in one target, \
          which {device} allows {limit} pixels a side"
     )]
-    Resolution {
-        /// What was asked for.
-        found: u32,
-        /// The most.
-        most: u32,
-        /// The device.
-        device: String,
-        /// Its limit.
-        limit: u32,
-    },
+    Resolution { found: u32, most: u32, device: String, limit: u32 },
     /// The card could not draw.
     #[error(transparent)]
     Draw(#[from] DrawError),

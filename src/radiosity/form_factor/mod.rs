@@ -96,25 +96,21 @@ impl FormFactors {
     }
 
     /// The number of patches.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.areas.len()
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.areas.is_empty()
     }
 
     /// The areas of the patches: of their open parts, see [`Patches::areas`].
-    #[must_use]
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
     /// F_ij in row i, column j.
-    #[must_use]
     pub fn matrix(&self) -> &Matrix {
         &self.matrix
     }

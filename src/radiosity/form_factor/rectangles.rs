@@ -25,7 +25,6 @@ pub struct Bounded {
 const ROUNDINGS: f64 = 28.0;
 
 /// From the rectangle `one` (x and y intervals) at z = 0 to the rectangle `other` at height `apart`, above 0.
-#[must_use]
 pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded {
     let part = |u: f64, v: f64| {
         let away = (v * v + apart * apart).sqrt();
@@ -40,7 +39,6 @@ pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded
 
 /// From a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it, `other` at
 /// `up` (intervals that may begin at 0); each runs along y over an interval.
-#[must_use]
 pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounded {
     corner_sum([out, y], [up, y2], |x, y, z, y2| {
         let (square, v) = (x * x + z * z, y - y2);

@@ -31,7 +31,6 @@ kernels! {
 }
 
 /// The programs of the first pass of an iteration and of the later ones.
-#[must_use]
 pub fn of(packing: Packing, half: bool) -> [KernelText; 2] {
     match (packing, half) {
         (Packing::Rgb, false) => [RGB_FIRST, RGB_NEXT],

@@ -27,7 +27,6 @@ pub struct Cycle {
 
 impl Cycle {
     /// Whether no iteration changes a bit.
-    #[must_use]
     pub fn is_fixed_point(&self) -> bool {
         self.period == 1
     }

@@ -11,46 +11,25 @@ use crate::radiosity::packing::TooLarge;
 /// Why a card does not solve a system.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CardError {
-    /// The card's shader versions have no program of this length.
+    /// The card's shader versions have no program of this length; `why`, if that is known.
     #[error(
         "device `{device}` runs no `!!FP1.0` programs, in which the passes are written{why}; expected one of {have}"
     )]
-    NoPrograms {
-        /// The device.
-        device: String,
-        /// Why its own programs would not do, if that is known.
-        why: String,
-        /// The devices that do.
-        have: String,
-    },
+    NoPrograms { device: String, why: String, have: String },
     /// A texture that the card does not have.
     #[error("device `{device}`: {problem}")]
-    TooLarge {
-        /// The device.
-        device: String,
-        /// What is too large for which limit.
-        problem: TooLarge,
-    },
+    TooLarge { device: String, problem: TooLarge },
     /// The device refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
     /// A size that differs from that of the system on the card.
     #[error("expected {expected} {what}, found {found}")]
-    Size {
-        /// Of what, and why so many.
-        what: &'static str,
-        /// How many there have to be.
-        expected: usize,
-        /// How many there are.
-        found: usize,
-    },
+    Size { what: &'static str, expected: usize, found: usize },
     /// The iteration diverges.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
-    Diverged {
-        /// Iterations done.
-        iterations: u32,
-    },
+    Diverged { iterations: u32 },
     /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),

@@ -25,7 +25,6 @@ pub enum Storage {
 
 impl Storage {
     /// The format of matrices and vectors.
-    #[must_use]
     pub fn format(self) -> TexelFormat {
         match self {
             Self::Fp32 => TexelFormat::Rgba32f,

@@ -97,31 +97,26 @@ impl CardSolver {
     }
 
     /// How elements lie in texels.
-    #[must_use]
     pub fn packing(&self) -> Packing {
         self.layout.packing
     }
 
     /// How many patches.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.layout.size
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.layout.size == 0
     }
 
     /// Passes per iteration, of each system.
-    #[must_use]
     pub fn passes(&self) -> usize {
         self.programs.passes.len()
     }
 
     /// The programs, each once, in the order of their first pass.
-    #[must_use]
     pub fn programs(&self) -> &[PassProgram] {
         &self.programs.list
     }
@@ -247,7 +242,6 @@ impl CardSolver {
 
     /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with
     /// four patches per texel. An iteration changes which textures these are.
-    #[must_use]
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()
     }

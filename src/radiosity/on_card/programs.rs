@@ -26,7 +26,6 @@ impl PassProgram {
     }
 
     /// The number of its instructions.
-    #[must_use]
     pub fn instructions(&self) -> usize {
         self.checked.instructions.len()
     }

@@ -49,7 +49,6 @@ pub struct CardSolution {
 
 impl CardSolution {
     /// How many iterations it took.
-    #[must_use]
     pub fn iterations(&self) -> u32 {
         self.history.last().map_or(0, |last| last.0)
     }
@@ -101,7 +100,6 @@ impl CardSolver {
 }
 
 /// Radiosities read back from a card, as the host's solvers have them.
-#[must_use]
 pub fn to_f64(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
 }

@@ -45,7 +45,6 @@ pub struct Solution {
 
 impl Solution {
     /// How many iterations it took.
-    #[must_use]
     pub fn iterations(&self) -> usize {
         self.history.len() - 1
     }
@@ -53,32 +52,20 @@ impl Solution {
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SolveError {
     /// Not one element per row.
     #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
-    Count {
-        /// What there is too much or too little of.
-        what: &'static str,
-        /// Rows of the matrix.
-        rows: usize,
-        /// Elements found.
-        found: usize,
-    },
+    Count { what: &'static str, rows: usize, found: usize },
     /// A relaxation factor for which SOR cannot converge.
     #[error("expected a relaxation factor above 0 and below 2, found {0}")]
     Relaxation(f64),
     /// A zero on the diagonal.
     #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
-    Diagonal {
-        /// The row.
-        row: usize,
-    },
+    Diagonal { row: usize },
     /// The iteration diverges, or the input holds NaN or infinity.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
-    Diverged {
-        /// Iterations done.
-        iterations: usize,
-    },
+    Diverged { iterations: usize },
     /// No inverse.
     #[error(transparent)]
     Singular(#[from] Singular),
@@ -114,13 +101,11 @@ impl IterationHistory {
 }
 
 /// The mean square; 0 for no values.
-#[must_use]
 pub fn mean_square(values: &[f64]) -> f64 {
     crate::linalg::dot(values, values) / values.len().max(1) as f64
 }
 
 /// The residual, E - M B.
-#[must_use]
 pub fn residual(matrix: &Matrix, right_hand_side: &[f64], radiosity: &[f64]) -> Vec<f64> {
     matrix.times(radiosity).iter().zip(right_hand_side).map(|(mb, e)| e - mb).collect()
 }

@@ -215,13 +215,8 @@ fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
         }
         for room in 0..9 {
             let place = house.to(4.0 * f64::from(room) + 2.0, OUTER, 0.0);
-            furnish(
-                parts,
-                place,
-                [if room == 4 { 2 } else { 1 }, u32::from([1, 3, 4, 6, 7].contains(&room))],
-                palette,
-                chance,
-            );
+            let desks = if room == 4 { 2 } else { 1 };
+            furnish(parts, place, [desks, u32::from([1, 3, 4, 6, 7].contains(&room))], palette, chance);
         }
     }
 }
@@ -254,22 +249,10 @@ fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
         let doors: Vec<Opening> =
             [1.2, 7.6, 11.4, 17.6].map(|left| Opening::Door { left, open: ajar(chance) }).to_vec();
         wall(parts, house.to(x, y, 0.0), [long, INNER], &doors, shell, shell.wall);
-        wall(
-            parts,
-            house.to(x + INNER, y + INNER, 0.0).facing(90.0),
-            [deep - 2.0 * INNER, INNER],
-            &[],
-            shell,
-            shell.wall,
-        );
-        wall(
-            parts,
-            house.to(x + HALL, y + INNER, 0.0).facing(90.0),
-            [deep - 2.0 * INNER, INNER],
-            &[],
-            shell,
-            shell.wall,
-        );
+        for left in [x + INNER, x + HALL] {
+            let place = house.to(left, y + INNER, 0.0).facing(90.0);
+            wall(parts, place, [deep - 2.0 * INNER, INNER], &[], shell, shell.wall);
+        }
         meeting(parts, house.to(x + 3.4, y + deep / 2.0, 0.0), palette, chance);
         for shelf in 0..3 {
             cupboard(parts, house.to(x + 7.6 + 1.3 * f64::from(shelf), y + 3.2, 0.0), palette);
@@ -324,12 +307,8 @@ fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, [-0.22, -0.24, 0.55], [0.22, -0.2, 0.9], palette.cloth);
     for (x, y, high) in [(-0.2, -0.22, 0.55), (0.17, -0.22, 0.55), (-0.2, 0.18, 0.42), (0.17, 0.18, 0.42)] {
         // The hind legs carry the back.
-        parts.block(
-            place,
-            [x, y - if high > 0.5 { 0.035 } else { 0.0 }, 0.0],
-            [x + 0.03, y + 0.015, high],
-            palette.metal,
-        );
+        let back = if high > 0.5 { 0.035 } else { 0.0 };
+        parts.block(place, [x, y - back, 0.0], [x + 0.03, y + 0.015, high], palette.metal);
     }
 }
 

@@ -58,7 +58,6 @@ impl RoomBuilder {
 }
 
 /// The closed unit cube, a material per wall in the order of [`WALLS`].
-#[must_use]
 pub fn cube(materials: [Material; 6]) -> Scene {
     let mut room = RoomBuilder { materials: materials.into(), ..RoomBuilder::default() };
     room.walls([1.0; 3], [0, 1, 2, 3, 4, 5].map(Some));
@@ -67,7 +66,6 @@ pub fn cube(materials: [Material; 6]) -> Scene {
 
 /// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1
 /// everywhere.
-#[must_use]
 pub fn furnace(reflectance: f32) -> Scene {
     let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
     let surface = Surface::Diffuse { albedo: [reflectance; 3] };
@@ -85,7 +83,6 @@ pub struct CornellBox {
 
 /// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling,
 /// blocks as published.
-#[must_use]
 pub fn cornell(what: CornellBox) -> Scene {
     let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
     let painted =

@@ -7,21 +7,12 @@ use crate::scene::{Color, Scene};
 
 /// What becomes of the patches of a material.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum Change {
     /// Another radiance.
-    Emission {
-        /// The material's name.
-        material: String,
-        /// The new radiance.
-        radiance: Color,
-    },
+    Emission { material: String, radiance: Color },
     /// Another reflectance, in [0, 1).
-    Reflectance {
-        /// The material's name.
-        material: String,
-        /// The new reflectance.
-        reflectance: Color,
-    },
+    Reflectance { material: String, reflectance: Color },
 }
 
 /// A solution after changes.

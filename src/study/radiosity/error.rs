@@ -16,6 +16,7 @@ use crate::report::ReportError;
 
 /// Why the study has no findings.
 #[derive(Debug, Error, Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RadiosityError {
     /// The scene makes no patches.
     #[error(transparent)]
@@ -36,12 +37,7 @@ pub enum RadiosityError {
     /// A material that is to change is not there.
     #[error("the scene has no material `{name}`")]
     #[diagnostic(code(radiosity::material), help("its materials are {}", known.join(", ")))]
-    NoMaterial {
-        /// The name given.
-        name: String,
-        /// The names that there are.
-        known: Vec<String>,
-    },
+    NoMaterial { name: String, known: Vec<String> },
     /// A solver of the host.
     #[error(transparent)]
     #[diagnostic(code(radiosity::solve))]

@@ -53,9 +53,6 @@ impl Study for Parameters {
 }
 
 /// Solves by every method, draws the pictures, sweeps.
-///
-/// # Errors
-/// [`RadiosityError`].
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, RadiosityError> {
     let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
     // Before the form factors, which take long.

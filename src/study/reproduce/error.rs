@@ -8,25 +8,16 @@ use crate::report::ReportError;
 
 /// Why a figure could not be worked out.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReproduceError {
     /// No such entry.
     #[error("expected the name of an entry ({known}), found `{found}`")]
     #[diagnostic(code(reproduce::unknown), help("`crossbar reproduce --list` says what each is"))]
-    Unknown {
-        /// The name given.
-        found: String,
-        /// The names of all entries.
-        known: String,
-    },
+    Unknown { found: String, known: String },
     /// A profile lacks a figure that the paper's cost equation needs.
     #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
     #[diagnostic(code(reproduce::no_figure))]
-    NoFigure {
-        /// The device.
-        device: String,
-        /// The figure's path.
-        figure: &'static str,
-    },
+    NoFigure { device: String, figure: &'static str },
     /// A device cannot be had.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -46,12 +37,7 @@ pub enum ReproduceError {
     /// A machine refuses a draw of an entry, or a program of an entry does not assemble.
     #[error("a run of this entry failed on `{device}`: {reason}")]
     #[diagnostic(code(reproduce::run), help("this is a bug: please report it with the command line"))]
-    Run {
-        /// The device.
-        device: String,
-        /// What was said.
-        reason: String,
-    },
+    Run { device: String, reason: String },
 }
 
 /// A figure that an entry cannot do without.

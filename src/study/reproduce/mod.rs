@@ -31,9 +31,6 @@ use shared::Shared;
 
 /// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the
 /// name of each.
-///
-/// # Errors
-/// [`ReproduceError`].
 pub fn reproduce(entries: &[ReproduceEntry], progress: &mut ProgressFn<'_>) -> Result<Reproduced, ReproduceError> {
     let shared = Shared::default();
     let work = |(done, entry): (u64, &ReproduceEntry)| {

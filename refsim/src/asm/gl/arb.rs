@@ -9,7 +9,7 @@ use super::operand::{self, Mnemonic};
 use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
-    Destination, FIRST_ENVIRONMENT, FragmentPart, Instruction, Mask, Modifier, Opcode, OpcodeClass, Program, Register,
+    Destination, FIRST_ENVIRONMENT, FragmentPart, Instruction, Modifier, Opcode, OpcodeClass, Program, Register,
     RegisterFile, Source, Span, Swizzle, Version,
 };
 
@@ -95,7 +95,7 @@ impl<'a> Parser<'a> {
             _ => "other options change what a program means",
         };
         let expected = format!("one of {}", HINTS.join(", "));
-        Err(SyntaxError::new(ErrorKind::UnknownOption, token.span, expected, token.found(), help))
+        Err(token.error(ErrorKind::UnknownOption, expected, help))
     }
 
     /// A name that means nothing yet.
@@ -106,7 +106,7 @@ impl<'a> Parser<'a> {
             return Ok(token.text);
         }
         let help = "names start with a letter and stand for one thing";
-        Err(SyntaxError::new(ErrorKind::Name, token.span, "a name of its own", token.found(), help))
+        Err(token.error(ErrorKind::Name, "a name of its own", help))
     }
 
     fn temporaries(&mut self) -> Parsed<()> {
@@ -146,7 +146,7 @@ impl<'a> Parser<'a> {
         let info = opcode.info();
         let Some(count) = info.source_count(Version::ArbFp1_0) else {
             let help = "it belongs to !!FP1.0";
-            return Err(SyntaxError::new(ErrorKind::UnknownOpcode, token.span, "an instruction", token.found(), help));
+            return Err(token.error(ErrorKind::UnknownOpcode, "an instruction", help));
         };
         let mut fragment = FragmentPart::default();
         let mut sources = Vec::new();
@@ -208,7 +208,7 @@ impl<'a> Parser<'a> {
                 _ => {
                     let help = "each component of SWZ is chosen on its own";
                     let expected = "x, y, z, w, 0 or 1";
-                    return Err(SyntaxError::new(ErrorKind::Swizzle, token.span, expected, token.found(), help));
+                    return Err(token.error(ErrorKind::Swizzle, expected, help));
                 }
             };
         }
@@ -226,13 +226,7 @@ impl<'a> Parser<'a> {
             }
             _ => return Err(unknown(token, "a temporary or result.*", "declare temporaries with TEMP")),
         };
-        let mut mask = operand::mask(&mut self.cursor)?;
-        if register.file == RegisterFile::DepthOut && mask.contains(2) {
-            // Depth is the third component, whatever else the mask names.
-            mask = Mask(0b0100);
-        }
-        let span = Span::new(token.span.start, self.cursor.last_end());
-        Ok(Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span })
+        operand::destination(&mut self.cursor, register, token.span.start, saturate)
     }
 
     fn output(&mut self) -> Parsed<Register> {
@@ -324,5 +318,5 @@ fn is_written(file: RegisterFile) -> bool {
 }
 
 pub(super) fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
-    SyntaxError::new(ErrorKind::UnknownRegister, token.span, expected, token.found(), help)
+    token.error(ErrorKind::UnknownRegister, expected, help)
 }

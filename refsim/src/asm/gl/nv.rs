@@ -8,8 +8,8 @@ use super::operand::{self, Mnemonic};
 use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
-    Condition, ConditionTest, Destination, DestinationRule, FragmentPart, Instruction, Mask, Modifier, Opcode,
-    OpcodeClass, Program, Register, RegisterFile, Source, Span, Swizzle, Version,
+    Condition, ConditionTest, Destination, DestinationRule, FragmentPart, Instruction, Modifier, Opcode, OpcodeClass,
+    Program, Register, RegisterFile, Source, Span, Swizzle, Version,
 };
 
 /// The highest number that can be written for a register; what there is is the checker's business.
@@ -63,7 +63,7 @@ impl<'a> Parser<'a> {
         if name.kind != TokenKind::Word || self.names.contains_key(name.text) || reserved(name.text) {
             let (expected, help) =
                 ("a name of its own", "names start with a letter, stand for one thing, and are no register");
-            return Err(SyntaxError::new(ErrorKind::Name, name.span, expected, name.found(), help));
+            return Err(name.error(ErrorKind::Name, expected, help));
         }
         let value = match self.cursor.accept_mark("=") {
             true => operand::constant(&mut self.cursor)?,
@@ -128,11 +128,9 @@ impl<'a> Parser<'a> {
         let token = self.cursor.next();
         let Some(test) = ConditionTest::from_name(token.text) else {
             let names = ConditionTest::ALL.map(ConditionTest::name).join(", ");
-            return Err(SyntaxError::new(
+            return Err(token.error(
                 ErrorKind::Predicate,
-                token.span,
                 format!("one of {names}"),
-                token.found(),
                 "a condition asks of the condition codes: `(GT.x)`",
             ));
         };
@@ -147,21 +145,14 @@ impl<'a> Parser<'a> {
             "HC" => Register::new(RegisterFile::HalfDiscard, 0),
             "o" => self.output()?,
             _ => temporary(token).unwrap_or_else(|| {
-                Err(SyntaxError::new(
+                Err(token.error(
                     ErrorKind::UnknownRegister,
-                    token.span,
                     "R#, H#, RC, HC or o[...]",
-                    token.found(),
                     "the first operand is where the result goes",
                 ))
             })?,
         };
-        let mut mask = operand::mask(&mut self.cursor)?;
-        if register.file == RegisterFile::DepthOut && mask.contains(2) {
-            // Depth is the third component, whatever else the mask names.
-            mask = Mask(0b0100);
-        }
-        let span = Span::new(token.span.start, self.cursor.last_end());
+        let place = operand::destination(&mut self.cursor, register, token.span.start, saturate)?;
         let condition = match self.cursor.accept_mark("(") {
             true => {
                 let condition = self.condition()?;
@@ -170,7 +161,6 @@ impl<'a> Parser<'a> {
             }
             false => None,
         };
-        let place = Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span };
         Ok((place, condition))
     }
 
@@ -271,7 +261,7 @@ fn plain(register: Register, span: Span) -> Source {
 }
 
 fn unknown(token: Token<'_>, expected: &str, help: &str) -> SyntaxError {
-    SyntaxError::new(ErrorKind::UnknownRegister, token.span, expected, token.found(), help)
+    token.error(ErrorKind::UnknownRegister, expected, help)
 }
 
 fn temporary(token: Token<'_>) -> Option<Parsed<Register>> {

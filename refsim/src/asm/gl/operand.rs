@@ -2,10 +2,10 @@
 //! instructions.
 
 use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote};
-use super::super::number;
+use super::super::{letters, number};
 use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Token, TokenKind};
-use crate::isa::{Mask, Precision, Spelling, Swizzle, TextureTarget};
+use crate::isa::{Destination, Mask, Precision, Register, RegisterFile, Span, Spelling, Swizzle, TextureTarget};
 
 /// Reads a program's statements and its `END`. Errors are recorded, and reading goes on with the next statement.
 pub(super) fn statements<'a, P>(
@@ -17,7 +17,7 @@ pub(super) fn statements<'a, P>(
         let token = cursor(parser).peek();
         if token.kind == TokenKind::End {
             let help = "close the program with `END`";
-            cursor(parser).record(SyntaxError::new(ErrorKind::MissingEnd, token.span, "`END`", token.found(), help));
+            cursor(parser).record(token.error(ErrorKind::MissingEnd, "`END`", help));
             break;
         }
         if token.text == "END" {
@@ -31,32 +31,40 @@ pub(super) fn statements<'a, P>(
     cursor(parser).finish()
 }
 
-/// Sets of letters that name components.
-const LETTERS: [&str; 2] = ["xyzw", "rgba"];
-
-fn component(set: &str, letter: char) -> Option<u8> {
-    set.find(letter).map(|i| i as u8)
+/// The components that letters name, which OpenGL writes small.
+fn components(letters: &str) -> Option<Vec<u8>> {
+    letters::components(letters).filter(|_| letters.bytes().all(|letter| letter.is_ascii_lowercase()))
 }
 
 /// `.xyz` after a destination; nothing means all.
-pub(super) fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
+fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
     if !cursor.accept_mark(".") {
         return Ok(Mask::ALL);
     }
     let token = cursor.next();
-    for set in LETTERS {
-        let all: Option<Vec<u8>> = token.text.chars().map(|c| component(set, c)).collect();
-        if let Some(all) = all.filter(|all| !all.is_empty() && all.is_sorted_by(|a, b| a < b)) {
-            return Ok(Mask(all.iter().fold(0, |mask, c| mask | 1 << c)));
-        }
+    components(token.text).and_then(|all| letters::mask_of(&all)).ok_or_else(|| {
+        token.error(
+            ErrorKind::Mask,
+            "components in the order xyzw, each once",
+            "write `.x`, `.xyz` or `.yw`, for example",
+        )
+    })
+}
+
+/// A destination whose register, which begins at `start`, has been read.
+pub(super) fn destination(
+    cursor: &mut Cursor<'_>,
+    register: Register,
+    start: u32,
+    saturate: bool,
+) -> Parsed<Destination> {
+    let mut mask = mask(cursor)?;
+    if register.file == RegisterFile::DepthOut && mask.contains(2) {
+        // Depth is the third component, whatever else the mask names.
+        mask = Mask(0b0100);
     }
-    Err(SyntaxError::new(
-        ErrorKind::Mask,
-        token.span,
-        "components in the order xyzw, each once",
-        token.found(),
-        "write `.x`, `.xyz` or `.yw`, for example",
-    ))
+    let span = Span::new(start, cursor.last_end());
+    Ok(Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span })
 }
 
 /// `.x` or `.xyzw` after a source; nothing means no change.
@@ -65,21 +73,11 @@ pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
         return Ok(Swizzle::IDENTITY);
     }
     let token = cursor.next();
-    for set in LETTERS {
-        let all: Option<Vec<u8>> = token.text.chars().map(|c| component(set, c)).collect();
-        match all.as_deref() {
-            Some([one]) => return Ok(Swizzle::replicate(*one)),
-            Some(&[x, y, z, w]) => return Ok(Swizzle([x, y, z, w])),
-            _ => {}
-        }
+    match components(token.text).as_deref() {
+        Some([one]) => Ok(Swizzle::replicate(*one)),
+        Some(&[x, y, z, w]) => Ok(Swizzle([x, y, z, w])),
+        _ => Err(token.error(ErrorKind::Swizzle, "one or four of xyzw", "write `.x` or `.xxyz`, for example")),
     }
-    Err(SyntaxError::new(
-        ErrorKind::Swizzle,
-        token.span,
-        "one or four of xyzw",
-        token.found(),
-        "write `.x` or `.xxyz`, for example",
-    ))
 }
 
 /// A whole number up to `most`.
@@ -90,13 +88,7 @@ pub(super) fn index(cursor: &mut Cursor<'_>, most: u16) -> Parsed<u16> {
 }
 
 fn register_number(token: Token<'_>, most: u16) -> SyntaxError {
-    SyntaxError::new(
-        ErrorKind::RegisterNumber,
-        token.span,
-        format!("a number from 0 to {most}"),
-        token.found(),
-        "count from 0",
-    )
+    token.error(ErrorKind::RegisterNumber, format!("a number from 0 to {most}"), "count from 0")
 }
 
 /// The number behind a one-letter or longer prefix, `R12` for example; `None` if the word is something else.
@@ -116,13 +108,7 @@ pub(super) fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
     }
     let token = cursor.peek();
     if token.kind != TokenKind::Number {
-        return Err(SyntaxError::new(
-            ErrorKind::MalformedValue,
-            token.span,
-            "a number",
-            token.found(),
-            "write `1`, `-0.5` or `2.5e-3`",
-        ));
+        return Err(token.error(ErrorKind::MalformedValue, "a number", "write `1`, `-0.5` or `2.5e-3`"));
     }
     cursor.next();
     let bits = number::float(token.text, token.span)?;
@@ -150,11 +136,9 @@ pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     let token = cursor.next();
     TextureTarget::from_name(token.text).ok_or_else(|| {
         let names = TextureTarget::ALL.map(TextureTarget::name).join(", ");
-        SyntaxError::new(
+        token.error(
             ErrorKind::UnknownUsage,
-            token.span,
             format!("one of {names}"),
-            token.found(),
             "the kind of texture stands last, after its image unit",
         )
     })

@@ -13,6 +13,7 @@
 //! a call that leads backward is passed over.
 
 mod alu;
+mod depth_and_kill;
 mod flow;
 mod fragment;
 mod fragment_state;

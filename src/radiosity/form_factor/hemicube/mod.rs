@@ -38,7 +38,6 @@ impl Hemicube {
     ///
     /// # Panics
     /// Never: the device is a built-in one.
-    #[must_use]
     pub fn new(resolution: u32) -> Self {
         Self { resolution, device: Arc::new(Profile::named("nv35").expect("a built-in device")) }
     }

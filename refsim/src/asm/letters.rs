@@ -1,0 +1,58 @@
+//! The letters behind a register's point.
+
+use super::error::{ErrorKind, Parsed, SyntaxError, quote};
+use crate::isa::{Mask, Span, Swizzle};
+
+/// Reads a swizzle's letters: one to four of `xyzw` or of `rgba`, the last repeated.
+pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
+    let bad = || {
+        SyntaxError::new(
+            ErrorKind::Swizzle,
+            span,
+            "one to four letters of xyzw or of rgba",
+            quote(letters),
+            "write `.x`, `.xyz` or `.wzyx`, for example; the two sets of letters don't mix",
+        )
+    };
+    let components = components(letters).ok_or_else(bad)?;
+    let last = *components.last().ok_or_else(bad)?;
+    let mut lanes = [last; 4];
+    lanes[..components.len()].copy_from_slice(&components);
+    Ok(Swizzle(lanes))
+}
+
+/// The component numbers of one to four letters of one set.
+pub(super) fn components(letters: &str) -> Option<Vec<u8>> {
+    if letters.is_empty() || letters.len() > 4 {
+        return None;
+    }
+    ["xyzw", "rgba"].iter().find_map(|set| {
+        letters
+            .bytes()
+            .map(|letter| set.bytes().position(|l| l == letter.to_ascii_lowercase()))
+            .map(|position| position.map(|p| p as u8))
+            .collect()
+    })
+}
+
+/// Reads the letters of a mask: some of `xyzw` or of `rgba`, in this order.
+pub(super) fn mask(letters: &str, span: Span) -> Parsed<Mask> {
+    let bad = |help: &str| {
+        SyntaxError::new(
+            ErrorKind::Mask,
+            span,
+            "letters of xyzw or of rgba in this order, each once at most",
+            quote(letters),
+            help,
+        )
+    };
+    let Some(components) = components(letters) else {
+        return Err(bad("write `.x`, `.rgb` or `.xyw`, for example; the two sets of letters don't mix"));
+    };
+    mask_of(&components).ok_or_else(|| bad("a destination takes a mask, no swizzle: put the swizzle on the sources"))
+}
+
+/// The mask of components, which must rise.
+pub(super) fn mask_of(components: &[u8]) -> Option<Mask> {
+    components.is_sorted_by(|a, b| a < b).then(|| Mask(components.iter().fold(0, |bits, c| bits | 1 << c)))
+}

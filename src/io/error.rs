@@ -1,0 +1,99 @@
+//! Why a file cannot be used.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::read_limited;
+use crate::geom::MeshError;
+use crate::scene::SceneError;
+
+/// Why there are no bytes of a file.
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum ReadError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the {what} {}", path.display())]
+    Unreadable { what: &'static str, path: PathBuf, source: io::Error },
+    /// The file is longer than what is read.
+    #[error("{}: expected a {what} of at most {limit} bytes, found more", path.display())]
+    TooLong { what: &'static str, path: PathBuf, limit: u64 },
+}
+
+/// The whole of a file, which is a `what`, of at most `limit` bytes.
+pub(super) fn read(path: &Path, what: &'static str, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let read = read_limited(path, limit).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
+    read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit })
+}
+
+/// A file and, where something is wrong in one line of it, the line, from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilePlace {
+    /// The file.
+    pub path: PathBuf,
+    /// The line.
+    pub line: Option<usize>,
+}
+
+impl FilePlace {
+    /// A line of a file.
+    pub(super) fn line(path: &Path, line: usize) -> Self {
+        Self { path: path.into(), line: Some(line) }
+    }
+}
+
+impl From<&Path> for FilePlace {
+    fn from(path: &Path) -> Self {
+        Self { path: path.into(), line: None }
+    }
+}
+
+impl fmt::Display for FilePlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        self.line.map_or(Ok(()), |line| write!(f, ":{line}"))
+    }
+}
+
+/// Why a file is no mesh, no scene or no material library.
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum ModelError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// A line, or the whole file, is not what belongs there.
+    #[error("{place}: expected {expected}, found {found}")]
+    Syntax { place: FilePlace, expected: Cow<'static, str>, found: String },
+    /// A face of an OBJ names a vertex, a texture coordinate or a normal that the file does not have.
+    #[error("{place}: {what} {index}, expected 1 to {count} (or -1 to -{count})")]
+    IndexOutOfRange { place: FilePlace, what: &'static str, index: i64, count: usize },
+    /// An element of a PLY's binary data is not what the header says.
+    #[error("{place}: {element} {index} (counted from 0): expected {expected}, found {found}")]
+    Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: &'static str },
+    /// A material library gives a name twice.
+    #[error("{0}: expected each material once, found a second `newmtl {1}`; rename one of the two")]
+    SecondMaterial(FilePlace, String),
+    /// A material's figures do not go together. The place is its `newmtl`.
+    #[error("{place}: material {name}: expected {expected}, found {found}")]
+    Material { place: FilePlace, name: String, expected: &'static str, found: String },
+    /// A material library cannot be read.
+    #[error(
+        "{place}: cannot read the material library {}; put it beside the model, or take the line out",
+        library.display()
+    )]
+    Library { place: FilePlace, library: PathBuf, source: io::Error },
+    /// tobj refuses what our pass has accepted.
+    #[error("{0}: {1}")]
+    Loader(FilePlace, tobj::LoadError),
+    /// The parts do not make a mesh.
+    #[error("{0}: {1}")]
+    Mesh(FilePlace, MeshError),
+    /// The parts do not make a scene.
+    #[error("{0}: {1}")]
+    Scene(FilePlace, SceneError),
+}
