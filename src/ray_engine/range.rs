@@ -76,7 +76,11 @@ impl Range {
 
     /// Up to where numbers may go that the card rounds once or twice: coordinates, offsets, edges, normals.
     pub(super) fn of_vectors(&self) -> f64 {
-        self.room(4.0 * self.step)
+        match self.kind {
+            // No edge scale brings the normal back, which the vertex program makes in single precision too.
+            RangeKind::Wide => 4.0,
+            _ => self.room(4.0 * self.step),
+        }
     }
 
     /// Up to where ao x d may go, before rounding.

@@ -50,7 +50,10 @@ const DEVICES: [(&str, &[(&str, &str)]); 18] = [
 fn profile((name, switches): (&str, &[(&str, &str)])) -> Profile {
     let mut profile = Profile::named(name).expect("a profile");
     for (switch, value) in switches {
-        profile.set_switch(switch, value).expect("a switch");
+        match *switch {
+            "format" => profile.set_format(value.parse().expect("a format")),
+            _ => profile.set_switch(switch, value).expect("a switch"),
+        }
     }
     profile
 }
@@ -99,6 +102,25 @@ fn no_hit_in_no_doubt_is_lost_to_the_range_of_a_format() {
         // A law about nothing would hold.
         let rays = scenes() * scene::RAYS as u64;
         assert!(hits * 160 > rays && misses * 20 > rays, "{device:?}: {hits} hits, {misses} misses of {rays}");
+    }
+}
+
+/// Directions in 16 bits are no bound for single rays, but range that is lost takes most hits with it.
+#[test]
+fn floats_keep_their_range_in_the_programs_for_fixed_point() {
+    for format in ["e5m10", "e7m16", "e8m16", "e8m23"] {
+        let crossbar = crossbar(("r200", &[("format", format)]));
+        let [mut hits, mut right] = [0_u64; 2];
+        for scene in (0..scenes()).map(Scene::new) {
+            let found = crossbar.intersect(&scene.mesh, &scene.rays, scene.sides).expect("the card works").hits;
+            for (ray, hit) in scene.rays.rays().iter().zip(found) {
+                if let Some(truth) = exact::nearest(&scene.mesh, ray, scene.sides) {
+                    hits += 1;
+                    right += u64::from(hit.is_some_and(|hit| hit.triangle == truth.triangle));
+                }
+            }
+        }
+        assert!(hits * 9 < right * 10, "{format}: {right} of {hits} hits");
     }
 }
 
