@@ -49,7 +49,7 @@ const CROSSBAR: Law = (
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
-        ("oracle", &["geom", "compare", "linalg"]),
+        ("oracle", &["geom", "compare"]),
         ("case", &["picture", "io", "geom", "scene", "report", "shader", "compare"]),
         ("radiosity", &["card", "tracer", "elementary", "picture", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
