@@ -35,6 +35,7 @@ mod tests {
         assert_eq!(f32_ulps(f32::NAN, 1.0), None);
     }
 
+    #[cfg(feature = "systems")]
     #[test]
     fn steps_are_those_of_the_emulated_format() {
         use crate::compare::{Number, ulps};
