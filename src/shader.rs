@@ -37,6 +37,7 @@ pub struct SourceLine {
 }
 
 /// Why a shader cannot be used.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum ShaderError {
     /// The file cannot be read.

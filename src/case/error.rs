@@ -16,6 +16,7 @@ use crate::{
 pub(super) type Source = Arc<SourceText>;
 
 /// Why a case cannot be run.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum CaseError {
     /// The file is no TOML, or something in it is not what the schema says.

@@ -9,6 +9,7 @@ use super::Matrix;
 const MAX_ITERATIONS: usize = 100;
 
 /// Why a matrix has no such factorisation.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum FactorError {
     /// An element that is infinite or no number.

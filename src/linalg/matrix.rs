@@ -23,6 +23,7 @@ pub struct Matrix {
 }
 
 /// Why a matrix cannot be made.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum MatrixError {
     /// Too many elements.

@@ -20,6 +20,7 @@ pub enum PictureFormat {
 }
 
 /// A picture that cannot be made, written or read.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum PictureError {
     /// The number of samples does not fit the picture's size.

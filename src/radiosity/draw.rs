@@ -14,6 +14,7 @@ use crate::scene::Camera;
 const EDGE_ON: f64 = 1e-9;
 
 /// Patches cannot be drawn.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DrawError {
     /// The card refused.

@@ -11,6 +11,7 @@ use crate::geom::Hit;
 pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 
 /// A card cannot intersect rays with triangles.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum EngineError {
     /// The card's shader versions have no intersection program.

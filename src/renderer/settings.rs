@@ -86,6 +86,7 @@ impl Settings {
 }
 
 /// Why there is no picture.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 pub enum RenderError {
     /// The ray caster failed.

@@ -30,6 +30,7 @@ pub struct Camera {
 }
 
 /// Why there is no such camera.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum CameraError {
     /// A figure is not finite.

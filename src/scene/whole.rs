@@ -40,6 +40,7 @@ impl View {
 }
 
 /// Why parts make no scene.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SceneError {
     /// Not one material and one set of normals per triangle.

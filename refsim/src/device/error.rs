@@ -3,6 +3,7 @@
 use crate::num::FormatError;
 
 /// A device, switch or value that does not exist.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum DeviceError {
     /// No profile has this name.

@@ -1,6 +1,7 @@
 //! Errors of the timing model.
 
 /// A question that the model has no answer to.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TimingError {
     /// The device does not state a figure that the model needs.

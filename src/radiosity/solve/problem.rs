@@ -52,6 +52,7 @@ impl Solution {
 }
 
 /// Why there is no solution.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum SolveError {
     /// Not one element per row.

@@ -7,6 +7,7 @@ use crate::ray_engine::EngineError;
 use crate::report::ReportError;
 
 /// Why a figure could not be worked out.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum ReproduceError {
     /// No such entry.
