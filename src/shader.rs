@@ -37,6 +37,7 @@ pub struct SourceLine {
 }
 
 /// Why a shader cannot be used.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ShaderError {

@@ -7,15 +7,14 @@
 //! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment
 //! of a crossbar draw: a ray-triangle test.
 
-mod measurement;
 mod runs;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use measurement::ModelledTime;
 use refsim::device::Profile;
 use refsim::event::{Event, ReadBackMode};
-use refsim::timing::replay::{Options, replay};
+use refsim::timing::replay::Options;
 use refsim::timing::{Level, Model, Picoseconds};
+use refsim_criterion::ModelledTime;
 use runs::Batches;
 
 const CARDS: [&str; 2] = ["nv20", "nv25"];
@@ -29,7 +28,7 @@ fn model(device: &str) -> Model {
 /// How long a log takes.
 fn makespan(log: &[Event], model: &Model, read_back: Option<ReadBackMode>) -> Picoseconds {
     let options = Options { read_back, double_buffered: true, ..Options::default() };
-    replay(log, model, &options).expect("the log can be replayed").timeline.makespan()
+    ModelledTime::of(log, model, &options).expect("the log can be replayed")
 }
 
 type Group<'a> = criterion::BenchmarkGroup<'a, ModelledTime>;
@@ -38,7 +37,7 @@ fn measure(group: &mut Group<'_>, id: BenchmarkId, elements: u64, log: &[Event],
     group.throughput(Throughput::Elements(elements));
     group.bench_function(id, |bencher| {
         // Replayed every time, so that criterion's idea of how often it can is right.
-        bencher.iter_custom(|times| (0..times).map(|_| makespan(log, model, None).0 as f64).sum());
+        bencher.iter_custom(|times| (0..times).map(|_| makespan(log, model, None)).sum());
     });
 }
 
@@ -95,14 +94,7 @@ fn cache(criterion: &mut Criterion<ModelledTime>) {
 }
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .with_measurement(ModelledTime)
-        // Every sample is the same one.
-        .sample_size(10)
-        .nresamples(1000)
-        .warm_up_time(std::time::Duration::from_millis(1))
-        .measurement_time(std::time::Duration::from_millis(10))
-        .configure_from_args();
+    let mut criterion = ModelledTime::criterion();
     grid(&mut criterion);
     widths(&mut criterion);
     asynchrony(&mut criterion);

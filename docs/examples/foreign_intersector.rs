@@ -136,14 +136,14 @@ fn wrong(report: &Report) -> usize {
 pub(crate) fn teapot_table() -> String {
     let mesh = teapot(6).expect("a teapot");
     let rays = hard_rays(&mesh, 2000, 1);
-    let mut out = String::from("| missed, wrong of 2,000 rays |");
+    let mut out = String::from("| holes, wrong of 2,000 rays |");
     LIBRARIES.iter().for_each(|(name, _)| write!(out, " {name} |").expect("text"));
     out += "\n|---|---|---|---|---|\n";
     let oracles = LIBRARIES.map(|(_, sides)| Oracle::new(&mesh, sides, Tolerance::ANY_T));
     let mut asked = LIBRARIES.map(|(name, _)| intersector(name, &mesh));
     for aim in Aim::ALL {
         let rays: Vec<Ray> = rays.iter().filter(|hard| hard.aim == aim).map(|hard| hard.ray).collect();
-        write!(out, "| {} |", format!("{aim:?}").to_lowercase()).expect("text");
+        write!(out, "| {aim} |").expect("text");
         for (oracle, intersector) in oracles.iter().zip(&mut asked) {
             let report = oracle.examine(&rays, intersector);
             write!(out, " {}, {} |", report.leaks(), wrong(&report)).expect("text");
@@ -197,10 +197,10 @@ pub(crate) fn wall_rays(free: [bool; 2], minus: [bool; 2]) -> Vec<Ray> {
     rays
 }
 
-/// Surfaces missed among the walls, by where the ray runs and the signs of its zeros.
+/// Holes seen among the walls, by where the ray runs and the signs of its zeros.
 pub(crate) fn walls_table() -> String {
     let mesh = walls();
-    let mut out = String::from("| missed of 1,296 rays | zeros |");
+    let mut out = String::from("| holes in 1,296 rays | zeros |");
     LIBRARIES.iter().for_each(|(name, _)| write!(out, " {name} |").expect("text"));
     out += "\n|---|---|---|---|---|---|\n";
     let oracles = LIBRARIES.map(|(_, sides)| Oracle::new(&mesh, sides, Tolerance::ANY_T));

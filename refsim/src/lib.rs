@@ -17,7 +17,7 @@
 //! ```
 //! use refsim::exec::Constants;
 //! use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-//! use refsim::raster::{PixelCenter, Primitive, Vertex};
+//! use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
 //! use refsim::texture::TexelFormat;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -26,12 +26,8 @@
 //!
 //! let mut card = Machine::new(r200, ExecutorKind::Scalar);
 //! let target = card.create_target(TexelFormat::Bgra8, 4, 4)?;
-//! let corner = |x: f32, y: f32| Vertex {
-//!     position: [x, y, 0.0, 1.0].map(f32::to_bits),
-//!     colors: [[0.25, 0.5, 0.75, 1.0].map(f32::to_bits); 2],
-//!     ..Vertex::default()
-//! };
-//! let quad = [corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
+//! let mut quad = full_screen_quad(|u, v| [[u, v, 0.0, 1.0]]);
+//! quad.iter_mut().for_each(|vertex| vertex.colors[0] = [0.25, 0.5, 0.75, 1.0].map(f32::to_bits));
 //! let constants = Constants::default();
 //! let vertices = VertexSource::Transformed(&quad);
 //! let mut call = DrawCall::new(vertices, Primitive::QuadList, &program, &constants, target);
@@ -40,7 +36,7 @@
 //! let events = card.draw(&call)?;
 //! assert_eq!(events.fragments.passed, 16);
 //! // A8R8G8B8: a quarter doubled is 128/255, a half 1, three quarters saturate.
-//! assert_eq!(card.read_back(target)?.raw(0, 0, 2, 2), 0xff80_ffff);
+//! assert_eq!(card.read_back(target)?.pixel(2, 1), Some([128.0 / 255.0, 1.0, 1.0, 1.0]));
 //! # Ok(())
 //! # }
 //! ```

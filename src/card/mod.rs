@@ -19,5 +19,6 @@ pub(crate) use kernel::kernels;
 pub use kernel::{KernelError, KernelText};
 pub use levels::Levels;
 pub use nearest::NearestTarget;
-pub use pass::{FullScreenPass, PingPong, full_screen_quad};
+pub use pass::{FullScreenPass, PingPong};
+pub use refsim::raster::full_screen_quad;
 pub use texels::{Texels, new_target};

@@ -4,7 +4,7 @@ use refsim::event::DrawEvents;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Machine, MachineError, TextureId, VertexSource};
 use refsim::output::WriteMask;
-use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
 use refsim::texture::{SamplerState, TexelFormat};
 
 use super::new_target;
@@ -44,20 +44,6 @@ impl FullScreenPass<'_> {
         call.masks[0] = self.mask;
         machine.draw(&call)
     }
-}
-
-/// A quad over the whole target, in Direct3D's clip space with pixel centers as in OpenGL. `coordinates` gives the
-/// sets of texture coordinates of a corner by its place: (0, 0) at the outer corner of the first texel, (1, 1) at
-/// that of the last.
-pub fn full_screen_quad<const SETS: usize>(coordinates: impl Fn(f32, f32) -> [[f32; 4]; SETS]) -> [Vertex; 4] {
-    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]: [f32; 2]| {
-        let position = [2.0 * u - 1.0, 1.0 - 2.0 * v, 0.0, 1.0];
-        let mut vertex = Vertex { position: position.map(f32::to_bits), ..Vertex::default() };
-        for (slot, set) in vertex.texcoords.iter_mut().zip(coordinates(u, v)) {
-            *slot = set.map(f32::to_bits);
-        }
-        vertex
-    })
 }
 
 /// Two targets that passes write in turn, each pass reading what the one before wrote. Passes count from 0.

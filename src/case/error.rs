@@ -16,6 +16,7 @@ use crate::{
 pub(super) type Source = Arc<SourceText>;
 
 /// Why a case cannot be run.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseError {

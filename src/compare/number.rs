@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use refsim::{
     num::{Format, FormatKind, Unpacked, power_of_two, unpack},
-    texture::{Channel, ChannelClass, ChannelValue, SignedTexelMinimum, decode_channel},
+    texture::{Channel, ChannelClass, SignedTexelMinimum, decode_channel},
 };
 use serde::Serialize;
 
@@ -192,10 +192,7 @@ impl Compared {
 
 /// The value of a channel as a double, ratios rounded once.
 pub(super) fn channel_double(channel: Channel, bits: u32) -> f64 {
-    match decode_channel(channel, bits, SignedTexelMinimum::BelowMinusOne) {
-        ChannelValue::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
-        ChannelValue::Float { format, bits } => Number { format, bits }.double(),
-    }
+    decode_channel(channel, bits, SignedTexelMinimum::BelowMinusOne).to_f64()
 }
 
 /// How many stored values lie between two of a normalised channel.

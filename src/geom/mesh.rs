@@ -19,6 +19,7 @@ pub struct Mesh {
 }
 
 /// Why positions and indices make no mesh.
+#[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MeshError {
@@ -53,6 +54,20 @@ pub enum Contact {
 impl Mesh {
     /// A mesh of positions and corner indices (counted from 0). Triangles keep their order: a triangle's place is its
     /// id. Degenerate triangles are accepted (nothing ever hits them); count them with [`Mesh::degenerate_count`].
+    ///
+    /// ```
+    /// use crossbar::geom::Mesh;
+    ///
+    /// # fn main() -> Result<(), crossbar::geom::MeshError> {
+    /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let square = Mesh::new(corners.clone(), vec![[0, 1, 2], [0, 2, 3]])?;
+    /// assert_eq!((square.len(), square.boundary_edge_count()), (2, 4));
+    ///
+    /// let wrong = Mesh::new(corners, vec![[0, 1, 4]]).expect_err("there are four vertices");
+    /// assert_eq!(wrong.to_string(), "triangle 0 uses vertex 4, expected an index below 4 (counted from 0)");
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// [`MeshError`] names the first index out of range, or the first coordinate that is not finite.

@@ -10,6 +10,7 @@ pub struct Ray {
 }
 
 /// Why three and three numbers are no ray.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum RayError {
     /// A NaN or an infinity among the six numbers.
@@ -52,6 +53,12 @@ impl Ray {
     /// Where it goes: t counts in multiples of this vector.
     pub fn direction(&self) -> [f32; 3] {
         self.direction
+    }
+}
+
+impl AsRef<Self> for Ray {
+    fn as_ref(&self) -> &Self {
+        self
     }
 }
 

@@ -38,6 +38,7 @@ pub const MAX_RATE: u32 = 256;
 pub const DEFAULT_RATE: u32 = 12;
 
 /// Why there is no teapot.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TeapotError {
@@ -82,6 +83,11 @@ pub struct Teapot {
 }
 
 /// The teapot's mesh with `rate` x `rate` quads per patch, two triangles each.
+///
+/// ```
+/// let mesh = crossbar::geom::teapot::teapot(6).expect("a rate in range");
+/// assert_eq!((mesh.len(), mesh.degenerate_count()), (2256, 0));
+/// ```
 ///
 /// # Errors
 /// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].

@@ -9,6 +9,7 @@ use super::Matrix;
 const MAX_ITERATIONS: usize = 100;
 
 /// Why a matrix has no such factorisation.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FactorError {

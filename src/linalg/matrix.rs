@@ -23,6 +23,7 @@ pub struct Matrix {
 }
 
 /// Why a matrix cannot be made.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MatrixError {

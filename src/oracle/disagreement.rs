@@ -8,6 +8,13 @@ use serde::Serialize;
 use crate::geom::{ExactT, Hit, Ray, RayError};
 
 /// In what way an answer is wrong; the worst first.
+///
+/// The last three are what rounding may do to a sound intersector: [`DisagreementKind::Silhouette`] and
+/// [`DisagreementKind::Start`] are right for a ray within a few ULPs of the one given
+/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), [`Disagreement::right_for`]. A leak is right for
+/// none of them: at an edge whose two triangles face the same way, seen along the ray, every ray nearby meets one of
+/// the two.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DisagreementKind {
@@ -28,13 +35,20 @@ pub enum DisagreementKind {
     WrongNeighbour,
     /// The right triangle, at a t beyond the tolerance.
     TOff,
+    /// A surface missed, or met, beside its outline: the answer is right for a ray whose direction differs by a few
+    /// ULPs. Of a surface missed before another, it is enough that such a ray meets nothing in front of half-way to the
+    /// other: seen from far away, triangles are smaller than an ULP.
+    Silhouette,
+    /// A surface missed, or met, where the ray starts: the answer is right for an origin moved a few ULPs along the
+    /// ray.
+    Start,
     /// A triangle that the ray meets behind the first one by no more than the tolerance of t.
     NearTie,
 }
 
 impl DisagreementKind {
     /// All of them, the worst first.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::NoSuchTriangle,
         Self::Leak,
         Self::LeakThrough,
@@ -43,10 +57,12 @@ impl DisagreementKind {
         Self::WrongTriangle,
         Self::WrongNeighbour,
         Self::TOff,
+        Self::Silhouette,
+        Self::Start,
         Self::NearTie,
     ];
 
-    /// Whether a surface that is there was missed.
+    /// Whether a surface that is there was missed, for this ray and every ray nearby: a hole.
     #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
@@ -64,6 +80,8 @@ impl DisagreementKind {
             Self::WrongTriangle => "wrong triangle",
             Self::WrongNeighbour => "wrong neighbour",
             Self::TOff => "t off",
+            Self::Silhouette => "silhouette",
+            Self::Start => "start",
             Self::NearTie => "near tie",
         }
     }
@@ -90,6 +108,7 @@ fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::
 }
 
 /// A ray whose answer is wrong.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Disagreement {
     /// Its place among the rays that were judged.
@@ -111,6 +130,19 @@ pub struct Disagreement {
     /// Where the ray truly meets the triangle that was found, if it does, from either side; in JSON the nearest double.
     #[serde(serialize_with = "nearest_double_if_any")]
     pub met_at: Option<ExactT>,
+    /// A ray within a few ULPs of this one for which the same triangle, or the same miss, is exactly right. Looked for
+    /// unless the triangle does not exist or is the right one.
+    #[serde(serialize_with = "ray_if_any")]
+    pub right_for: Option<Ray>,
+}
+
+fn ray_if_any<S: serde::Serializer>(ray: &Option<Ray>, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Nearby {
+        origin: [f32; 3],
+        direction: [f32; 3],
+    }
+    ray.map(|ray| Nearby { origin: ray.origin(), direction: ray.direction() }).serialize(serializer)
 }
 
 fn nearest_double_if_any<S: serde::Serializer>(t: &Option<ExactT>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -140,6 +172,23 @@ impl Disagreement {
     /// [`RayError`] if the fields have been changed and are no ray any more.
     pub fn ray(&self) -> Result<Ray, RayError> {
         Ray::new(self.origin, self.direction)
+    }
+
+    fn write_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(Hit { triangle, t }) = self.found else { return f.write_str(", found nothing") };
+        write!(f, ", found triangle {triangle} at t = {}", short(t))?;
+        match self.t_ulps {
+            Some(0) | None => {}
+            Some(1) => f.write_str(", 1 ULP off")?,
+            Some(ulps) => write!(f, ", {ulps} ULPs off")?,
+        }
+        match &self.met_at {
+            Some(met) if self.kind != DisagreementKind::TOff => {
+                write!(f, " (the ray meets it at {})", short_double(met.to_f64()))
+            }
+            None if self.kind != DisagreementKind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
+            _ => Ok(()),
+        }
     }
 
     /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the
@@ -184,19 +233,12 @@ impl fmt::Display for Disagreement {
                 write!(f, "triangle {names} at t = {}", short_double(t.to_f64()))?;
             }
         }
-        let Some(Hit { triangle, t }) = self.found else { return f.write_str(", found nothing") };
-        write!(f, ", found triangle {triangle} at t = {}", short(t))?;
-        match self.t_ulps {
-            Some(0) | None => {}
-            Some(1) => f.write_str(", 1 ULP off")?,
-            Some(ulps) => write!(f, ", {ulps} ULPs off")?,
+        self.write_found(f)?;
+        let Some(ray) = self.right_for else { return Ok(()) };
+        f.write_str("; right for a ray")?;
+        if ray.origin() != self.origin {
+            write!(f, " from {}", ShownVector(ray.origin()))?;
         }
-        match &self.met_at {
-            Some(met) if self.kind != DisagreementKind::TOff => {
-                write!(f, " (the ray meets it at {})", short_double(met.to_f64()))
-            }
-            None if self.kind != DisagreementKind::NoSuchTriangle => f.write_str(" (the ray does not meet it)"),
-            _ => Ok(()),
-        }
+        write!(f, " along {}", ShownVector(ray.direction()))
     }
 }

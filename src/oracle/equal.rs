@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::disagreement::short;
-use super::judge::ulps;
+use crate::compare::f32_ulps as ulps;
 use crate::geom::Hit;
 
 /// Two lists that differ: how often, where first, where most.
@@ -89,6 +89,13 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
 }
 
 /// Whether two lists of numbers are the same bits; +0 and -0 differ, and so do two NaN of different bits.
+///
+/// ```
+/// use crossbar::oracle::bits_equal;
+///
+/// let unequal = bits_equal(&[1.0, 0.0], &[1.0, -0.0]).expect_err("the zeros differ");
+/// assert_eq!(unequal.different, 1);
+/// ```
 ///
 /// # Errors
 /// [`Unequal`] says where first, and where most.

@@ -1,6 +1,9 @@
 //! Rays on which intersectors differ.
 
+use std::fmt;
+
 use glam::DVec3;
+use serde::Serialize;
 
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::random::CounterRng;
@@ -8,7 +11,9 @@ use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 
 /// What makes a ray hard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Aim {
     /// Aimed from outside at a point of an edge that triangles share.
     Edge,
@@ -27,6 +32,25 @@ pub enum Aim {
 impl Aim {
     /// All of them.
     pub const ALL: [Self; 6] = [Self::Edge, Self::Vertex, Self::Axis, Self::Plane, Self::Surface, Self::Far];
+
+    /// What to call it: `edge`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Edge => "edge",
+            Self::Vertex => "vertex",
+            Self::Axis => "axis",
+            Self::Plane => "plane",
+            Self::Surface => "surface",
+            Self::Far => "far",
+        }
+    }
+}
+
+impl fmt::Display for Aim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// A hard ray.
@@ -38,8 +62,24 @@ pub struct HardRay {
     pub aim: Aim,
 }
 
+impl AsRef<Ray> for HardRay {
+    fn as_ref(&self) -> &Ray {
+        &self.ray
+    }
+}
+
 /// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an
 /// empty mesh has none.
+///
+/// ```
+/// use crossbar::geom::teapot::teapot;
+/// use crossbar::oracle::{Aim, hard_rays};
+///
+/// let mesh = teapot(2).expect("a rate in range");
+/// let rays = hard_rays(&mesh, 100, 7);
+/// assert_eq!(rays, hard_rays(&mesh, 100, 7));
+/// assert!(rays.iter().filter(|hard| hard.aim == Aim::Axis).all(|hard| hard.ray.direction().contains(&0.0)));
+/// ```
 #[must_use]
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };

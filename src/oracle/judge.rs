@@ -4,13 +4,15 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::disagreement::{Disagreement, DisagreementKind, Expected};
+use super::nearby::{moved, passes_contact, turned};
 use super::{Report, Tolerance};
-use crate::compare::{self, Number};
+use crate::compare::f32_ulps as ulps;
 use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
 /// Why answers cannot be judged.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum OracleError {
     /// There is not one answer a ray.
@@ -30,20 +32,34 @@ pub struct Oracle<'a> {
     tracer: Tracer<'a>,
     sides: Sides,
     tolerance: Tolerance,
+    nearby_ulps: u32,
 }
+
+/// How far away a ray is still nearby, unless [`Oracle::with_nearby_ulps`] says otherwise. A single-precision test that
+/// subtracts the origin from a vertex, shears and scales it is off by at most five roundings.
+const NEARBY_ULPS: u32 = 8;
 
 impl<'a> Oracle<'a> {
     /// An oracle over a mesh. `sides` says whether backs can be hit, `tolerance` how far a t may be off.
     #[must_use]
     pub fn new(mesh: &'a Mesh, sides: Sides, tolerance: Tolerance) -> Self {
-        Self { mesh, tracer: Tracer::new(mesh), sides, tolerance }
+        Self { mesh, tracer: Tracer::new(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
+    }
+
+    /// How many ULPs away a ray is still nearby: 8, unless changed here. A surface that is missed is a
+    /// [`DisagreementKind::Silhouette`] if the miss is right for a nearby ray, and a leak otherwise. With 0 there are
+    /// no nearby rays: every surface missed is a leak, also beside an outline.
+    #[must_use]
+    pub fn with_nearby_ulps(mut self, ulps: u32) -> Self {
+        self.nearby_ulps = ulps;
+        self
     }
 
     /// Judges one answer a ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
     ///
     /// # Errors
     /// [`OracleError::Count`] unless there are as many answers as rays.
-    pub fn judge(&self, rays: &[Ray], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
+    pub fn judge<R: AsRef<Ray>>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
         if rays.len() != hits.len() {
             return Err(OracleError::Count { rays: rays.len(), hits: hits.len() });
         }
@@ -51,8 +67,8 @@ impl<'a> Oracle<'a> {
     }
 
     /// Asks an intersector for every ray, one after the other, and judges its answers.
-    pub fn examine(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Report {
-        let hits: Vec<_> = rays.iter().map(intersector).collect();
+    pub fn examine<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Report {
+        let hits: Vec<_> = rays.iter().map(AsRef::as_ref).map(intersector).collect();
         self.report(rays, &hits)
     }
 
@@ -60,16 +76,25 @@ impl<'a> Oracle<'a> {
     ///
     /// # Errors
     /// The report, if anything disagrees.
-    pub fn agrees(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Result<(), Box<Report>> {
+    pub fn agrees<R: AsRef<Ray>>(
+        &self,
+        rays: &[R],
+        intersector: impl FnMut(&Ray) -> Option<Hit>,
+    ) -> Result<(), Box<Report>> {
         let report = self.examine(rays, intersector);
         if report.agrees() { Ok(()) } else { Err(Box::new(report)) }
     }
 
-    /// As [`Oracle::examine`].
+    /// As [`Oracle::examine`]: whether the surface has no hole.
     ///
     /// # Errors
-    /// The report of the leaks alone, if there is one: surfaces that were missed. Everything else passes.
-    pub fn no_leaks(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Result<(), Box<Report>> {
+    /// The report of the leaks alone, if there is one: surfaces missed by this ray and by every ray nearby. Everything
+    /// else passes.
+    pub fn watertight<R: AsRef<Ray>>(
+        &self,
+        rays: &[R],
+        intersector: impl FnMut(&Ray) -> Option<Hit>,
+    ) -> Result<(), Box<Report>> {
         let leaks = self.examine(rays, intersector).only(DisagreementKind::is_leak);
         if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
     }
@@ -79,25 +104,26 @@ impl<'a> Oracle<'a> {
     /// # Panics
     /// With the report, if anything disagrees.
     #[track_caller]
-    pub fn assert_agrees(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) {
+    pub fn assert_agrees<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.agrees(rays, intersector) {
             panic!("{report}");
         }
     }
 
-    /// As [`Oracle::no_leaks`], for tests.
+    /// As [`Oracle::watertight`], for tests.
     ///
     /// # Panics
-    /// With the report, if a surface was missed.
+    /// With the report of the leaks, if there is one.
     #[track_caller]
-    pub fn assert_no_leaks(&self, rays: &[Ray], intersector: impl FnMut(&Ray) -> Option<Hit>) {
-        if let Err(report) = self.no_leaks(rays, intersector) {
+    pub fn assert_watertight<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
+        if let Err(report) = self.watertight(rays, intersector) {
             panic!("{report}");
         }
     }
 
-    fn report(&self, rays: &[Ray], hits: &[Option<Hit>]) -> Report {
-        let judged: Vec<(bool, Option<Disagreement>)> = (rays, hits)
+    fn report<R: AsRef<Ray>>(&self, rays: &[R], hits: &[Option<Hit>]) -> Report {
+        let rays: Vec<Ray> = rays.iter().map(|ray| *ray.as_ref()).collect();
+        let judged: Vec<(bool, Option<Disagreement>)> = (&rays, hits)
             .into_par_iter()
             .enumerate()
             .map(|(place, (ray, hit))| {
@@ -141,22 +167,69 @@ impl<'a> Oracle<'a> {
                 DisagreementKind::BackFace
             }
             (HitVerdict::FalseHit, _) => DisagreementKind::FalseHit,
-            (HitVerdict::WrongTriangle { adjacent }, _) => match (&met_at, &truth) {
+            (HitVerdict::WrongTriangle { adjacent }, Some(hit)) => match (&met_at, &truth) {
                 (Some(met), Some(truth)) if self.tolerance != Tolerance::ANY_T && near(met, truth) => {
                     DisagreementKind::NearTie
                 }
-                _ if adjacent => DisagreementKind::WrongNeighbour,
+                // One that the ray meets far from what the two have in common is what a hole shows.
+                (Some(_), Some(truth)) if adjacent && self.passes_contact(ray, truth, hit) => {
+                    DisagreementKind::WrongNeighbour
+                }
                 (Some(_), _) => DisagreementKind::LeakThrough,
+                (None, _) if adjacent => DisagreementKind::WrongNeighbour,
                 (None, _) => DisagreementKind::WrongTriangle,
             },
+            (HitVerdict::WrongTriangle { .. }, None) => DisagreementKind::WrongTriangle,
+        };
+        let (kind, right_for) = match kind {
+            DisagreementKind::TOff | DisagreementKind::NoSuchTriangle => (kind, None),
+            _ => self.right_nearby(ray, truth.as_ref(), found, (kind, met_at.as_ref())),
         };
         let expected = truth.map(|truth| Expected { triangles: truth.ties, t: truth.t });
         let (origin, direction) = (ray.origin(), ray.direction());
-        Some(Disagreement { ray: place, origin, direction, kind, expected, found, t_ulps, met_at })
+        Some(Disagreement { ray: place, origin, direction, kind, expected, found, t_ulps, met_at, right_for })
     }
-}
 
-/// Steps of f32 between two numbers; `None` where one is not finite and they differ.
-pub(super) fn ulps(left: f32, right: f32) -> Option<u64> {
-    compare::ulps(&Number::from(left), &Number::from(right)).0.map(|ulps| ulps as u64)
+    fn passes_contact(&self, ray: &Ray, truth: &NearestHit, hit: Hit) -> bool {
+        let pairs = truth.ties.iter().map(|&right| [right, hit.triangle]);
+        pairs.into_iter().any(|pair| passes_contact(self.mesh, ray, pair, self.nearby_ulps))
+    }
+
+    /// A nearby ray for which an answer is right, and what the answer is called then.
+    fn right_nearby(
+        &self,
+        ray: &Ray,
+        truth: Option<&NearestHit>,
+        found: Option<Hit>,
+        (kind, met_at): (DisagreementKind, Option<&ExactT>),
+    ) -> (DisagreementKind, Option<Ray>) {
+        use DisagreementKind::{FalseHit, Leak, LeakThrough, Silhouette, Start, WrongTriangle};
+        let excused = matches!(kind, Leak | LeakThrough | FalseHit | WrongTriangle);
+        // Half-way between what was missed and what was seen behind it.
+        let behind = truth.zip(met_at).filter(|_| kind == LeakThrough);
+        let middle = behind.map(|(truth, met)| (truth.t.to_f64() + met.to_f64()) / 2.0);
+        let mut passed = false;
+        let mut is_right = |ray: &Ray| {
+            let truth = self.tracer.nearest(ray, self.sides);
+            passed |= middle.is_some_and(|middle| truth.as_ref().is_none_or(|truth| truth.t.to_f64() > middle));
+            match found {
+                None => truth.is_none(),
+                Some(hit) => truth.is_some_and(|truth| truth.ties.contains(&hit.triangle)),
+            }
+        };
+        if let Some(right) = turned(ray, self.nearby_ulps).find(&mut is_right) {
+            return (if excused { Silhouette } else { kind }, Some(right));
+        }
+        let triangles = truth.and_then(|truth| truth.ties.first().copied()).into_iter();
+        let triangles = triangles.chain(found.map(|hit| hit.triangle));
+        let corners: Vec<_> = triangles.filter_map(|id| self.mesh.corners(id)).flatten().collect();
+        let ts = truth.map(|truth| truth.t.to_f64()).into_iter().chain(found.map(|hit| hit.t.into()));
+        let first = ts.fold(f64::INFINITY, |first, t| if t.abs() < first { t.abs() } else { first });
+        let right = moved(ray, corners, first, self.nearby_ulps).find(&mut is_right);
+        match right {
+            Some(_) if excused => (Start, right),
+            None if passed => (Silhouette, None),
+            _ => (kind, right),
+        }
+    }
 }

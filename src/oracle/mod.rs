@@ -4,12 +4,15 @@
 //! An [`Oracle`] decides first hits on the f32 figures as given ([`crate::geom::exact`]) and sorts each answer that
 //! departs from them into a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the right triangle, a t
 //! too far off. Ties are judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right.
-//! [`hard_rays`] makes the rays on which intersectors differ. The `assert_*` functions panic where they are called,
-//! with the report; the functions without `assert_` give it back as a [`Result`].
+//! Rounding is judged fairly too: beside an outline, where the two triangles of an edge face opposite ways, a miss is
+//! right for a ray a few ULPs away ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] lets it pass;
+//! where they face the same way, a miss is a hole for every ray nearby. [`hard_rays`] makes the rays on which
+//! intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
+//! `assert_` give it back as a [`Result`].
 //!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
-//! use crossbar::oracle::{DisagreementKind, Oracle, Tolerance, hard_rays};
+//! use crossbar::oracle::{Aim, DisagreementKind, Oracle, Tolerance, hard_rays};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // A square of two triangles, and somebody's intersector that never finds the second.
@@ -31,20 +34,25 @@
 //! assert!(report.to_string().contains(leak));
 //!
 //! // Rays that ask for trouble, for any mesh.
-//! let rays: Vec<Ray> = hard_rays(&mesh, 100, 1).iter().map(|hard| hard.ray).collect();
-//! assert!(!oracle.examine(&rays, mine).agrees());
+//! let rays = hard_rays(&mesh, 100, 1);
+//! let report = oracle.examine(&rays, mine);
+//! assert!(report.by_aim(&rays).leaks(Aim::Axis) > 0, "{}", report.by_aim(&rays));
+//! assert!(oracle.watertight(&rays, mine).is_err());
 //! # Ok(())
 //! # }
 //! ```
 
+mod aims;
 mod disagreement;
 mod equal;
 mod hard;
 mod judge;
+mod nearby;
 mod pictures;
 mod report;
 mod tolerance;
 
+pub use aims::AimCounts;
 pub use disagreement::{Disagreement, DisagreementKind, Expected};
 pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
 pub use hard::{Aim, HardRay, hard_rays};

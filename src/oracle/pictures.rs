@@ -2,10 +2,18 @@
 
 use super::disagreement::short;
 use super::equal::{Asked, Unequal, compare};
-use super::judge::ulps;
+use crate::compare::f32_ulps as ulps;
 
-/// One channel of a pixel: a stored number with a next one.
-pub trait Sample: Copy {
+mod sealed {
+    pub trait Sealed {}
+
+    impl Sealed for u8 {}
+    impl Sealed for u16 {}
+    impl Sealed for f32 {}
+}
+
+/// One channel of a pixel: a stored number with a next one. u8, u16 and f32 are all there are.
+pub trait Sample: Copy + sealed::Sealed {
     /// Steps from this number to the other; `None` where one is not finite and they differ.
     fn steps(self, other: Self) -> Option<u64>;
 
@@ -45,6 +53,15 @@ impl Sample for f32 {
 
 /// Whether two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from its
 /// partner (0: equal; of f32, steps are ULPs).
+///
+/// ```
+/// use crossbar::oracle::images_equal;
+///
+/// let (left, right) = ([[10_u8, 20, 30], [40, 50, 60]], [[10_u8, 20, 30], [40, 52, 60]]);
+/// assert!(images_equal(2, &left, &right, 2).is_ok());
+/// let unequal = images_equal(2, &left, &right, 1).expect_err("two steps");
+/// assert!(unequal.to_string().contains("pixel (1, 0)"));
+/// ```
 ///
 /// # Errors
 /// [`Unequal`] says at which column and row first, and where most.

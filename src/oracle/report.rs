@@ -74,7 +74,7 @@ impl Report {
         self.disagreements.iter().filter(|wrong| wrong.kind == kind).count()
     }
 
-    /// Number of surfaces missed: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
+    /// Number of holes seen: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
     #[must_use]
     pub fn leaks(&self) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()

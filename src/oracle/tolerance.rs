@@ -6,6 +6,13 @@ use crate::geom::ExactT;
 use crate::geom::classify::t_error;
 
 /// How far a t may be from the exact one: it is right if one of the two figures allows it.
+///
+/// ```
+/// use crossbar::oracle::Tolerance;
+///
+/// let tolerance = Tolerance::ulps(4).or_absolute(1e-6);
+/// assert_eq!(tolerance.to_string(), "t within 4 ULPs or 1e-6");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Tolerance {
     /// Steps of f32 from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: t does not matter.

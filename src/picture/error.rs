@@ -20,6 +20,7 @@ pub enum PictureFormat {
 }
 
 /// A picture that cannot be made, written or read.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureError {

@@ -14,6 +14,7 @@ use crate::scene::Camera;
 const EDGE_ON: f64 = 1e-9;
 
 /// Patches cannot be drawn.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrawError {

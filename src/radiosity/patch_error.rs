@@ -8,6 +8,7 @@ use crate::linalg::MAX_SQUARE;
 pub const MAX_PATCHES: usize = MAX_SQUARE;
 
 /// A scene cannot be cut into patches.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PatchError {

@@ -15,6 +15,7 @@ use super::on_card::{CardError, CardSolver, Fit, Storage};
 use super::packing::Packing;
 
 /// An iteration cannot be timed.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 pub enum RateError {
     /// The card cannot run it.

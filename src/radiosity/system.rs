@@ -7,6 +7,7 @@ use super::solve::{self, Options, Solution, SolveError, Solver};
 use crate::linalg::Matrix;
 
 /// Why there is no system.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SystemError {

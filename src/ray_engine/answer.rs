@@ -11,6 +11,7 @@ use crate::geom::Hit;
 pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 
 /// A card cannot intersect rays with triangles.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum EngineError {

@@ -86,6 +86,7 @@ impl Settings {
 }
 
 /// Why there is no picture.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RenderError {

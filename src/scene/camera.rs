@@ -30,6 +30,7 @@ pub struct Camera {
 }
 
 /// Why there is no such camera.
+#[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CameraError {

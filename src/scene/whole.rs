@@ -40,6 +40,7 @@ impl View {
 }
 
 /// Why parts make no scene.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneError {

@@ -5,7 +5,7 @@ mod circles;
 mod names;
 mod source;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use circles::room;
@@ -41,7 +41,7 @@ const CROSSBAR: Law = (
         ("linalg", &[]),
         ("elementary", &[]),
         ("picture", &["elementary"]),
-        ("geom", &["linalg"]),
+        ("geom", &[]),
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["picture", "geom", "scene", "linalg"]),
@@ -49,7 +49,7 @@ const CROSSBAR: Law = (
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
-        ("oracle", &["geom", "compare", "linalg"]),
+        ("oracle", &["geom", "compare"]),
         ("case", &["picture", "io", "geom", "scene", "report", "shader", "compare"]),
         ("radiosity", &["card", "tracer", "elementary", "picture", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
@@ -178,6 +178,38 @@ fn the_emulator_depends_on_nothing_heavy() {
     let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
     assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
     assert!(!dependencies.contains("default = ["), "refsim has default features");
+}
+
+/// The feature of each room in lib.rs: of the room itself, not of what it contains.
+fn features() -> BTreeMap<String, String> {
+    let text = fs::read_to_string(root().join("src/lib.rs")).expect("the library's root");
+    let (mut feature, mut found) = (String::new(), BTreeMap::new());
+    for line in text.lines() {
+        if let Some(name) = line.strip_prefix("#[cfg(feature = \"").and_then(|rest| rest.strip_suffix("\")]")) {
+            feature = name.to_owned();
+        } else if let Some(room) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')) {
+            found.insert(room.to_owned(), std::mem::take(&mut feature));
+        }
+    }
+    found
+}
+
+#[test]
+fn rooms_have_the_feature_that_the_page_says_and_need_no_larger_one() {
+    let features = features();
+    let page = fs::read_to_string(root().join("docs/architecture.md")).expect("the page").replace('\r', "");
+    let (_, rooms) = page.split_once("## Rooms of the root package").expect("the section");
+    for (room, feature) in features.iter().filter(|(room, _)| *room != "compare") {
+        let row = rooms.lines().find(|line| line.starts_with(&format!("| `{room}` |"))).expect("a row of the table");
+        let last = if feature.is_empty() { "| |".to_owned() } else { format!("| `{feature}` |") };
+        assert!(row.ends_with(&last), "lib.rs has the feature `{feature}` for: {row}");
+    }
+    let rank = |room: &str| ["", "systems", "cli"].iter().position(|feature| *feature == features[room]);
+    for (room, allowed) in CROSSBAR.2.iter().filter(|(room, _)| features.contains_key(*room)) {
+        for other in *allowed {
+            assert!(rank(other) <= rank(room), "`{room}` is compiled without `{other}`");
+        }
+    }
 }
 
 /// nalgebra's product chooses its kernel by the processor if other crates turn its `std` on: docs/decisions/0016.

@@ -164,7 +164,7 @@ fn assertions_say_what_differs() {
     assert!(
         said(|| {
             let mesh = scene();
-            Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).assert_no_leaks(&[down(0.5, 0.25)], |_| hit(3, 5.0));
+            Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).assert_watertight(&[down(0.5, 0.25)], |_| hit(3, 5.0));
         })
         .contains("leak through to what is behind")
     );
@@ -209,7 +209,8 @@ fn exact_hits_agree_with_the_oracle_and_damaged_ones_do_not() {
         oracle.assert_agrees(&rays, first);
         oracle.assert_agrees(&rays, last);
         let blind = oracle.examine(&rays, |_| None);
-        assert_eq!(blind.count(DisagreementKind::Leak), blind.surface());
+        let missed = [DisagreementKind::Leak, DisagreementKind::Silhouette, DisagreementKind::Start];
+        assert_eq!(missed.map(|kind| blind.count(kind)).iter().sum::<usize>(), blind.surface());
         assert_eq!(blind.disagreements().len(), blind.surface());
     }
 }

@@ -35,6 +35,14 @@ use crate::isa::{Program, Register, Span};
 
 /// Reads a program.
 ///
+/// ```
+/// let program = refsim::asm::assemble("ps.1.1\ntex t0 // the texture\nMUL_x2 r0 t0, v0\n").expect("a program");
+/// assert_eq!(refsim::asm::print(&program), "ps_1_1\ntex t0\nmul_x2 r0, t0, v0\n");
+///
+/// let errors = refsim::asm::assemble("ps_1_1\nmull r0, t0\nadd r0\n").expect_err("two lines are wrong");
+/// assert_eq!(errors.errors.len(), 2);
+/// ```
+///
 /// # Errors
 /// Every syntax error of the text, in the order of the text, up to [`MAX_ERRORS`].
 pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {

@@ -3,6 +3,7 @@
 use crate::num::FormatError;
 
 /// A device, switch or value that does not exist. Lists are separated by spaces.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DeviceError {

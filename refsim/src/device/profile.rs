@@ -73,6 +73,15 @@ pub struct Profile {
 impl Profile {
     /// The profile of a card, or `ideal-<format>` for any number format string.
     ///
+    /// ```
+    /// use refsim::device::Profile;
+    ///
+    /// let radeon = Profile::named("r200").expect("a card of the project");
+    /// assert_eq!(radeon.name, "r200");
+    /// assert!(radeon.figures().iter().all(|figure| !figure.source.is_empty()));
+    /// assert!(Profile::named("ideal-s3.12").is_ok());
+    /// ```
+    ///
     /// # Errors
     /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-`
     /// is no format.

@@ -11,6 +11,7 @@ pub(crate) mod image;
 mod kind;
 mod layout;
 mod lod;
+mod pixels;
 mod sample;
 mod texel;
 pub(crate) mod value;
@@ -23,6 +24,7 @@ pub use image::{Image, Level, Region};
 pub use kind::TextureKind;
 pub use layout::{Layout, TexelMap};
 pub use lod::{Lod, lod_from_derivatives};
+pub use pixels::ImagePixel;
 pub use sample::{
     Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, touched, unbound,
 };

@@ -1,6 +1,7 @@
 //! Errors of the timing model.
 
 /// A question that the model has no answer to.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TimingError {

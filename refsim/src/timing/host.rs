@@ -96,6 +96,7 @@ impl fmt::Display for HostOperation {
 }
 
 /// Why there is no host model, or no time.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum HostError {

@@ -69,6 +69,7 @@ impl Costs for Model {
 }
 
 /// A log that can't be replayed. Its events count from 0.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReplayError {
@@ -96,6 +97,25 @@ pub struct Replay {
 }
 
 /// Puts a log on the time axis.
+///
+/// ```
+/// use refsim::machine::{ExecutorKind, Machine};
+/// use refsim::texture::TexelFormat;
+/// use refsim::timing::replay::{Options, replay};
+/// use refsim::timing::{Level, Model};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let geforce = refsim::device::Profile::named("nv20")?;
+/// let model = Model::new(Level::Pipeline, &geforce)?;
+/// let mut card = Machine::new(geforce, ExecutorKind::Batch);
+/// card.record(true);
+/// let target = card.create_target(TexelFormat::Bgra8, 64, 64)?;
+/// card.read_back(target)?;
+/// let timeline = replay(&card.take_log(), &model, &Options::default())?.timeline;
+/// assert!(timeline.makespan() > refsim::timing::Picoseconds::ZERO);
+/// # Ok(())
+/// # }
+/// ```
 ///
 /// # Errors
 /// [`ReplayError`]: fences that are not set, host work of a kind that the model does not know.

@@ -43,6 +43,20 @@ pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
 }
 
 /// The first hit of a ray among all triangles, each one tried. For many rays use [`nearest_all`] or a [`Tracer`].
+///
+/// ```
+/// use crossbar::geom::{Mesh, Ray, Sides, exact};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?;
+/// // Onto the diagonal: both triangles are first, at exactly one third.
+/// let ray = Ray::new([0.5, 0.5, 1.0], [0.0, 0.0, -3.0])?;
+/// let hit = exact::nearest(&square, &ray, Sides::Front).ok_or("a hit")?;
+/// assert_eq!((hit.ties, hit.t.to_f64()), (vec![0, 1], 1.0 / 3.0));
+/// # Ok(())
+/// # }
+/// ```
 pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     let mut shortlist = Shortlist::new();
     for (triangle, corners) in (0..).zip(mesh.iter_corners()) {

@@ -7,6 +7,7 @@ use crate::radiosity::DrawError;
 use crate::tracer::CastError;
 
 /// Form factors cannot be computed, or do not meet what was required.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FormFactorError {

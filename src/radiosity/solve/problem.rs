@@ -51,6 +51,7 @@ impl Solution {
 }
 
 /// Why there is no solution.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SolveError {

@@ -139,6 +139,21 @@ impl<'a> RayEngine<'a> {
 
     /// A bundle in, its first hits out, in its own order: what a host renderer calls.
     ///
+    /// ```
+    /// use crossbar::geom::{Ray, teapot::teapot};
+    /// use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
+    /// use refsim::{device::Profile, machine::ExecutorKind};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mesh = teapot(2)?;
+    /// let radeon = Profile::named("r300")?;
+    /// let mut engine = RayEngine::new(&mesh, radeon, ExecutorKind::Batch, EngineParameters::default())?;
+    /// let rays = [Ray::new([0.1, 0.2, 9.0], [0.0, 0.0, -1.0])?];
+    /// assert!(engine.trace(&rays)?[0].is_some());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
     pub fn trace(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, EngineError> {

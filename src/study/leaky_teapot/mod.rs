@@ -24,6 +24,7 @@ use crate::report::{Findings, Provenance, ReportError};
 pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
 
 /// Why the study has no findings.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum LeakyTeapotError {
     /// A configuration has no intersection program, or the card refuses the work.

@@ -15,6 +15,7 @@ use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
 use crate::report::ReportError;
 
 /// Why the study has no findings.
+#[non_exhaustive]
 #[derive(Debug, Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RadiosityError {

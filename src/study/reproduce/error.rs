@@ -7,6 +7,7 @@ use crate::ray_engine::EngineError;
 use crate::report::ReportError;
 
 /// Why a figure could not be worked out.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReproduceError {

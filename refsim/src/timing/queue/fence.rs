@@ -11,6 +11,7 @@ use crate::timing::timeline::Mark;
 pub struct Fence(pub u32);
 
 /// A fence that can't be asked.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum FenceError {
     /// The name was made, but the fence was never set.

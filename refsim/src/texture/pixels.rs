@@ -1,0 +1,137 @@
+//! An image as people look at it: red, green, blue and alpha by column and row.
+
+use super::{ChannelValue, Image, SignedTexelMinimum, Texel, decode};
+use crate::num::{self, Denormals, Unpacked, power_of_two};
+
+impl ChannelValue {
+    /// The value in decimal, for people to read: rounded once to f64. A NaN or an infinity stays one.
+    pub fn to_f64(self) -> f64 {
+        let (format, bits) = match self {
+            Self::Ratio { numerator, denominator } => return numerator as f64 / f64::from(denominator),
+            Self::Float { format, bits } => (format, bits),
+        };
+        // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
+        match num::unpack(&format.with_denormals(Denormals::Keep), bits) {
+            Unpacked::Nan { .. } => f64::NAN,
+            Unpacked::Inf { sign: true } => f64::NEG_INFINITY,
+            Unpacked::Inf { sign: false } => f64::INFINITY,
+            Unpacked::Finite { sign, sig, exp } => {
+                let magnitude = sig as f64 * power_of_two(exp);
+                if sign { -magnitude } else { magnitude }
+            }
+        }
+    }
+}
+
+impl Texel {
+    /// Red, green, blue and alpha in decimal.
+    pub fn to_f64(self) -> [f64; 4] {
+        self.0.map(ChannelValue::to_f64)
+    }
+}
+
+/// A pixel of level 0 and slice 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImagePixel {
+    /// Column.
+    pub x: u32,
+    /// Row.
+    pub y: u32,
+    /// Red, green, blue and alpha.
+    pub rgba: [f64; 4],
+}
+
+impl Image {
+    /// Red, green, blue and alpha of the pixel in column `x` of row `y`, level 0, slice 0; what a format does not store
+    /// is filled in. The least code of a signed channel is below -1. `None` outside the image.
+    ///
+    /// ```
+    /// use refsim::texture::{Image, TexelFormat};
+    ///
+    /// # fn main() -> Result<(), refsim::texture::TextureError> {
+    /// let mut image = Image::new_2d(TexelFormat::Bgra8, 2, 1)?;
+    /// image.set_raw(0, 0, 0, 1, 0xff00_33ff); // level, slice, row, column; A8R8G8B8
+    /// assert_eq!(image.pixel(1, 0), Some([0.0, 0.2, 1.0, 1.0]));
+    /// assert_eq!(image.pixel(2, 0), None);
+    /// let opaque = image.pixels().filter(|pixel| pixel.rgba[3] == 1.0).count();
+    /// assert_eq!(opaque, 1);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[f64; 4]> {
+        self.offset_of(0, 0, y, x)?;
+        Some(decode(self.format(), self.raw(0, 0, y, x), SignedTexelMinimum::BelowMinusOne).to_f64())
+    }
+
+    /// All pixels of level 0 and slice 0, row by row.
+    pub fn pixels(&self) -> impl Iterator<Item = ImagePixel> + '_ {
+        let places = (0..self.height()).flat_map(|y| (0..self.width()).map(move |x| (x, y)));
+        places.filter_map(|(x, y)| Some(ImagePixel { x, y, rgba: self.pixel(x, y)? }))
+    }
+
+    /// Level 0 and slice 0 as a PNG file of 8 bits a channel, in memory: values below 0 and NaN are 0, those above 1
+    /// are 255, the rest the nearest code. No display curve is applied. Needs the feature `png`.
+    ///
+    /// ```
+    /// use refsim::texture::{Image, TexelFormat};
+    ///
+    /// let image = Image::new_2d(TexelFormat::Bgra8, 4, 4).expect("sixteen texels");
+    /// assert!(image.to_png().starts_with(b"\x89PNG"));
+    /// ```
+    #[cfg(feature = "png")]
+    pub fn to_png(&self) -> Vec<u8> {
+        let code = |value: f64| (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        let bytes: Vec<u8> = self.pixels().flat_map(|pixel| pixel.rgba.map(code)).collect();
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, self.width(), self.height());
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes));
+        written.expect("an image has at least one texel, and memory takes its four bytes a texel");
+        file
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texture::TexelFormat;
+
+    #[test]
+    fn pixels_come_row_by_row_with_what_is_stored() {
+        let mut image = Image::new_2d(TexelFormat::Bgra8, 3, 2).expect("six texels");
+        image.set_raw(0, 0, 1, 2, 0x80ff_0033);
+        let pixels: Vec<ImagePixel> = image.pixels().collect();
+        assert_eq!(
+            pixels.iter().map(|pixel| (pixel.x, pixel.y)).collect::<Vec<_>>()[..4],
+            [(0, 0), (1, 0), (2, 0), (0, 1)]
+        );
+        assert_eq!(pixels[5].rgba, [1.0, 0.0, 0.2, 128.0 / 255.0]);
+        assert_eq!((image.pixel(3, 0), image.pixel(0, 2)), (None, None));
+    }
+
+    #[test]
+    fn every_value_of_floats_has_its_decimal() {
+        let mut image = Image::new_2d(TexelFormat::Rgba32f, 1, 1).expect("a texel");
+        let bits = [f32::from_bits(1), -1.5, f32::NEG_INFINITY, f32::MAX].map(f32::to_bits);
+        image.bytes_mut().copy_from_slice(&bits.map(u32::to_le_bytes).concat());
+        let expected = [f64::from(f32::from_bits(1)), -1.5, f64::NEG_INFINITY, f64::from(f32::MAX)];
+        assert_eq!(image.pixel(0, 0), Some(expected));
+    }
+
+    #[cfg(feature = "png")]
+    #[test]
+    fn a_png_holds_every_code() {
+        let mut image = Image::new_2d(TexelFormat::Bgra8, 16, 16).expect("256 texels");
+        for code in 0..256_u32 {
+            image.set_raw(0, 0, code / 16, code % 16, u128::from(0xff00_0000 | code << 16 | (255 - code)));
+        }
+        let file = image.to_png();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(&file)).read_info().expect("a PNG file");
+        let mut bytes = vec![0; reader.output_buffer_size().expect("a small picture")];
+        let info = reader.next_frame(&mut bytes).expect("one picture");
+        assert_eq!((info.width, info.height, info.color_type), (16, 16, png::ColorType::Rgba));
+        let expected: Vec<u8> = (0..=255).flat_map(|code| [code, 0, 255 - code, 255]).collect();
+        assert_eq!(bytes, expected);
+    }
+}

@@ -1,0 +1,74 @@
+//! Wrong answers, counted by what the rays were aimed at.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::Serialize;
+
+use super::disagreement::DisagreementKind;
+use super::hard::{Aim, HardRay};
+use super::report::Report;
+
+/// How often each kind of wrong answer occurs among the rays of each [`Aim`]. As text a table, as JSON a map.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(transparent)]
+pub struct AimCounts {
+    rows: BTreeMap<Aim, AimRow>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+struct AimRow {
+    rays: usize,
+    counts: BTreeMap<DisagreementKind, usize>,
+}
+
+impl Report {
+    /// The wrong answers by aim. `rays` are the rays that were judged, in the same order.
+    #[must_use]
+    pub fn by_aim(&self, rays: &[HardRay]) -> AimCounts {
+        let mut counts = AimCounts::default();
+        for hard in rays {
+            counts.rows.entry(hard.aim).or_default().rays += 1;
+        }
+        for wrong in self.disagreements() {
+            let Some(row) = rays.get(wrong.ray).and_then(|hard| counts.rows.get_mut(&hard.aim)) else { continue };
+            *row.counts.entry(wrong.kind).or_default() += 1;
+        }
+        counts
+    }
+}
+
+impl AimCounts {
+    /// Rays of an aim.
+    #[must_use]
+    pub fn rays(&self, aim: Aim) -> usize {
+        self.rows.get(&aim).map_or(0, |row| row.rays)
+    }
+
+    /// Wrong answers of one kind among the rays of an aim.
+    #[must_use]
+    pub fn count(&self, aim: Aim, kind: DisagreementKind) -> usize {
+        self.rows.get(&aim).and_then(|row| row.counts.get(&kind).copied()).unwrap_or(0)
+    }
+
+    /// Leaks among the rays of an aim.
+    #[must_use]
+    pub fn leaks(&self, aim: Aim) -> usize {
+        DisagreementKind::ALL.into_iter().filter(|kind| kind.is_leak()).map(|kind| self.count(aim, kind)).sum()
+    }
+}
+
+impl fmt::Display for AimCounts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let occurs = |kind: &DisagreementKind| self.rows.keys().any(|&aim| self.count(aim, *kind) > 0);
+        let kinds: Vec<DisagreementKind> = DisagreementKind::ALL.into_iter().filter(occurs).collect();
+        write!(f, "| aim | rays |")?;
+        kinds.iter().try_for_each(|kind| write!(f, " {kind} |"))?;
+        write!(f, "\n|---|---|{}", "---|".repeat(kinds.len()))?;
+        for (aim, row) in &self.rows {
+            write!(f, "\n| {aim} | {} |", row.rays)?;
+            kinds.iter().try_for_each(|&kind| write!(f, " {} |", self.count(*aim, kind)))?;
+        }
+        Ok(())
+    }
+}

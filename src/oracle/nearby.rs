@@ -1,0 +1,166 @@
+//! Rays next to a given one, and what a ray passes within their reach.
+//!
+//! Intersectors round. The test of Woop, Benthin and Wald, for one, answers exactly for a scene whose vertices, seen
+//! from the ray's origin, are each off by at most five roundings of f32. So its answer beside an outline is right for a
+//! ray next to the one it was asked about, and nothing is wrong with it. **Nearby** is a ray from the same origin whose
+//! direction is off in each of its two smaller components, by some ULPs of the largest; or, for a hit where
+//! the ray starts, one of the same direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays are tried one by one, in
+//! exact arithmetic, so the ray that is found proves what is said of the answer.
+
+use glam::{DVec2, DVec3};
+
+use crate::geom::vector::{narrow, wide};
+use crate::geom::{Contact, Mesh, Ray};
+
+/// The step from the f32 of this magnitude to the next smaller one, or the next larger where that is a longer step.
+fn ulp(magnitude: f32) -> f64 {
+    let up = magnitude.next_up();
+    let (low, high) = if up.is_finite() { (magnitude, up) } else { (magnitude.next_down(), magnitude) };
+    f64::from(high) - f64::from(low)
+}
+
+/// Half the sides of the squares that nearby rays lie on: 1, 2, 4 and so on, and `ulps` itself.
+fn rings(ulps: u32) -> impl Iterator<Item = u32> {
+    let powers = std::iter::successors(Some(1_u32), |ring| ring.checked_mul(2));
+    powers.take_while(move |&ring| ring < ulps).chain((ulps > 0).then_some(ulps))
+}
+
+/// A ray's image plane: the plane across the axis along which its direction is longest.
+struct ImagePlane {
+    origin: DVec3,
+    direction: DVec3,
+    /// The axis of the largest component.
+    depth: usize,
+    /// The other two.
+    across: [usize; 2],
+    /// One ULP of the largest component.
+    unit: f64,
+}
+
+impl ImagePlane {
+    fn of(ray: &Ray) -> Self {
+        let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
+        let depth = direction.abs().max_position();
+        let across = [(depth + 1) % 3, (depth + 2) % 3];
+        let unit = ulp(ray.direction()[depth].abs());
+        Self { origin, direction, depth, across, unit }
+    }
+
+    /// By how many units the direction towards a point is off; `None` for a point that is not in front.
+    fn offset(&self, point: [f32; 3]) -> Option<DVec2> {
+        let to = wide(point) - self.origin;
+        let scale = self.direction[self.depth] / to[self.depth];
+        let off = |axis: usize| (to[axis] * scale - self.direction[axis]) / self.unit;
+        (scale > 0.0 && scale.is_finite()).then(|| DVec2::from(self.across.map(off)))
+    }
+}
+
+/// Rays of other directions from the same origin, nearest first: on each ring the corners, the middles of the sides,
+/// and the points between.
+pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
+    let (plane, origin) = (ImagePlane::of(ray), ray.origin());
+    rings(ulps)
+        .flat_map(move |ring| {
+            let half = if ring == 1 { 1.0 } else { f64::from(ring.div_ceil(2)) };
+            let whole = f64::from(ring);
+            let steps = if ring == 1 { vec![-1.0, 0.0, 1.0] } else { vec![-whole, -half, 0.0, half, whole] };
+            let pairs = steps.iter().flat_map(|&x| steps.iter().map(move |&y| [x, y])).collect::<Vec<_>>();
+            let outer = pairs.into_iter().filter(move |pair| pair.iter().any(|step| step.abs() == whole));
+            outer.collect::<Vec<_>>()
+        })
+        .filter_map(move |offsets| {
+            let mut direction = plane.direction;
+            for (axis, steps) in plane.across.into_iter().zip(offsets) {
+                direction[axis] += steps * plane.unit;
+            }
+            Ray::new(origin, narrow(direction)).ok()
+        })
+}
+
+/// Rays of the same direction from other origins along it, nearest first, if a hit at `t` is within their reach. The
+/// unit is that of the largest coordinate among the origin and some points.
+pub(super) fn moved(
+    ray: &Ray,
+    points: impl IntoIterator<Item = [f32; 3]>,
+    t: f64,
+    ulps: u32,
+) -> impl Iterator<Item = Ray> {
+    let largest = points.into_iter().flatten().chain(ray.origin()).fold(0.0_f32, |most, x| most.max(x.abs()));
+    let (origin, direction) = (wide(ray.origin()), ray.direction());
+    let length = wide(direction).abs().max_element();
+    let unit = ulp(largest);
+    let in_reach = t.abs() * length <= f64::from(ulps) * unit;
+    let steps = rings(ulps).filter(move |_| in_reach).flat_map(|ring| [f64::from(ring), -f64::from(ring)]);
+    let along = wide(direction) / length * unit;
+    steps.filter_map(move |step| Ray::new(narrow(origin + step * along), direction).ok())
+}
+
+/// Whether a ray passes within some ULPs of what two triangles have in common: a corner, or an edge.
+pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32) -> bool {
+    let (Some(of_a), Some(of_b)) = (mesh.corners(a), mesh.corners(b)) else { return false };
+    let shared: Vec<_> = of_a.into_iter().filter(|corner| of_b.contains(corner)).collect();
+    let plane = ImagePlane::of(ray);
+    let reach = f64::from(ulps) * std::f64::consts::SQRT_2;
+    let near = |from: [f32; 3], to: [f32; 3]| match (plane.offset(from), plane.offset(to)) {
+        (Some(from), Some(to)) => distance_to_segment(from, to) <= reach,
+        // The edge runs past the ray's origin.
+        (Some(_), None) | (None, Some(_)) => true,
+        (None, None) => false,
+    };
+    mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
+}
+
+/// How far zero is from a segment.
+fn distance_to_segment(from: DVec2, to: DVec2) -> f64 {
+    let along = to - from;
+    let length = along.length_squared();
+    let share = if length > 0.0 { (-from.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (from + share * along).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearby_directions_keep_their_distance() {
+        let ray = Ray::new([1.0, 2.0, 3.0], [0.1, -3.0, 1e-30]).expect("a ray");
+        let rays: Vec<Ray> = turned(&ray, 8).collect();
+        assert_eq!(rays.len(), 8 + 16 + 16 + 16);
+        let unit = ulp(3.0);
+        let off = |other: &Ray| {
+            let by = wide(other.direction()) - wide(ray.direction());
+            assert_eq!((other.origin(), by.y), (ray.origin(), 0.0));
+            (by.abs().max_element() / unit).round()
+        };
+        let distances: Vec<f64> = rays.iter().map(off).collect();
+        assert!(distances.is_sorted() && distances[0] == 1.0 && distances[55] == 8.0, "{distances:?}");
+        assert_eq!(turned(&ray, 3).count(), 8 + 16 + 16, "rings of 1, 2 and 3");
+        assert_eq!(turned(&ray, 0).count(), 0);
+        let widest = Ray::new([0.0; 3], [f32::MAX; 3]).expect("a ray");
+        assert!(turned(&widest, 8).count() > 0, "those beyond f32 are left out");
+    }
+
+    #[test]
+    fn origins_move_along_the_ray() {
+        let ray = Ray::new([1.0, 0.0, 0.0], [0.0, -0.5, 0.0]).expect("a ray");
+        let unit = 4.0 * f32::EPSILON;
+        let at = |t: f32| moved(&ray, [[4.0, 0.0, 0.0]], t.into(), 2).map(|ray| ray.origin()[1]).collect::<Vec<_>>();
+        assert_eq!(at(0.0), [-unit, unit, -2.0 * unit, 2.0 * unit]);
+        assert_eq!(at(4.0 * unit).len(), 4, "two units away, in halves");
+        assert!(at(5.0 * unit).is_empty(), "out of reach");
+    }
+
+    #[test]
+    fn contacts_are_passed_within_a_few_ulps() {
+        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, -1.0, 0.5]];
+        let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 1, 3], [0, 3, 4]]).expect("a mesh");
+        let down = |x: f32, y: f32| Ray::new([x, y, 4.0], [0.0, 0.0, -1.0]).expect("a ray");
+        let little = 4.0 * f32::EPSILON;
+        assert!(passes_contact(&mesh, &down(0.5, little), [0, 1], 2), "beside the edge");
+        assert!(!passes_contact(&mesh, &down(0.5, 0.1), [0, 1], 2));
+        assert!(!passes_contact(&mesh, &down(0.5, little), [0, 2], 2), "far from the corner");
+        assert!(passes_contact(&mesh, &down(little, 0.0), [0, 2], 2));
+        assert!(!passes_contact(&mesh, &down(0.0, 0.0), [0, 7], 2), "no such triangle");
+    }
+}

@@ -1,0 +1,154 @@
+//! Holes told from silhouettes: Woop's watertight test passes on a closed curved mesh, Moeller and Trumbore's does not,
+//! and both verdicts are checked against how the triangles at the edge face. Needs the crate without its features.
+
+#[expect(dead_code, reason = "as an example it prints what the tests look at")]
+#[path = "../docs/examples/watertight.rs"]
+mod watertight;
+
+use crossbar::geom::vector::wide;
+use crossbar::geom::{Adjacency, Hit, Mesh, Ray, Sides, exact};
+use crossbar::oracle::{Aim, Disagreement, DisagreementKind, HardRay, Oracle, Report, Tolerance, hard_rays};
+use watertight::{TriangleTest, closed_surface, moeller_trumbore, nearest, tables, woop};
+
+const SIZE: f64 = 1.37;
+
+fn report(size: f64, test: TriangleTest, nearby_ulps: u32) -> (Mesh, Vec<HardRay>, Report) {
+    let mesh = closed_surface(size);
+    let rays = hard_rays(&mesh, 984, 1);
+    let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T).with_nearby_ulps(nearby_ulps);
+    let report = oracle.examine(&rays, |ray| nearest(&mesh, ray, test));
+    (mesh, rays, report)
+}
+
+#[test]
+fn the_mesh_is_closed() {
+    let mesh = closed_surface(SIZE);
+    assert_eq!((mesh.positions().len(), mesh.len(), mesh.degenerate_count()), (1830, 3660, 0));
+    assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (0, 0));
+}
+
+/// Sizes that are no powers of two of each other, so that corners are rounded in different ways.
+#[test]
+fn a_watertight_test_passes() {
+    for size in [1.0, 77.7] {
+        let mesh = closed_surface(size);
+        let rays = hard_rays(&mesh, 984, 2);
+        let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T);
+        oracle.assert_watertight(&rays, |ray| nearest(&mesh, ray, woop));
+    }
+}
+
+#[test]
+fn what_it_misses_lies_beside_outlines() {
+    let (mesh, rays, report) = report(SIZE, woop, 8);
+    let adjacency = mesh.adjacency();
+    let missed = |wrong: &&Disagreement| {
+        // From far away a triangle is smaller than an ULP, and its outline is another's.
+        let surface = wrong.expected.is_some() && (wrong.found.is_none() || wrong.met_at.is_some());
+        wrong.kind == DisagreementKind::Silhouette && surface && rays[wrong.ray].aim != Aim::Far
+    };
+    let mut silhouettes = 0;
+    for wrong in report.disagreements().iter().filter(missed) {
+        assert!(passes_outline(&mesh, &adjacency, wrong), "{wrong}");
+        silhouettes += 1;
+    }
+    assert!(silhouettes > 10, "{silhouettes}");
+    let strict = self::report(SIZE, woop, 0).2;
+    assert!(strict.leaks() > 10 && strict.count(DisagreementKind::Silhouette) == 0, "{strict}");
+}
+
+#[test]
+fn leaks_of_another_test_are_holes() {
+    let (mesh, rays, report) = report(SIZE, moeller_trumbore, 8);
+    let adjacency = mesh.adjacency();
+    assert!(report.by_aim(&rays).count(Aim::Edge, DisagreementKind::LeakThrough) > 10, "{report}");
+    let at_edges = report.disagreements().iter().filter(|wrong| rays[wrong.ray].aim == Aim::Edge);
+    for wrong in at_edges.filter(|wrong| wrong.kind.is_leak()) {
+        assert!(!aimed_edge_is_outline(&mesh, &adjacency, wrong), "{wrong}");
+        assert_eq!(wrong.right_for, None);
+    }
+}
+
+/// Rays that are said to be answered rightly, asked again among all triangles, and not far away.
+#[test]
+fn nearby_rays_prove_what_is_said() {
+    for test in [woop, moeller_trumbore] {
+        let (mesh, _, report) = report(SIZE, test, 8);
+        let proved = report.disagreements().iter().filter_map(|wrong| Some((wrong, wrong.right_for?)));
+        for (wrong, right) in proved {
+            let truth = exact::nearest(&mesh, &right, Sides::Both);
+            match wrong.found {
+                None => assert_eq!(truth, None, "{wrong}"),
+                Some(hit) => assert!(truth.is_some_and(|truth| truth.ties.contains(&hit.triangle)), "{wrong}"),
+            }
+            let by = (wide(right.direction()) - wide(wrong.direction)).abs().max_element();
+            let largest = wide(wrong.direction).abs().max_element();
+            assert!(by <= 9.0 * f64::from(f32::EPSILON) * largest, "{wrong}");
+            assert!(right.origin() == wrong.origin || wrong.kind != DisagreementKind::Silhouette, "{wrong}");
+        }
+    }
+}
+
+/// Through a hole in a tetrahedron every other triangle is a neighbour of the one missed.
+#[test]
+fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
+    let corners = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+    let mesh = Mesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).expect("a mesh");
+    let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T);
+    let through = |x: f32, y: f32| Ray::new([x, y, 9.0], [0.0, 0.0, -1.0]).expect("a ray");
+    let kind = |ray: Ray, triangle| {
+        let report = oracle.examine(&[ray], |_| Some(Hit { triangle, t: 9.0 }));
+        report.disagreements().first().map(|wrong| wrong.kind)
+    };
+    assert_eq!(kind(through(1.0, 1.0), 0), Some(DisagreementKind::LeakThrough));
+    assert_eq!(kind(through(2.0 - 1e-6, 2.0 - 1e-6), 0), Some(DisagreementKind::WrongNeighbour), "beside their edge");
+    let miss = |ray| oracle.examine(&[ray], |_| None).disagreements()[0].kind;
+    assert_eq!(miss(through(2.0 - 1e-6, 2.0 - 1e-6)), DisagreementKind::Silhouette);
+    assert_eq!(miss(through(1.0, 1.0)), DisagreementKind::Leak);
+    let start = Ray::new([1.0, 1.0, 0.0], [0.0, 0.0, -1.0]).expect("a ray");
+    assert_eq!(miss(start), DisagreementKind::Start);
+}
+
+/// The page's last digits come from multiplications and additions of f32, which are alike everywhere.
+#[test]
+fn the_page_says_what_is_measured() {
+    let page = include_str!("../docs/examples/foreign_intersector.md").replace('\r', "");
+    let tables = tables();
+    assert!(page.contains(&tables), "docs/examples/foreign_intersector.md has other tables than\n{tables}");
+}
+
+/// n.d: its sign says which way a triangle faces, seen along a ray.
+fn facing(mesh: &Mesh, triangle: u32, wrong: &Disagreement) -> f64 {
+    let [a, b, c] = mesh.corners(triangle).expect("a triangle of the mesh").map(wide);
+    (b - a).cross(c - a).dot(wide(wrong.direction))
+}
+
+/// Whether the triangles of an edge face opposite ways.
+fn is_outline(mesh: &Mesh, triangles: &[u32], wrong: &Disagreement) -> bool {
+    let [one, other] = triangles else { return true };
+    facing(mesh, *one, wrong) * facing(mesh, *other, wrong) <= 0.0
+}
+
+fn missed_triangle(wrong: &Disagreement) -> u32 {
+    wrong.expected.as_ref().expect("a surface was missed").triangles[0]
+}
+
+/// Whether an edge at a corner of the triangle that was missed is one of the outline.
+fn passes_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
+    let corners = mesh.triangles()[missed_triangle(wrong) as usize];
+    let at_corner = |vertices: [u32; 2]| vertices.iter().any(|vertex| corners.contains(vertex));
+    let mut edges = adjacency.edges().iter().filter(|edge| at_corner(edge.vertices));
+    edges.any(|edge| is_outline(mesh, &edge.triangles, wrong))
+}
+
+/// Whether the edge of the triangle missed that the ray passes nearest is one of the outline.
+fn aimed_edge_is_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
+    let distance = |edge: u32| {
+        let ends = adjacency.edges()[edge as usize].vertices;
+        let [from, to] = ends.map(|vertex| wide(mesh.positions()[vertex as usize]) - wide(wrong.origin));
+        (from.cross(to).dot(wide(wrong.direction)) / from.cross(to).length()).abs()
+    };
+    let edges = adjacency.edges_of(missed_triangle(wrong)).into_iter().flatten();
+    let nearest = edges.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).expect("three edges");
+    is_outline(mesh, &adjacency.edges()[nearest as usize].triangles, wrong)
+}
