@@ -1,8 +1,10 @@
 //! The batch executor's arithmetic against `num`: two implementations that share no code, equal on every operation.
 //!
-//! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule;
-//! wider ones on edge cases and random operands. `CROSSBAR_FULL=1` runs millions more.
+//! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule,
+//! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` walks the whole
+//! range, the short form a part of it.
 
+use rayon::prelude::*;
 use refsim::exec::batch::{convert, evaluate, exact_dot};
 use refsim::num::{Denormals, DotOrder, Format, NumberOperation as Op, Overflow, Rounding, Specials, ops};
 
@@ -173,9 +175,8 @@ fn all_formats_agree_on_random_operands() {
 
 #[test]
 fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
-    let stride = if full() { 1 } else { 37 };
-    for text in ["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "bf16", "s3.12", "s3.12:rtz:wrap", "s0.15:rdn"] {
-        let f = layout(text);
+    let stride = if full() { 1 } else { 97 };
+    for f in ["fp16", "bf16", "s3.12", "s0.15"].into_iter().flat_map(|text| variants(layout(text))) {
         let all: Vec<u32> = (0..=f.mask()).step_by(stride).collect();
         for op in operations() {
             if is_unary(op) {
@@ -185,18 +186,88 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     }
 }
 
+/// Sums and products of all pairs of fp16; the short form takes every 997th first operand and every 61st second one.
+fn fp16_agrees_on_pairs(rules: &str) {
+    let f = layout(&format!("fp16:{rules}"));
+    let (first, second) = if full() { (1, 1) } else { (997, 61) };
+    let all: Vec<u32> = (0..=0xffff).step_by(second).collect();
+    (0..=0xffff_u32).step_by(first).collect::<Vec<_>>().into_par_iter().for_each(|a| {
+        let a = vec![a; all.len()];
+        compare(f, Op::Add, &a, &all, &all);
+        compare(f, Op::Mul, &a, &all, &all);
+    });
+}
+
+/// One test a rule, so that each can be run in full by name.
+macro_rules! fp16_pairs {
+    ($($test:ident = $rules:literal,)*) => {
+        mod fp16_pairs {
+            $(#[test] fn $test() { super::fp16_agrees_on_pairs($rules); })*
+        }
+    };
+}
+
+fp16_pairs! {
+    rne_inf_keep = "rne:inf:keep", rne_sat_keep = "rne:sat:keep", rne_nvovf_keep = "rne:nvovf:keep",
+    rna_inf_keep = "rna:inf:keep", rna_sat_keep = "rna:sat:keep", rna_nvovf_keep = "rna:nvovf:keep",
+    rtz_inf_keep = "rtz:inf:keep", rtz_sat_keep = "rtz:sat:keep", rtz_nvovf_keep = "rtz:nvovf:keep",
+    rdn_inf_keep = "rdn:inf:keep", rdn_sat_keep = "rdn:sat:keep", rdn_nvovf_keep = "rdn:nvovf:keep",
+    rne_inf_ftz = "rne:inf:ftz", rne_sat_ftz = "rne:sat:ftz", rne_nvovf_ftz = "rne:nvovf:ftz",
+    rna_inf_ftz = "rna:inf:ftz", rna_sat_ftz = "rna:sat:ftz", rna_nvovf_ftz = "rna:nvovf:ftz",
+    rtz_inf_ftz = "rtz:inf:ftz", rtz_sat_ftz = "rtz:sat:ftz", rtz_nvovf_ftz = "rtz:nvovf:ftz",
+    rdn_inf_ftz = "rdn:inf:ftz", rdn_sat_ftz = "rdn:sat:ftz", rdn_nvovf_ftz = "rdn:nvovf:ftz",
+}
+
 #[test]
-fn fp16_agrees_on_pairs() {
+fn fp16_agrees_on_quotients() {
     let stride = if full() { 7 } else { 997 };
-    for text in ["fp16", "fp16:rtz"] {
+    for text in ["fp16", "fp16:rna:sat", "fp16:rtz", "fp16:rdn:ftz"] {
         let f = layout(text);
         let all: Vec<u32> = (0..=0xffff).step_by(stride).collect();
         for &a in &all {
-            let first = vec![a; all.len()];
-            for op in [Op::Add, Op::Mul, Op::Div] {
-                compare(f, op, &first, &all, &all);
-            }
+            compare(f, Op::Div, &vec![a; all.len()], &all, &all);
         }
+    }
+}
+
+/// Patterns at the edges of a float format: of its range, of its subnormal numbers, and with mantissas that make ties,
+/// at exponents whose products come to lie at those edges; infinities and NaN with several payloads.
+fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
+    let (top, bias) = ((1u32 << exp_bits) - 1, (1u32 << (exp_bits - 1)) - 1);
+    let (half, all) = (1u32 << (man_bits - 1), (1u32 << man_bits) - 1);
+    let near = [bias, bias / 2, bias + bias / 2, bias.saturating_sub(man_bits), bias.saturating_sub(man_bits) / 2];
+    let fields = near.into_iter().flat_map(|e| [e.saturating_sub(1), e, e + 1]).chain([0, 1, 2, top - 2, top - 1, top]);
+    let mantissas = [0, 1, half - 1, half, half + 1, all - 1, all];
+    let sign = 1 << (exp_bits + man_bits);
+    let mut patterns: Vec<u32> = fields
+        .filter(|&e| e <= top)
+        .flat_map(|e| mantissas.map(|man| e << man_bits | man))
+        .flat_map(|bits| [bits, bits | sign])
+        .collect();
+    patterns.sort_unstable();
+    patterns.dedup();
+    patterns
+}
+
+/// The short form takes every fifth second operand, other ones for each rule.
+#[test]
+fn wide_floats_agree_at_their_edges() {
+    for (exp_bits, man_bits) in [(8, 23), (7, 16), (8, 10), (8, 7), (7, 22), (6, 10), (8, 22), (5, 10)] {
+        let base = layout(&format!("e{exp_bits}m{man_bits}"));
+        let all = edges(exp_bits, man_bits);
+        variants(base).into_par_iter().enumerate().filter(|(_, f)| full() || f.specials == Specials::Ieee).for_each(
+            |(k, f)| {
+                let step = if full() { 1 } else { 5 };
+                let b: Vec<u32> = all.iter().copied().skip(k % step).step_by(step).collect();
+                let c: Vec<u32> = b.iter().rev().copied().collect();
+                for &a in &all {
+                    let a = vec![a; b.len()];
+                    for op in [Op::Add, Op::Sub, Op::Mul, Op::Mad, Op::Div, Op::FusedMad] {
+                        compare(f, op, &a, &b, &c);
+                    }
+                }
+            },
+        );
     }
 }
 

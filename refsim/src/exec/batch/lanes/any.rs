@@ -1,55 +1,69 @@
 //! Which lane arithmetic a format gets.
 
 use super::fixed::FixedLane;
-use super::float::{self, ANY, DOUBLE, FloatLane, HOST, HOST_NV, SINGLE};
+use super::float::{self, ANY, DOUBLE, FloatLane, GENERAL, HOST, SINGLE};
 use super::ieee::{self, IeeeLane};
 use super::lane::Lane;
+use super::round::{AWAY, DOWN, EVEN, ZERO};
 use crate::num::{Format, FormatKind, Overflow, Rounding};
 
-/// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. The common
-/// formats have their rounding and overflow compiled in; the rest decide at run time.
+/// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. Roundings of
+/// floats are compiled in; those of fixed point, and all other rules, are constants in registers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum AnyLane {
-    Fixed16Even(FixedLane<0, false, 0>),
-    Fixed16Away(FixedLane<1, false, 0>),
-    Fixed16Zero(FixedLane<2, false, 0>),
-    Fixed16Down(FixedLane<3, false, 0>),
-    Fixed16Wrap(FixedLane<ANY, false, 1>),
-    Fixed32(FixedLane<ANY, true, 2>),
+    Fixed16(FixedLane<false, false>),
+    Fixed16Wrap(FixedLane<false, true>),
+    Fixed32(FixedLane<true, false>),
+    Fixed32Wrap(FixedLane<true, true>),
     IeeeHost(IeeeLane<HOST>),
     IeeeSingle(IeeeLane<SINGLE>),
     IeeeDouble(IeeeLane<DOUBLE>),
-    Host(FloatLane<HOST, 0>),
-    HostNv(FloatLane<HOST_NV, 0>),
-    Single(FloatLane<SINGLE, 0>),
-    DoubleEven(FloatLane<DOUBLE, 0>),
-    Double(FloatLane<DOUBLE, ANY>),
+    HostEven(FloatLane<HOST, EVEN>),
+    HostAway(FloatLane<HOST, AWAY>),
+    HostZero(FloatLane<HOST, ZERO>),
+    HostDown(FloatLane<HOST, DOWN>),
+    SingleEven(FloatLane<SINGLE, EVEN>),
+    SingleAway(FloatLane<SINGLE, AWAY>),
+    SingleZero(FloatLane<SINGLE, ZERO>),
+    SingleDown(FloatLane<SINGLE, DOWN>),
+    DoubleEven(FloatLane<DOUBLE, EVEN>),
+    DoubleAway(FloatLane<DOUBLE, AWAY>),
+    DoubleZero(FloatLane<DOUBLE, ZERO>),
+    DoubleDown(FloatLane<DOUBLE, DOWN>),
+    General(FloatLane<GENERAL, ANY>),
 }
 
 impl AnyLane {
     /// The arithmetic of a format.
     pub(crate) fn new(format: Format) -> Self {
+        use Rounding::{Down, NearestAway, NearestEven, TowardZero};
         let f = &format;
         match format.kind {
             FormatKind::Fixed { int_bits: i, frac_bits: b } => {
-                match (format.width() > 16, format.overflow, format.rounding) {
-                    (true, ..) => Self::Fixed32(FixedLane::new(f, i, b)),
-                    (_, Overflow::Wrap, _) => Self::Fixed16Wrap(FixedLane::new(f, i, b)),
-                    (.., Rounding::NearestEven) => Self::Fixed16Even(FixedLane::new(f, i, b)),
-                    (.., Rounding::NearestAway) => Self::Fixed16Away(FixedLane::new(f, i, b)),
-                    (.., Rounding::TowardZero) => Self::Fixed16Zero(FixedLane::new(f, i, b)),
-                    (.., Rounding::Down) => Self::Fixed16Down(FixedLane::new(f, i, b)),
+                match (format.width() > 16, format.overflow == Overflow::Wrap) {
+                    (false, false) => Self::Fixed16(FixedLane::new(f, i, b)),
+                    (false, true) => Self::Fixed16Wrap(FixedLane::new(f, i, b)),
+                    (true, false) => Self::Fixed32(FixedLane::new(f, i, b)),
+                    (true, true) => Self::Fixed32Wrap(FixedLane::new(f, i, b)),
                 }
             }
-            FormatKind::Float { exp_bits: x, man_bits: m } => match (ieee::path(f), float::path(f)) {
-                (Some(HOST), _) => Self::IeeeHost(IeeeLane::new(f, x, m)),
-                (Some(SINGLE), _) => Self::IeeeSingle(IeeeLane::new(f, x, m)),
-                (Some(_), _) => Self::IeeeDouble(IeeeLane::new(f, x, m)),
-                (_, HOST) => Self::Host(FloatLane::new(f, x, m)),
-                (_, HOST_NV) => Self::HostNv(FloatLane::new(f, x, m)),
-                (_, SINGLE) => Self::Single(FloatLane::new(f, x, m)),
-                _ if format.rounding == Rounding::NearestEven => Self::DoubleEven(FloatLane::new(f, x, m)),
-                _ => Self::Double(FloatLane::new(f, x, m)),
+            FormatKind::Float { exp_bits: x, man_bits: m } => match (float::path(f, x, m), format.rounding) {
+                (HOST, _) if ieee::is_plain(f) => Self::IeeeHost(IeeeLane::new(f, x, m)),
+                (SINGLE, _) if ieee::is_plain(f) => Self::IeeeSingle(IeeeLane::new(f, x, m)),
+                (DOUBLE, _) if ieee::is_plain(f) => Self::IeeeDouble(IeeeLane::new(f, x, m)),
+                (HOST, NearestEven) => Self::HostEven(FloatLane::new(f, x, m)),
+                (HOST, NearestAway) => Self::HostAway(FloatLane::new(f, x, m)),
+                (HOST, TowardZero) => Self::HostZero(FloatLane::new(f, x, m)),
+                (HOST, Down) => Self::HostDown(FloatLane::new(f, x, m)),
+                (SINGLE, NearestEven) => Self::SingleEven(FloatLane::new(f, x, m)),
+                (SINGLE, NearestAway) => Self::SingleAway(FloatLane::new(f, x, m)),
+                (SINGLE, TowardZero) => Self::SingleZero(FloatLane::new(f, x, m)),
+                (SINGLE, Down) => Self::SingleDown(FloatLane::new(f, x, m)),
+                (DOUBLE, NearestEven) => Self::DoubleEven(FloatLane::new(f, x, m)),
+                (DOUBLE, NearestAway) => Self::DoubleAway(FloatLane::new(f, x, m)),
+                (DOUBLE, TowardZero) => Self::DoubleZero(FloatLane::new(f, x, m)),
+                (DOUBLE, Down) => Self::DoubleDown(FloatLane::new(f, x, m)),
+                _ => Self::General(FloatLane::new(f, x, m)),
             },
         }
     }
@@ -59,20 +73,26 @@ impl AnyLane {
 macro_rules! with_any_lane {
     ($any:expr, |$lane:ident| $body:block) => {
         match $any {
-            $crate::exec::batch::lanes::AnyLane::Fixed16Even($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed16Away($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed16Zero($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed16Down($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed16($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Fixed16Wrap($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::Fixed32($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::Fixed32Wrap($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::IeeeHost($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::IeeeSingle($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::IeeeDouble($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Host($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::HostNv($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Single($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::HostEven($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::HostAway($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::HostZero($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::HostDown($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::SingleEven($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::SingleAway($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::SingleZero($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::SingleDown($lane) => $body,
             $crate::exec::batch::lanes::AnyLane::DoubleEven($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Double($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::DoubleAway($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::DoubleZero($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::DoubleDown($lane) => $body,
+            $crate::exec::batch::lanes::AnyLane::General($lane) => $body,
         }
     };
 }

@@ -1,6 +1,7 @@
 //! One operation on many operands, through the same lanes that programs run in.
 
 use super::any::{AnyLane, with_any_lane};
+use super::float::GeneralLane;
 use super::lane::Lane;
 use crate::num::{Format, NumberOperation};
 
@@ -12,7 +13,7 @@ use crate::num::{Format, NumberOperation};
 /// compares the two through this function.
 pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     with_any_lane!(&AnyLane::new(format), |lane| {
-        a.iter().enumerate().map(|(i, &a)| apply(lane, operation, [a, bits_at(b, i), bits_at(c, i)])).collect()
+        a.iter().enumerate().map(|(i, &a)| evaluated(lane, operation, [a, bits_at(b, i), bits_at(c, i)])).collect()
     })
 }
 
@@ -34,10 +35,40 @@ fn bits_at(row: &[u32], i: usize) -> u32 {
     row.get(i).copied().unwrap_or_default()
 }
 
-fn apply<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
+/// The operation on bit patterns.
+fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
     use NumberOperation as Op;
     let [a, b, c] = operands.map(|bits| lane.decode(bits));
     let value = match operation {
+        Op::Scale => lane.scale(a, operands[1].cast_signed()),
+        Op::SelectNonNegative if lane.le(lane.decode(0), a) => b,
+        Op::SelectNonNegative => c,
+        Op::SelectAboveHalf if lane.above_half(a) => b,
+        Op::SelectAboveHalf => c,
+        Op::Less => return Some(lane.lt(a, b).into()),
+        Op::LessEqual => return Some(lane.le(a, b).into()),
+        Op::Equal => return Some(lane.eq(a, b).into()),
+        _ => apply(lane, operation, [a, b, c])?,
+    };
+    let raw = match lane.general() {
+        Some(general) if lane.is_guarded() && !is_finite(L::store(value)) => {
+            apply(&general, operation, [a, b, c].map(|x| GeneralLane::load(L::store(x)))).map(GeneralLane::store)
+        }
+        _ => None,
+    };
+    Some(lane.encode(raw.map_or(value, L::load)))
+}
+
+/// Whether what a slot of a float holds is neither infinite nor NaN.
+#[inline(always)]
+pub(crate) fn is_finite(raw: u32) -> bool {
+    raw & 0x7fff_ffff < 0x7f80_0000
+}
+
+/// The operations that compute a number from numbers.
+pub(crate) fn apply<L: Lane>(lane: &L, operation: NumberOperation, [a, b, c]: [L::T; 3]) -> Option<L::T> {
+    use NumberOperation as Op;
+    Some(match operation {
         Op::Add => lane.add(a, b),
         Op::Sub => lane.sub(a, b),
         Op::Mul => lane.mul(a, b),
@@ -55,18 +86,9 @@ fn apply<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> O
         Op::Frc => lane.frc(a),
         Op::Neg => lane.neg(a),
         Op::Abs => lane.abs(a),
-        Op::Scale => lane.scale(a, operands[1].cast_signed()),
         Op::Saturate => lane.saturate(a),
-        Op::SelectNonNegative if lane.le(lane.decode(0), a) => b,
-        Op::SelectNonNegative => c,
-        Op::SelectAboveHalf if lane.above_half(a) => b,
-        Op::SelectAboveHalf => c,
-        Op::Less => return Some(lane.lt(a, b).into()),
-        Op::LessEqual => return Some(lane.le(a, b).into()),
-        Op::Equal => return Some(lane.eq(a, b).into()),
         _ => return None,
-    };
-    Some(lane.encode(value))
+    })
 }
 
 /// Bit patterns of `from` converted to `to`, as [`crate::num::ops::convert`] defines it.

@@ -1,43 +1,98 @@
 //! Lane arithmetic of the fixed-point formats `sI.F`, in host integers.
 
-use super::float::rounding_index;
 use super::lane::Lane;
 use super::power;
-use crate::num::{Format, Overflow};
+use super::round::{AWAY, EVEN, ZERO, rounding_index};
+use crate::num::Format;
 
-/// The overflow rule decided at run time; the other two are 0 (saturate) and 1 (wrap).
-const ANY_OVERFLOW: u8 = 2;
-
-/// How to divide by a power of two with rounding: the constants of one shift.
+/// How to divide by a power of two with rounding, the same way for every rounding: `(v + more + (v >> at & mask)) >>
+/// count`.
+///
+/// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
+/// - Nearest away is half a unit up, one less where `v` is negative.
+/// - Toward zero is up to the next unit where `v` is negative.
 #[derive(Clone, Copy, Debug)]
 struct Shift {
     count: u32,
-    /// One half unit, less one, and the mask of what is dropped; all zero if nothing is.
+    /// Half a unit, and the mask of what is dropped; zero if nothing is.
     half: i64,
-    half_less_one: i64,
     dropped: i64,
-    /// One if anything is dropped.
-    some: i64,
+    more: i64,
+    mask: i64,
+    /// Whether the mask is for the sign of `v`, not for its lowest bit that stays.
+    by_sign: bool,
 }
 
 impl Shift {
-    const fn new(count: u32) -> Shift {
+    const fn new(rounding: u8, count: u32) -> Shift {
         let half = if count == 0 { 0 } else { 1 << (count - 1) };
         let some = if count == 0 { 0 } else { 1 };
-        Shift { count, half, half_less_one: half - some, dropped: (1 << count) - 1, some }
+        let dropped = (1 << count) - 1;
+        let (more, mask) = match rounding {
+            EVEN => (half - some, some),
+            AWAY => (half, -some),
+            ZERO => (0, dropped),
+            _ => (0, 0),
+        };
+        Shift { count, half, dropped, more, mask, by_sign: rounding != EVEN }
     }
 }
 
-/// The arithmetic of one fixed-point format: `R` a rounding as a number or [`super::float::ANY`], `WIDE` whether the
-/// format has more than 16 bits, `O` 0 to saturate, 1 to wrap, 2 to decide at run time.
+/// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
+const PIVOT: f64 = 6_755_399_441_055_744.0;
+
+/// How a double becomes an integer in each rounding: the nearest even integer of the number, or of its magnitude, and
+/// one less or more by how far the number is from it.
+#[derive(Clone, Copy, Debug)]
+struct Whole {
+    /// What stays of the number: all bits, or all but the sign.
+    sign: u64,
+    /// One less below this, one more from this on.
+    lower: f64,
+    upper: f64,
+}
+
+impl Whole {
+    const fn new(rounding: u8) -> Whole {
+        const SIZE: u64 = u64::MAX >> 1;
+        let never = f64::INFINITY;
+        match rounding {
+            EVEN => Whole { sign: u64::MAX, lower: -never, upper: never },
+            AWAY => Whole { sign: SIZE, lower: -never, upper: 0.5 },
+            ZERO => Whole { sign: SIZE, lower: 0.0, upper: never },
+            _ => Whole { sign: u64::MAX, lower: 0.0, upper: never },
+        }
+    }
+}
+
+/// Masks of when a quotient becomes the integer beside its nearest even one: one less if it lies below, one more if
+/// beyond, by its sign; any quotient, or ties alone.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    less: [i32; 2],
+    more: [i32; 2],
+    any: i32,
+}
+
+impl Beside {
+    const fn new(rounding: u8) -> Beside {
+        match rounding {
+            EVEN => Beside { less: [0, 0], more: [0, 0], any: 0 },
+            AWAY => Beside { less: [0, -1], more: [-1, 0], any: 0 },
+            ZERO => Beside { less: [-1, 0], more: [0, -1], any: -1 },
+            _ => Beside { less: [-1, -1], more: [0, 0], any: -1 },
+        }
+    }
+}
+
+/// The arithmetic of one fixed-point format: `WIDE` whether it has more than 16 bits, `WRAP` whether it wraps.
 ///
 /// Up to 16 bits a product, and a product plus a shifted addend, fits an `i32`: both factors are at most 2^15, so
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
 /// ones use `i64`, where the same holds with 2^62.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FixedLane<const R: u8, const WIDE: bool, const O: u8> {
+pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
-    wrap: bool,
     frac: u32,
     int: u32,
     width: u32,
@@ -45,6 +100,8 @@ pub(crate) struct FixedLane<const R: u8, const WIDE: bool, const O: u8> {
     high: i32,
     one: i32,
     product: Shift,
+    whole: Whole,
+    beside: Beside,
 }
 
 /// Divides by `2^count`, rounding: one body for both widths.
@@ -52,19 +109,13 @@ macro_rules! round_shift {
     ($name:ident, $t:ty, $sign:literal) => {
         #[inline(always)]
         fn $name(&self, v: $t, shift: &Shift) -> $t {
-            let count = shift.count;
-            match self.rounding() {
-                // floor((v + half - 1 + odd) / 2^count): ties move up only from odd floors.
-                0 => (v + shift.half_less_one as $t + (v >> count & shift.some as $t)) >> count,
-                1 => (v + shift.half as $t + (v >> $sign & -(shift.some as $t))) >> count,
-                2 => (v + (v >> $sign & shift.dropped as $t)) >> count,
-                _ => v >> count,
-            }
+            let at = if shift.by_sign { $sign } else { shift.count };
+            (v + shift.more as $t + (v >> at & shift.mask as $t)) >> shift.count
         }
     };
 }
 
-impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
+impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
     /// The arithmetic of a fixed-point format with these bits.
     pub(crate) fn new(format: &Format, int_bits: u8, frac_bits: u8) -> Self {
         let bits = u32::from(int_bits) + u32::from(frac_bits);
@@ -72,25 +123,16 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
         let one = (1i64 << frac_bits).min(i64::from(high)) as i32;
         FixedLane {
             rounding: rounding_index(format.rounding),
-            wrap: format.overflow == Overflow::Wrap,
             frac: u32::from(frac_bits),
             int: u32::from(int_bits),
             width: bits + 1,
             low: -high - 1,
             high,
             one,
-            product: Shift::new(u32::from(frac_bits)),
+            product: Shift::new(rounding_index(format.rounding), frac_bits.into()),
+            whole: Whole::new(rounding_index(format.rounding)),
+            beside: Beside::new(rounding_index(format.rounding)),
         }
-    }
-
-    #[inline(always)]
-    fn rounding(&self) -> u8 {
-        if R == super::float::ANY { self.rounding } else { R }
-    }
-
-    #[inline(always)]
-    fn wraps(&self) -> bool {
-        if O == ANY_OVERFLOW { self.wrap } else { O == 1 }
     }
 
     round_shift!(round32, i32, 31);
@@ -106,16 +148,16 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
 
     #[inline(always)]
     fn fit32(&self, v: i32) -> i32 {
-        if self.wraps() { self.residue(v) } else { v.max(self.low).min(self.high) }
+        if WRAP { self.residue(v) } else { v.max(self.low).min(self.high) }
     }
 
     #[inline(always)]
     fn fit64(&self, v: i64) -> i32 {
-        if self.wraps() { self.residue(v as i32) } else { v.max(i64::from(self.low)).min(i64::from(self.high)) as i32 }
+        if WRAP { self.residue(v as i32) } else { v.max(i64::from(self.low)).min(i64::from(self.high)) as i32 }
     }
 
     fn fit128(&self, v: i128) -> i32 {
-        if self.wraps() { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
+        if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
     fn extreme(&self, negative: bool) -> i32 {
@@ -136,25 +178,19 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
     /// small.
     #[inline(always)]
     fn quotient(&self, n: i32, d: i32) -> i32 {
-        /// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
-        const PIVOT: f64 = 6_755_399_441_055_744.0;
         let exact = f64::from(n) / f64::from(d);
         let (low, high) = (f64::from(self.low) - 1.0, f64::from(self.high) + 1.0);
         let above = if exact > low { exact } else { low };
         let near = ((if above < high { above } else { high }) + PIVOT).to_bits() as i32;
-        let rest = n - near * d;
-        // Whether the exact quotient is positive, and on which side of the integer it is.
-        let positive = (n < 0) == (d < 0);
-        let beyond = (rest != 0) & ((rest < 0) == (d < 0));
-        let below = (rest != 0) & ((rest < 0) != (d < 0));
-        let tie = rest.unsigned_abs() * 2 == d.unsigned_abs();
-        let (up, down) = match self.rounding() {
-            0 => (false, false),
-            1 => (tie & beyond & positive, tie & below & !positive),
-            2 => (beyond & !positive, below & positive),
-            _ => (false, below),
-        };
-        self.fit32(near + i32::from(up) - i32::from(down))
+        // Positive where the exact quotient lies above the integer.
+        let rest = (n - near * d) * d.signum();
+        let (below, beyond) = (rest >> 31, -rest >> 31);
+        let positive = !((n ^ d) >> 31);
+        let tie = if 2 * rest.unsigned_abs() == d.unsigned_abs() { -1 } else { 0 };
+        let Beside { less, more, any } = self.beside;
+        let down = below & (positive & less[0] | !positive & less[1]);
+        let up = beyond & (positive & more[0] | !positive & more[1]);
+        self.fit32(near + ((down - up) & (tie | any)))
     }
 
     /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
@@ -167,11 +203,11 @@ impl<const R: u8, const WIDE: bool, const O: u8> FixedLane<R, WIDE, O> {
             (magnitude, guard, sticky)
         };
         let exact = (kept << 1 | u128::from(sticky)).cast_signed();
-        self.fit128(self.round128(if negative { -exact } else { exact }, &Shift::new(guard + 1)))
+        self.fit128(self.round128(if negative { -exact } else { exact }, &Shift::new(self.rounding, guard + 1)))
     }
 }
 
-impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> {
+impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     type T = i32;
 
     #[inline(always)]
@@ -201,29 +237,25 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
-        // In units; scaling by a power of two, floors and the rest below are exact.
+        // In units; scaling by a power of two, the nearest integer and the rest are exact.
         let units = x * (1u64 << self.frac) as f64;
-        let floor = units.floor();
-        let rest = units - floor;
-        let up = match self.rounding() {
-            // An odd floor has a half that isn't whole.
-            0 => (rest > 0.5) | ((rest == 0.5) & (floor * 0.5 != (floor * 0.5).floor())),
-            1 => (rest > 0.5) | ((rest == 0.5) & (units > 0.0)),
-            2 => (rest > 0.0) & (units < 0.0),
-            _ => false,
-        };
-        let rounded = if up { floor + 1.0 } else { floor };
+        let value = f64::from_bits(units.to_bits() & self.whole.sign);
+        let near = value.round_ties_even();
+        let rest = value - near;
+        let less = if rest < self.whole.lower { 1.0 } else { 0.0 };
+        let more = if rest >= self.whole.upper { 1.0 } else { 0.0 };
+        let size = near - less + more;
+        let rounded = f64::from_bits(size.to_bits() | units.to_bits() & !self.whole.sign);
         let (low, high) = (f64::from(self.low), f64::from(self.high));
         let above_low = if rounded > low { rounded } else { low };
         let clamped = if above_low < high { above_low } else { high };
+        // Modulo the width: in [0, 2^width), and one more fold makes it signed.
         let size = (1u64 << self.width) as f64;
-        let residue = rounded - (rounded / size).floor() * size;
-        let finite = units.abs() < f64::INFINITY;
-        let value = if self.wraps() & finite { residue } else { clamped };
+        let residue = rounded - (rounded * (1.0 / size)).floor() * size;
+        let folded = residue - if residue > high { size } else { 0.0 };
+        let value = if WRAP && units.abs() < f64::INFINITY { folded } else { clamped };
         let number = if x.is_nan() { 0.0 } else { value };
-        // The residue lies in [0, 2^width): one more fold makes it signed.
-        let folded = if number > high { number - size } else { number };
-        folded as i32
+        (number + PIVOT).to_bits() as i32
     }
 
     #[inline(always)]
@@ -274,7 +306,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn div(&self, a: i32, b: i32) -> i32 {
-        if !WIDE && !self.wraps() {
+        if !WIDE && !WRAP {
             let quotient = self.quotient(a << self.frac, b);
             return if b == 0 { self.by_zero(a) } else { quotient };
         }
@@ -298,11 +330,12 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     #[inline(always)]
     fn rcp(&self, a: i32) -> i32 {
+        if !WIDE && !WRAP {
+            let quotient = self.quotient(1 << (2 * self.frac), a);
+            return if a == 0 { self.high } else { quotient };
+        }
         if a == 0 {
             return self.high;
-        }
-        if !WIDE && !self.wraps() {
-            return self.quotient(1 << (2 * self.frac), a);
         }
         let dividend = 1u128 << (2 * self.frac + 2);
         let divisor = u128::from(a.unsigned_abs());
@@ -324,7 +357,7 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
 
     fn exp2(&self, a: i32) -> i32 {
         // Past the range there is no residue to take.
-        if a >> self.frac >= self.int.cast_signed() && self.wraps() {
+        if a >> self.frac >= self.int.cast_signed() && WRAP {
             return self.high;
         }
         self.round_f64(power::exp2(self.to_f64(a)))
@@ -374,11 +407,11 @@ impl<const R: u8, const WIDE: bool, const O: u8> Lane for FixedLane<R, WIDE, O> 
         if !WIDE && shift >= 0 {
             self.fit32(a << shift)
         } else if !WIDE {
-            self.fit32(self.round32(a, &Shift::new(shift.unsigned_abs())))
+            self.fit32(self.round32(a, &Shift::new(self.rounding, shift.unsigned_abs())))
         } else if shift >= 0 {
             self.fit64(i64::from(a) << shift)
         } else {
-            self.fit64(self.round64(i64::from(a), &Shift::new(shift.unsigned_abs())))
+            self.fit64(self.round64(i64::from(a), &Shift::new(self.rounding, shift.unsigned_abs())))
         }
     }
 

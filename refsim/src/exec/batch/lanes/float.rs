@@ -2,108 +2,77 @@
 
 use super::lane::Lane;
 use super::odd::SIGN;
-use super::{odd, power};
+use super::round::{AWAY, DOWN, DoubleRounder, EVEN, SingleRounder, ZERO, rounding_index};
+use super::{odd, power, toward};
 use crate::exec::lower::{FloatLayout, pow2};
-use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
+use crate::num::{Format, Overflow, Rounding, Specials};
 
-/// Host `f32` operations are the format's own: binary32, nearest even, IEEE overflow.
+/// Binary32, in `f32`: nearest even is the host's own rounding.
 pub(crate) const HOST: u8 = 0;
-/// Through one `f32` operation and a second rounding, nearest even only.
+/// In `f32`, and rounded once more.
 ///
-/// Rounding twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits (Figueroa 1995, "When
-/// is double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is subnormal, because the
-/// argument is about the distance between a result and a midpoint of at most `p + 1` bits, and subnormal midpoints have
-/// fewer. The wide result must not be subnormal itself: with six exponent bits and ten mantissa bits the smallest
-/// product is 2^-80.
+/// Rounding to nearest even twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits
+/// (Figueroa 1995, "When is double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is
+/// subnormal, because the argument is about the distance between a result and a midpoint of at most `p + 1` bits, and
+/// subnormal midpoints have fewer. The wide result must not be subnormal itself: with six exponent bits and ten mantissa
+/// bits the smallest product is 2^-80. Products are exact.
 pub(crate) const SINGLE: u8 = 1;
-/// Through a double, rounded to odd: every format, every rounding.
+/// Nearest even in `f64` by the same argument, `53 >= 2 * 24 + 2`; the other roundings in `f32` (see [`toward`]).
 pub(crate) const DOUBLE: u8 = 2;
-
-/// As [`HOST`], but for what lies between the largest number and `2^128`: NV30's binary32.
-pub(crate) const HOST_NV: u8 = 3;
+/// Every format and rounding: exact results rounded to odd into doubles, slowly. The other paths fall back on it.
+pub(crate) const GENERAL: u8 = 3;
 
 /// Rounding decided at run time.
 pub(crate) const ANY: u8 = 4;
 
-/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`HOST_NV`]; `R` is a
+/// The arithmetic that is right for every float format.
+pub(crate) type GeneralLane = FloatLane<GENERAL, ANY>;
+
+/// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`GENERAL`]; `R` is a
 /// [`Rounding`] as a number, or [`ANY`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     rounding: u8,
     layout: FloatLayout,
-    /// Numbers below this become zero: the smallest normal number under [`Denormals::Flush`], else 0.
-    flush: f64,
-    /// `2^(52 - m)`: a binade times this is the number to round against.
-    magic: f64,
-    /// Largest finite number, and what larger ones become, by sign; the same for exact magnitudes of `2^(emax+1)` and
-    /// more.
-    max: f64,
-    over: [f32; 2],
-    huge_from: f64,
-    huge: [f32; 2],
-    /// What `1/0` and `log2 0` give, by sign.
-    pole: [f32; 2],
+    single: SingleRounder,
+    double: DoubleRounder,
+    /// The magnitude of what `1/0` and `log2 0` give.
+    pole: f32,
     nv: bool,
+    guarded: bool,
 }
 
-/// The arithmetic number of a rounding.
-pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
-    match rounding {
-        Rounding::NearestEven => 0,
-        Rounding::NearestAway => 1,
-        Rounding::TowardZero => 2,
-        Rounding::Down => 3,
-    }
-}
-
-/// The path that fits the format, and the only one that [`FloatLane::new`] may be built with besides [`DOUBLE`].
-pub(crate) fn path(format: &Format) -> u8 {
-    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return DOUBLE };
-    let ieee = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap);
-    if format.rounding != Rounding::NearestEven {
-        DOUBLE
-    } else if (exp_bits, man_bits) == (8, 23) && ieee {
-        HOST
-    } else if (exp_bits, man_bits) == (8, 23) && format.overflow == Overflow::Nv30 {
-        HOST_NV
-    } else if exp_bits <= 6 && man_bits <= 10 {
-        SINGLE
-    } else {
-        DOUBLE
+/// The path that fits a format with these bits.
+pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
+    match (exp_bits, man_bits) {
+        (8, 23) => HOST,
+        (..=6, ..=10) => SINGLE,
+        // Below the smallest normal number these would need a bit more than a single has.
+        (_, 23) if format.rounding != Rounding::NearestEven => GENERAL,
+        _ => DOUBLE,
     }
 }
 
 impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
-    /// The arithmetic of a float format with these bits.
+    /// The arithmetic of a float format with these bits, for which [`path`] must have said `PATH`, or [`GENERAL`].
     pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
-        let (x, m) = (i32::from(exp_bits), i32::from(man_bits));
-        let emax = (1 << (x - 1)) - 1;
-        let layout = FloatLayout::new(exp_bits, man_bits, format.denormals);
-        let max = pow2(emax) * (2.0 - pow2(-m));
-        let (inf, largest) = ([f32::INFINITY, f32::NEG_INFINITY], [max as f32, -max as f32]);
-        let (over, huge) = match format.overflow {
-            Overflow::Saturate => (largest, largest),
-            Overflow::Nv30 => (largest, inf),
-            Overflow::Infinity | Overflow::Wrap => {
-                let both = match format.rounding {
-                    Rounding::NearestEven | Rounding::NearestAway => inf,
-                    Rounding::TowardZero => largest,
-                    Rounding::Down => [largest[0], inf[1]],
-                };
-                (both, both)
-            }
-        };
+        let emax = (1 << (exp_bits - 1)) - 1;
+        let largest = (pow2(emax) * (2.0 - pow2(-i32::from(man_bits)))) as f32;
+        let bounded = matches!(format.overflow, Overflow::Saturate | Overflow::Nv30);
         FloatLane {
             rounding: rounding_index(format.rounding),
-            layout,
-            flush: if format.denormals == Denormals::Flush { layout.min_normal } else { 0.0 },
-            magic: pow2(52 - m),
-            max,
-            over,
-            huge_from: pow2(emax) * 2.0,
-            huge,
-            pole: if format.overflow == Overflow::Saturate { largest } else { inf },
+            layout: FloatLayout::new(exp_bits, man_bits, format.denormals),
+            single: SingleRounder::new(format, exp_bits, man_bits),
+            double: DoubleRounder::new(format, exp_bits, man_bits),
+            pole: if format.overflow == Overflow::Saturate { largest } else { f32::INFINITY },
             nv: format.specials == Specials::Nv,
+            guarded: match (PATH, R) {
+                (GENERAL, _) | (DOUBLE, EVEN) => false,
+                (_, EVEN) => exp_bits == 8 && bounded,
+                // A product just below the power of two that is infinite is rounded to it on its way.
+                (_, DOWN) if format.overflow == Overflow::Nv30 => true,
+                _ => exp_bits == 8,
+            },
         }
     }
 
@@ -112,89 +81,21 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if R == ANY { self.rounding } else { R }
     }
 
-    /// Rounds a double, exact or rounded to odd, into the format; infinities and NaN pass.
+    /// Rounds a result of single precision that is in the format's rounding already.
     #[inline(always)]
-    fn narrow(&self, x: f64) -> f32 {
-        let mag = x.abs();
-        let negative = x.is_sign_negative();
-        let binade = f64::from_bits(mag.to_bits() & 0x7ff0_0000_0000_0000);
-        let scale = if binade > self.layout.min_normal { binade } else { self.layout.min_normal };
-        // Adding a number whose unit in the last place is the format's there rounds to nearest even.
-        let pivot = scale * self.magic;
-        let near = (mag + pivot) - pivot;
-        let unit = scale * self.layout.unit;
-        let kept = match self.rounding() {
-            0 => near,
-            1 => {
-                if mag - near == 0.5 * unit {
-                    near + unit
-                } else {
-                    near
-                }
-            }
-            2 => {
-                if near > mag {
-                    near - unit
-                } else {
-                    near
-                }
-            }
-            _ => {
-                let (up, down) = (negative & (near < mag), !negative & (near > mag));
-                if up {
-                    near + unit
-                } else if down {
-                    near - unit
-                } else {
-                    near
-                }
-            }
-        };
-        let kept = if kept < self.flush { 0.0 } else { kept };
-        let too_large = if mag >= self.huge_from { &self.huge } else { &self.over };
-        let over = if negative { too_large[1] } else { too_large[0] };
-        let signed = if negative { -(kept as f32) } else { kept as f32 };
-        let fits = if kept > self.max { over } else { signed };
-        if mag < f64::INFINITY { fits } else { x as f32 }
-    }
-
-    /// [`FloatLane::narrow`] for [`SINGLE`]: the same rounding against a pivot, in `f32`.
-    #[inline(always)]
-    fn narrow_single(&self, x: f32) -> f32 {
-        let mag = x.abs();
-        let binade = f32::from_bits(mag.to_bits() & 0x7f80_0000);
-        let min_normal = self.layout.min_normal as f32;
-        let scale = if binade > min_normal { binade } else { min_normal };
-        let pivot = scale * (self.magic * SINGLE_MAGIC) as f32;
-        let near = (mag + pivot) - pivot;
-        let kept = if near < self.flush as f32 { 0.0 } else { near };
-        let negative = x.is_sign_negative();
-        let too_large = if mag >= self.huge_from as f32 { &self.huge } else { &self.over };
-        let over = if negative { too_large[1] } else { too_large[0] };
-        let signed = if negative { -kept } else { kept };
-        let fits = if kept > self.max as f32 { over } else { signed };
-        if mag < f32::INFINITY { fits } else { x }
-    }
-
-    /// A host result under NV30's overflow: infinite only if the exact one is `2^128` or more. As a double the exact
-    /// one is no smaller than that unless it really is: products have 48 bits, and what a sum of two singles lacks to
-    /// `2^128` is a multiple of `2^80`.
-    #[inline(always)]
-    fn below_huge(&self, x: f32, exact: f64) -> f32 {
-        let over = if exact < 0.0 { self.over[1] } else { self.over[0] };
-        if (x.abs() == f32::INFINITY) & (exact.abs() < self.huge_from) { over } else { x }
-    }
-
-    /// Flushes a host result.
-    #[inline(always)]
-    fn flushed(&self, x: f32) -> f32 {
-        if x.abs() < self.flush as f32 { f32::from_bits(x.to_bits() & 0x8000_0000) } else { x }
+    fn narrow(&self, x: f32) -> f32 {
+        match (PATH, R) {
+            (HOST, _) => self.single.flushed(x),
+            (_, EVEN) => self.single.round(EVEN, x),
+            (SINGLE, AWAY | ZERO) => self.single.cut_short(R, x),
+            _ => self.single.cut(R, x),
+        }
     }
 
     /// A pole's value, by sign.
     #[inline(always)]
-    fn pole(&self, negative: bool) -> f32 {
-        if negative { self.pole[1] } else { self.pole[0] }
+    fn pole(&self, sign: u32) -> f32 {
+        f32::from_bits(self.pole.to_bits() | sign)
     }
 
     /// The zero that exact cancellation leaves: `-0` when rounding down, `+0` otherwise; the zero of both operands
@@ -202,12 +103,12 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
     #[inline(always)]
     fn cancel(&self, a: f64, b: f64, sum: f64) -> f64 {
         let plus = (a == 0.0) & (b == 0.0) & !a.is_sign_negative() & !b.is_sign_negative();
-        if (self.rounding() == 3) & (sum == 0.0) & !plus { -0.0 } else { sum }
+        if (self.rounding() == DOWN) & (sum == 0.0) & !plus { -0.0 } else { sum }
     }
 }
 
-/// `2^(23-m)` from `2^(52-m)`.
-const SINGLE_MAGIC: f64 = 1.0 / 536_870_912.0;
+/// The sign bit of a single.
+const SIGN_BIT: u32 = 1 << 31;
 
 impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     type T = f32;
@@ -239,19 +140,35 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn round_f64(&self, x: f64) -> f32 {
-        if PATH == HOST_NV { self.flushed(self.below_huge(x as f32, x)) } else { self.narrow(x) }
+        if PATH == HOST && R == EVEN {
+            self.single.flushed(self.double.convert(x))
+        } else {
+            self.double.round(self.rounding(), x) as f32
+        }
+    }
+
+    #[inline(always)]
+    fn is_guarded(&self) -> bool {
+        self.guarded
+    }
+
+    fn general(&self) -> Option<GeneralLane> {
+        let Self { rounding, layout, single, double, pole, nv, .. } = *self;
+        Some(FloatLane { rounding, layout, single, double, pole, nv, guarded: false })
     }
 
     #[inline(always)]
     fn add(&self, a: f32, b: f32) -> f32 {
-        match PATH {
-            HOST => self.flushed(a + b),
-            HOST_NV => self.flushed(self.below_huge(a + b, f64::from(a) + f64::from(b))),
-            SINGLE => self.narrow_single(a + b),
-            _ => {
+        match (PATH, R) {
+            (GENERAL, _) => {
                 let (a, b) = (f64::from(a), f64::from(b));
-                self.narrow(self.cancel(a, b, odd::add_odd(a, b)))
+                self.round_f64(self.cancel(a, b, odd::add_odd(a, b)))
             }
+            (DOUBLE, EVEN) => self.round_f64(f64::from(a) + f64::from(b)),
+            (_, EVEN) => self.narrow(a + b),
+            (HOST, AWAY) => self.narrow(toward::nearest_sum(a, b)),
+            (SINGLE, AWAY | ZERO) => self.narrow(toward::short_sum(a, b)),
+            _ => self.narrow(toward::sum::<R>(a, b)),
         }
     }
 
@@ -262,19 +179,37 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn mul(&self, a: f32, b: f32) -> f32 {
-        match PATH {
-            HOST => self.flushed(a * b),
-            HOST_NV => self.flushed(self.below_huge(a * b, f64::from(a) * f64::from(b))),
-            SINGLE => self.narrow_single(a * b),
+        match (PATH, R) {
             // 24 bits times 24 bits: exact.
-            _ => self.narrow(f64::from(a) * f64::from(b)),
+            (GENERAL, _) | (DOUBLE, EVEN) => self.round_f64(f64::from(a) * f64::from(b)),
+            (SINGLE, _) | (_, EVEN) => self.narrow(a * b),
+            (HOST, AWAY) => self.narrow(toward::nearest_product(a, b)),
+            _ => self.narrow(toward::product::<R>(a, b)),
         }
+    }
+
+    #[inline(always)]
+    fn sum<const N: usize>(&self, a: [f32; N], b: [f32; N]) -> f32 {
+        if (PATH, R) != (DOUBLE, EVEN) {
+            let mut sum = self.mul(a[0], b[0]);
+            for k in 1..N {
+                sum = self.add(sum, self.mul(a[k], b[k]));
+            }
+            return sum;
+        }
+        // Stays in doubles on the way.
+        let product = |k: usize| self.double.round(EVEN, f64::from(a[k]) * f64::from(b[k]));
+        let mut sum = product(0);
+        for k in 1..N {
+            sum = self.double.round(EVEN, sum + product(k));
+        }
+        sum as f32
     }
 
     #[inline(always)]
     fn fused_mad(&self, a: f32, b: f32, c: f32) -> f32 {
         let (p, c) = (f64::from(a) * f64::from(b), f64::from(c));
-        self.narrow(self.cancel(p, c, odd::add_odd(p, c)))
+        self.round_f64(self.cancel(p, c, odd::add_odd(p, c)))
     }
 
     #[inline(always)]
@@ -287,27 +222,30 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             all_minus &= products[k].to_bits() == SIGN;
         }
         let sum = odd::sum_odd(products);
-        let zero = if all_minus | ((self.rounding() == 3) & !all_plus) { -0.0 } else { 0.0 };
-        self.narrow(if sum == 0.0 { zero } else { sum })
+        let zero = if all_minus | ((self.rounding() == DOWN) & !all_plus) { -0.0 } else { 0.0 };
+        self.round_f64(if sum == 0.0 { zero } else { sum })
     }
 
     #[inline(always)]
     fn div(&self, a: f32, b: f32) -> f32 {
-        if PATH == HOST && self.pole[0] == f32::INFINITY {
-            return self.flushed(a / b);
-        }
-        let quotient = odd::div_odd(f64::from(a), f64::from(b));
+        let quotient = match (PATH, R) {
+            (HOST, EVEN) => return self.narrow(a / b),
+            (SINGLE, EVEN) => self.narrow(a / b),
+            // What decides a rounding is a number of one bit more than the format, and a quotient of two such numbers
+            // that isn't it differs from it by more than the double does from the quotient.
+            (_, EVEN) => self.round_f64(f64::from(a) / f64::from(b)),
+            _ => self.round_f64(odd::div_odd(f64::from(a), f64::from(b))),
+        };
         let pole = (b == 0.0) & (a.abs() < f32::INFINITY) & (a != 0.0);
-        let negative = a.is_sign_negative() != b.is_sign_negative();
-        if pole { self.pole(negative) } else { self.narrow(quotient) }
+        if pole { self.pole((a.to_bits() ^ b.to_bits()) & SIGN_BIT) } else { quotient }
     }
 
     #[inline(always)]
     fn sqrt(&self, a: f32) -> f32 {
-        if PATH == HOST {
+        if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        self.narrow(odd::sqrt_odd(f64::from(a)))
+        self.round_f64(odd::sqrt_odd(f64::from(a)))
     }
 
     #[inline(always)]
@@ -319,8 +257,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     fn rsq(&self, a: f32) -> f32 {
         let mag = f64::from(a.abs());
         let regular = (mag > 0.0) & (mag < f64::INFINITY);
-        let root = self.narrow(odd::rsq_odd(if regular { mag } else { 1.0 }));
-        let zero = self.pole(self.nv & a.is_sign_negative());
+        let root = self.round_f64(odd::rsq_odd(if regular { mag } else { 1.0 }));
+        let zero = self.pole(if self.nv { a.to_bits() & SIGN_BIT } else { 0 });
         let special = if mag == 0.0 {
             zero
         } else if mag > 0.0 {
@@ -333,7 +271,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     fn exp2(&self, a: f32) -> f32 {
-        self.narrow(power::exp2(f64::from(a)))
+        self.round_f64(power::exp2(f64::from(a)))
     }
 
     fn log2(&self, a: f32) -> f32 {
@@ -341,9 +279,9 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if self.nv & (a < 0.0) {
             f32::NAN
         } else if mag == 0.0 {
-            self.pole(true)
+            self.pole(SIGN_BIT)
         } else {
-            self.narrow(power::log2(mag))
+            self.round_f64(power::log2(mag))
         }
     }
 
@@ -361,7 +299,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn floor(&self, a: f32) -> f32 {
-        self.narrow(f64::from(a).floor())
+        self.round_f64(f64::from(a).floor())
     }
 
     #[inline(always)]
@@ -369,7 +307,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         // Not through `floor`: short formats can't hold the floor of their most negative number.
         let a = f64::from(a);
         let b = -a.floor();
-        self.narrow(self.cancel(a, b, odd::add_odd(a, b)))
+        self.round_f64(self.cancel(a, b, odd::add_odd(a, b)))
     }
 
     #[inline(always)]
@@ -384,7 +322,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn scale(&self, a: f32, shift: i32) -> f32 {
-        self.narrow(f64::from(a) * pow2(shift))
+        self.round_f64(f64::from(a) * pow2(shift))
     }
 
     #[inline(always)]

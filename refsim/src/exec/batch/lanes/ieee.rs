@@ -1,11 +1,12 @@
 //! Lane arithmetic of the floats that behave as IEEE 754 says: nearest even, gradual underflow, infinities. One host
 //! operation, then one rounding without branches or comparisons.
 
-use super::float::FloatLane;
+use super::float::{FloatLane, GeneralLane};
 use super::lane::Lane;
 use super::odd;
+use super::round::EVEN;
 use crate::exec::lower::pow2;
-use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, Overflow, Rounding, Specials};
 
 pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 
@@ -24,7 +25,7 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
     /// The same arithmetic the long way: conversions, and whatever is rare.
-    general: FloatLane<DOUBLE, 0>,
+    general: FloatLane<DOUBLE, EVEN>,
     /// Host bits of the smallest normal number; as integers they compare faster than as floats.
     lowest: (u32, u64),
     /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last place is the
@@ -35,22 +36,16 @@ pub(crate) struct IeeeLane<const PATH: u8> {
     shrink: (f32, f64),
 }
 
-/// The path of an IEEE format; `None` if `format` isn't one.
-pub(crate) fn path(format: &Format) -> Option<u8> {
-    let FormatKind::Float { exp_bits, man_bits } = format.kind else { return None };
-    let plain = matches!(format.overflow, Overflow::Infinity | Overflow::Wrap)
+/// Whether a float format is an IEEE format.
+pub(crate) fn is_plain(format: &Format) -> bool {
+    matches!(format.overflow, Overflow::Infinity | Overflow::Wrap)
         && format.rounding == Rounding::NearestEven
         && format.denormals != Denormals::Flush
-        && format.specials != Specials::Nv;
-    plain.then_some(match (exp_bits, man_bits) {
-        (8, 23) => HOST,
-        (..=6, ..=10) => SINGLE,
-        _ => DOUBLE,
-    })
+        && format.specials != Specials::Nv
 }
 
 impl<const PATH: u8> IeeeLane<PATH> {
-    /// The arithmetic of a float format with these bits, for which [`path`] must have said `PATH`.
+    /// The arithmetic of a float format with these bits, for which [`super::float::path`] must have said `PATH`.
     pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
         let m = u32::from(man_bits);
         let emax = (1 << (exp_bits - 1)) - 1;
@@ -123,6 +118,10 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
     #[inline(always)]
     fn round_f64(&self, x: f64) -> f32 {
         if PATH == HOST { x as f32 } else { self.narrow_double(x) as f32 }
+    }
+
+    fn general(&self) -> Option<GeneralLane> {
+        self.general.general()
     }
 
     #[inline(always)]

@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use super::float::GeneralLane;
+
 /// Lanes of a batch: the fragments of one 16x16 tile, lane `16 y + x`.
 pub(crate) const LANES: usize = 256;
 
@@ -34,6 +36,16 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn to_f64(&self, x: Self::T) -> f64;
     /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
     fn round_f64(&self, x: f64) -> Self::T;
+
+    /// Whether results of this arithmetic are right only where they are finite: another must be asked for the rest.
+    #[inline(always)]
+    fn is_guarded(&self) -> bool {
+        false
+    }
+    /// The arithmetic that is always right, for formats that have infinities and NaN.
+    fn general(&self) -> Option<GeneralLane> {
+        None
+    }
 
     /// `a + b`
     fn add(&self, a: Self::T, b: Self::T) -> Self::T;

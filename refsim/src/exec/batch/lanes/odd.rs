@@ -14,14 +14,9 @@ pub(crate) const SIGN: u64 = 1 << 63;
 /// of `s`, measured towards `e`'s side. Infinite and NaN `s` pass: their remainder is NaN or compares as zero.
 #[inline(always)]
 pub(crate) fn odd(s: f64, e: f64) -> f64 {
-    let bits = s.to_bits();
-    let positive = e > 0.0;
-    let inexact = positive | (e < 0.0);
-    let outward = positive == (s > 0.0);
-    // An odd last bit stands already; an even one becomes the odd neighbour on the side of the remainder.
-    let step = if outward { 1u64 } else { u64::MAX };
-    let moved = bits.wrapping_add(step);
-    f64::from_bits(if inexact & (bits & 1 == 0) { moved } else { bits })
+    // Cut off, then odd. Products of this size don't vanish.
+    let cut = s.to_bits().wrapping_sub(u64::from(e * s < 0.0));
+    f64::from_bits(cut | u64::from(e.abs() > 0.0))
 }
 
 /// `a + b` as its double and the exact error of that (Knuth's two-sum). NaN error where the sum is not finite.
@@ -59,8 +54,8 @@ pub(crate) fn div_odd(a: f64, b: f64) -> f64 {
     let rest = a - q * b;
     // Towards +inf if the remainder has the sign of the divisor.
     let e = if b > 0.0 { rest } else { -rest };
-    let finite = (quotient.abs() < f64::INFINITY) & (b.abs() < f64::INFINITY);
-    if finite { odd(q, e) } else { quotient }
+    // Without an error, an infinite divisor leaves NaN for it.
+    if quotient.abs() < f64::INFINITY { odd(q, e) } else { quotient }
 }
 
 /// `a / b` rounded to odd to all 53 bits, for finite `a`, `b` of at most 24 significant bits, `b` not 0: what
@@ -82,8 +77,7 @@ pub(crate) fn sqrt_odd(a: f64) -> f64 {
     let root = a.sqrt();
     let s = head(root);
     let e = a - s * s;
-    let finite = (root > 0.0) & (root < f64::INFINITY);
-    if finite { odd(s, e) } else { root }
+    if root < f64::INFINITY { odd(s, e) } else { root }
 }
 
 /// `1 / sqrt(a)` rounded to odd, for finite `a > 0` of at most 24 significant bits.

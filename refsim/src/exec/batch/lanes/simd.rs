@@ -8,7 +8,7 @@ use multiversion::multiversion;
 pub enum SimdLevel {
     /// What every processor of the target has (SSE2 on x86-64).
     Baseline,
-    /// AVX2.
+    /// AVX2 and FMA.
     Avx2,
     /// AVX-512 F, BW, DQ and VL.
     Avx512,
@@ -39,7 +39,7 @@ impl SimdLevel {
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        let avx2 = is_x86_feature_detected!("avx2");
+        let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
         match self {
             Self::Baseline => true,
             Self::Avx2 => avx2,
@@ -69,12 +69,12 @@ impl SimdLevel {
     }
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
 fn avx512<R, F: FnOnce() -> R>(work: F) -> R {
     work()
 }
 
-#[multiversion(targets("x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx2+fma"))]
 fn avx2<R, F: FnOnce() -> R>(work: F) -> R {
     work()
 }

@@ -4,7 +4,7 @@
 //! behind a box or in a slice of rows it doesn't, and makes no vector code.
 
 use super::slots::Slots;
-use crate::exec::batch::lanes::{LANES, Lane, LaneRow};
+use crate::exec::batch::lanes::{LANES, Lane, LaneRow, is_finite};
 use crate::exec::batch::schedule::LaneOp;
 use crate::exec::lower::TRUE;
 
@@ -15,7 +15,6 @@ pub(crate) fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: im
     let a: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k])]);
     let b: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
     pairs::<L, N>(a, b, scratch, f);
-    slots.commit(op.to);
 }
 
 #[inline(always)]
@@ -45,7 +44,6 @@ pub(crate) fn dot_by<L: Lane, const N: usize>(
     let a: [L::T; N] = std::array::from_fn(|k| L::load(values[usize::from(op.args[2 * k])]));
     let b: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
     pairs_by::<L, N>(a, b, scratch, f);
-    slots.commit(op.to);
 }
 
 #[inline(always)]
@@ -132,6 +130,16 @@ pub(crate) fn narrow<L: Lane>(lane: &L, a: &[f64; LANES], out: &mut LaneRow) {
     for i in 0..LANES {
         out[i] = L::store(lane.round_f64(a[i]));
     }
+}
+
+/// Whether no float of a row is infinite or NaN.
+#[inline(always)]
+pub(crate) fn all_finite(row: &LaneRow) -> bool {
+    let mut largest = 0;
+    for &raw in row {
+        largest = largest.max(raw & 0x7fff_ffff);
+    }
+    is_finite(largest)
 }
 
 /// Lane partners: the lower and the higher lane of a pair that differs in `bit` of its number.

@@ -1,11 +1,13 @@
 //! Carrying out scheduled steps, 256 lanes at a time.
 //!
-//! - `slots`: where values are kept; `ops`, `loops`, `pack`: lane operations on rows; `steps`: blocks of them.
+//! - `slots`: where values are kept; `ops`, `loops`, `pack`: lane operations on rows; `guard`: what fast
+//!   arithmetics leave to the general one; `steps`: blocks of operations.
 //! - `fetch`, `stored`, `channel`: texture reads; `flow`: programs with flow control.
 
 mod channel;
 mod fetch;
 mod flow;
+mod guard;
 mod loops;
 mod ops;
 mod pack;

@@ -1,7 +1,8 @@
 //! Lane operations: what decoded programs consist of, and the loops that carry them out.
 
+use super::guard;
 use super::loops::{
-    address, bitwise, compare, difference, dot, dot_by, narrow, one, or_less, select, three, two, widen,
+    address, all_finite, bitwise, compare, difference, dot, dot_by, narrow, one, or_less, select, three, two, widen,
 };
 use super::pack::{fraction, join, signed, split, unsigned};
 use super::slots::Slots;
@@ -36,15 +37,24 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
             LaneCode::SumBy(2) => dot_by::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
             LaneCode::SumBy(3) => dot_by::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
             LaneCode::SumBy(_) => dot_by::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::Widen => {
+                let Slots { rows, wide, .. } = slots;
+                widen(lane, &rows[usize::from(op.args[0])], wide);
+                continue;
+            }
             _ => step(lane, op, slots),
         }
+        if (op.zero_wins || lane.is_guarded() && op.code.is_guarded()) && !all_finite(&slots.scratch) {
+            guard::mend(lane.general(), op, slots);
+        }
+        slots.commit(op.to);
     }
 }
 
 #[inline(always)]
 fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
     let Slots { rows, scratch, values, wide, .. } = slots;
-    let (out, wide): (&mut LaneRow, &mut [f64; LANES]) = (scratch, wide);
+    let (out, wide): (&mut LaneRow, &[f64; LANES]) = (scratch, wide);
     let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
     let uniform = L::load(values[usize::from(op.args[0])]);
     match op.code {
@@ -96,10 +106,6 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
                 out[i] = address(l.to_f64(l.round_f64(integer)).trunc());
             }
         }
-        LaneCode::Widen => {
-            widen(l, a, wide);
-            return;
-        }
         LaneCode::Narrow => {
             narrow(l, wide, out);
         }
@@ -137,8 +143,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         LaneCode::Plain(Op::AndNot) => bitwise(a, b, out, |a, b| !a & b),
         LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
         // Carried out by the caller, or by steps of their own.
-        LaneCode::Dot(_) | LaneCode::Sum(_) | LaneCode::SumBy(_) | LaneCode::Difference => {}
+        LaneCode::Dot(_) | LaneCode::Sum(_) | LaneCode::SumBy(_) | LaneCode::Difference | LaneCode::Widen => {}
         LaneCode::Plain(_) | LaneCode::Immediate(..) => {}
     }
-    slots.commit(op.to);
 }

@@ -244,7 +244,7 @@ impl Scheduler<'_> {
     fn operation(&mut self, node: NodeId, fused: &Fused) {
         let mut args = [0; OPERANDS];
         for (i, &operand) in fused.operands().iter().enumerate() {
-            args[i] = if fused.is_shared(i) {
+            args[i] = if fused.code.is_shared(i) {
                 self.place.get(&operand).copied().unwrap_or_default()
             } else {
                 self.at(operand)
@@ -257,7 +257,7 @@ impl Scheduler<'_> {
         self.release(node);
         let to = self.result();
         self.place.insert(node, to);
-        self.lane_op(fused.arith, LaneOp { code: fused.code, to, args });
+        self.lane_op(fused.arith, LaneOp { code: fused.code, to, args, zero_wins: fused.zero_wins });
     }
 
     fn lane_op(&mut self, arith: Arith, op: LaneOp) {
@@ -278,8 +278,8 @@ impl Scheduler<'_> {
                 self.release(node);
                 let to = self.result();
                 self.place.insert(node, to);
-                self.lane_op(from, LaneOp { code: LaneCode::Widen, to, args: [a; OPERANDS] });
-                self.lane_op(target, LaneOp { code: LaneCode::Narrow, to, args: [a; OPERANDS] });
+                self.lane_op(from, LaneOp::of_one(LaneCode::Widen, to, a));
+                self.lane_op(target, LaneOp::of_one(LaneCode::Narrow, to, a));
             }
             NodeKind::Steps(steps, a) => {
                 let from = self.at(a);
@@ -287,7 +287,7 @@ impl Scheduler<'_> {
                 let to = self.result();
                 self.place.insert(node, to);
                 self.block.steps.push(BatchStep::Unorm { steps, from });
-                self.lane_op(Arith::Main, LaneOp { code: LaneCode::Narrow, to, args: [from; OPERANDS] });
+                self.lane_op(Arith::Main, LaneOp::of_one(LaneCode::Narrow, to, from));
             }
             NodeKind::Circle(arith, sine, a) => {
                 let from = self.at(a);

@@ -44,6 +44,25 @@ impl LaneCode {
             Self::Dot(terms) | Self::Sum(terms) | Self::SumBy(terms) => 2 * usize::from(terms),
         }
     }
+
+    /// Whether the operand is read as a number that all lanes share, and not as a row.
+    pub(crate) fn is_shared(self, operand: usize) -> bool {
+        match self {
+            Self::SumBy(_) => operand.is_multiple_of(2),
+            Self::AddTo | Self::SubFrom | Self::SubOff | Self::MadBy => operand == 0,
+            _ => false,
+        }
+    }
+
+    /// Whether a guarded arithmetic may be wrong about an infinite result or a NaN of this operation.
+    pub(crate) fn is_guarded(self) -> bool {
+        use NumberOperation::{Add, Div, Mad, Mul, Rcp, Sub};
+        match self {
+            Self::Plain(operation) => matches!(operation, Add | Sub | Mul | Mad | Div | Rcp),
+            Self::Immediate(..) | Self::Widen | Self::Narrow | Self::Dot(_) | Self::OrLess => false,
+            _ => true,
+        }
+    }
 }
 
 /// Slots that an operation reads at most.
@@ -56,4 +75,13 @@ pub(crate) struct LaneOp {
     pub(crate) to: Slot,
     /// The operands `a`, `b`, `c`, or the factors of one product after the other.
     pub(crate) args: [Slot; OPERANDS],
+    /// Whether products with a zero are zero, whatever the other factor is.
+    pub(crate) zero_wins: bool,
+}
+
+impl LaneOp {
+    /// An operation on one row.
+    pub(crate) fn of_one(code: LaneCode, to: Slot, a: Slot) -> Self {
+        Self { code, to, args: [a; OPERANDS], zero_wins: false }
+    }
 }

@@ -14,27 +14,20 @@ pub(crate) struct Fused {
     pub(crate) code: LaneCode,
     /// As many as the code's arity says.
     pub(crate) args: [NodeId; OPERANDS],
+    /// Whether products with a zero are zero, whatever the other factor is.
+    pub(crate) zero_wins: bool,
 }
 
 impl Fused {
     fn new(arith: Arith, code: LaneCode, operands: &[NodeId]) -> Self {
         let mut args = [operands[0]; OPERANDS];
         args[..operands.len()].copy_from_slice(operands);
-        Self { arith, code, args }
+        Self { arith, code, args, zero_wins: false }
     }
 
     /// The operands.
     pub(crate) fn operands(&self) -> &[NodeId] {
         &self.args[..self.code.arity()]
-    }
-
-    /// Whether the operand is read as a number that all lanes share, and not as a row.
-    pub(crate) fn is_shared(&self, operand: usize) -> bool {
-        match self.code {
-            LaneCode::SumBy(_) => operand.is_multiple_of(2),
-            LaneCode::AddTo | LaneCode::SubFrom | LaneCode::SubOff | LaneCode::MadBy => operand == 0,
-            _ => false,
-        }
     }
 }
 
@@ -42,6 +35,7 @@ impl Fused {
 ///
 /// A product, a sum of products or a negated product that one operation alone reads becomes part of it. Which
 /// roundings take place, and in what order, stays the same; only sums change sides, and no arithmetic here can tell.
+/// Factors that a zero makes zero become a property of the product.
 pub(crate) struct Fusion<'g> {
     graph: &'g Graph,
     /// How many operations or roots read a node.
@@ -96,19 +90,36 @@ impl<'g> Fusion<'g> {
 
     fn decide(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let plain = match self.graph.kind(node) {
-            NodeKind::Compute(arith, operation, args) => {
+            NodeKind::Compute(arith, operation, mut args) => {
                 let code = self.code(operation, &args);
-                Fused::new(arith, code, &args[..code.arity()])
+                let product = matches!(operation, Op::Mul | Op::Mad | Op::FusedMad);
+                let factors = self.factors(arith, args[0], args[1], given).filter(|_| product);
+                (args[0], args[1]) = factors.unwrap_or((args[0], args[1]));
+                Fused { zero_wins: factors.is_some(), ..Fused::new(arith, code, &args[..code.arity()]) }
             }
             NodeKind::Difference(arith, down, a) => Fused::new(arith, LaneCode::Neighbors(down), &[a]),
             NodeKind::Dot(arith, terms, a, b) => {
-                let pairs: Vec<NodeId> = (0..usize::from(terms)).flat_map(|k| [a[k], b[k]]).collect();
-                Fused::new(arith, LaneCode::Dot(terms), &pairs)
+                let pairs = (0..usize::from(terms)).map(|k| (a[k], b[k]));
+                let factors: Option<Vec<_>> = pairs.clone().map(|(a, b)| self.factors(arith, a, b, given)).collect();
+                let zero_wins = factors.is_some();
+                let operands: Vec<NodeId> =
+                    factors.unwrap_or_else(|| pairs.collect()).into_iter().flat_map(|(a, b)| [a, b]).collect();
+                Fused { zero_wins, ..Fused::new(arith, LaneCode::Dot(terms), &operands) }
             }
             _ => return,
         };
         let fused = self.longer(&plain, given).unwrap_or(plain);
         self.fused.insert(node, fused);
+    }
+
+    /// The operands of a product behind its factors, if those are operands of which a zero makes the other zero.
+    fn factors(&self, k: Arith, a: NodeId, b: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<(NodeId, NodeId)> {
+        let factor = |n: NodeId| match self.graph.kind(n) {
+            NodeKind::Compute(arith, Op::Factor, [x, y, _]) if arith == k && !given(n) => Some((x, y)),
+            _ => None,
+        };
+        let ((x, y), (other, first)) = (factor(a)?, factor(b)?);
+        ((x, y) == (first, other)).then_some((x, y))
     }
 
     /// An operation of the table with its immediate, if it has one.
@@ -122,20 +133,26 @@ impl<'g> Fusion<'g> {
     /// The operation with one of its operands made part of it.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
-        match plain.code {
+        // Products that become one operation have one rule.
+        let alike = |part: &&Fused| part.zero_wins == plain.zero_wins;
+        let longer = match plain.code {
             LaneCode::Plain(Op::Mad) => {
-                if let Some(products) = self.products(k, args[2], given) {
-                    return sum(k, &products, &[args[0], args[1]]);
+                if let Some(products) = self.products(k, args[2], given).filter(alike) {
+                    return sum(products, &[args[0], args[1]]);
                 }
                 // a b - c d
                 let negated = self.part(k, args[2], given).filter(|part| part.code == LaneCode::Plain(Op::Neg))?;
-                let product =
-                    self.part(k, negated.args[0], given).filter(|part| part.code == LaneCode::Plain(Op::Mul))?;
+                let product = self.part(k, negated.args[0], given).filter(|part| part.code == LaneCode::Plain(Op::Mul));
+                let product = product.filter(alike)?;
                 Some(Fused::new(k, LaneCode::Difference, &[args[0], args[1], product.args[0], product.args[1]]))
             }
             LaneCode::Plain(Op::Add) => {
                 let (first, second) = (self.products(k, args[0], given)?, self.products(k, args[1], given)?);
-                if second.len() == 2 { sum(k, &first, &second) } else { sum(k, &second, &first) }
+                if first.zero_wins != second.zero_wins {
+                    return None;
+                }
+                let (more, one) = if second.code.arity() == 2 { (first, second) } else { (second, first) };
+                return sum(more, one.operands());
             }
             LaneCode::Plain(Op::Or) => {
                 let less = |n: NodeId| self.alone(n, given).filter(|part| part.code == LaneCode::Plain(Op::Less));
@@ -146,7 +163,8 @@ impl<'g> Fusion<'g> {
                 Some(Fused::new(part.arith, LaneCode::OrLess, &[mask, part.args[0], part.args[1]]))
             }
             _ => None,
-        }
+        };
+        longer.map(|fused| Fused { zero_wins: plain.zero_wins, ..fused })
     }
 
     /// The operation behind an operand that nothing else reads.
@@ -160,23 +178,25 @@ impl<'g> Fusion<'g> {
         self.alone(node, given).filter(|part| part.arith == arith)
     }
 
-    /// The factors of the products behind an operand that nothing else reads.
-    fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<Vec<NodeId>> {
-        let part = self.part(arith, node, given)?;
-        matches!(part.code, LaneCode::Plain(Op::Mul) | LaneCode::Sum(_)).then(|| part.operands().to_vec())
+    /// The products behind an operand that nothing else reads.
+    fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
+        let is_products = |part: &&Fused| matches!(part.code, LaneCode::Plain(Op::Mul) | LaneCode::Sum(_));
+        self.part(arith, node, given).filter(is_products)
     }
 }
 
 /// Products and one more; `None` if there are too many.
-fn sum(arith: Arith, products: &[NodeId], last: &[NodeId]) -> Option<Fused> {
-    let all = [products, last].concat();
-    (last.len() == 2 && all.len() <= OPERANDS).then(|| Fused::new(arith, LaneCode::Sum((all.len() / 2) as u8), &all))
+fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
+    let all = [products.operands(), last].concat();
+    let code = LaneCode::Sum((all.len() / 2) as u8);
+    let fits = last.len() == 2 && all.len() <= OPERANDS;
+    fits.then(|| Fused { zero_wins: products.zero_wins, ..Fused::new(products.arith, code, &all) })
 }
 
 /// The operation with its shared operands read as numbers, where there is one that does.
 fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
-    let of = |code, operands: &[NodeId]| Fused::new(k, code, operands);
+    let of = |code, operands: &[NodeId]| Fused { zero_wins: fused.zero_wins, ..Fused::new(k, code, operands) };
     match fused.code {
         LaneCode::Plain(Op::Mul) | LaneCode::Sum(_) => {
             let mut sorted = *fused;

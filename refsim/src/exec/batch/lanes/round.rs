@@ -1,0 +1,180 @@
+//! Rounding a number of the host into a narrower float format, without branches: constants of the format, and one body
+//! for both widths of the host.
+
+use crate::exec::lower::pow2;
+use crate::num::{Denormals, Format, Overflow, Rounding};
+
+/// The number of a rounding: what lanes have as a constant.
+pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
+    match rounding {
+        Rounding::NearestEven => EVEN,
+        Rounding::NearestAway => AWAY,
+        Rounding::TowardZero => ZERO,
+        Rounding::Down => DOWN,
+    }
+}
+
+pub(crate) const EVEN: u8 = 0;
+pub(crate) const AWAY: u8 = 1;
+pub(crate) const ZERO: u8 = 2;
+pub(crate) const DOWN: u8 = 3;
+
+macro_rules! rounder {
+    ($name:ident, $float:ty, $bits:ty, $mantissa:literal) => {
+        /// How numbers of the host become numbers of a format.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct $name {
+            /// Exponent bits of the smallest normal number: below it the unit in the last place stays the same.
+            lowest: $bits,
+            /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last
+            /// place is the format's there.
+            pivot: $bits,
+            /// A binade times this is that unit.
+            unit: $float,
+            /// Numbers below this become zero: the smallest normal number under [`Denormals::Flush`], else 0.
+            flush: $float,
+            /// The largest finite number.
+            max: $float,
+            /// From where on an exact magnitude becomes infinite, by sign.
+            infinite: [$float; 2],
+        }
+
+        impl $name {
+            const SIGN: $bits = 1 << (<$bits>::BITS - 1);
+            const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
+
+            /// For a format with these bits.
+            pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
+                let (m, emax) = (<$bits>::from(man_bits), (1 << (exp_bits - 1)) - 1);
+                let min_normal = pow2(1 - emax) as $float;
+                let exact_max = pow2(emax) * (2.0 - pow2(-i32::from(man_bits)));
+                let max = exact_max as $float;
+                let never = <$float>::INFINITY;
+                let infinite = match (format.overflow, format.rounding) {
+                    (Overflow::Saturate, _) => [never; 2],
+                    (Overflow::Nv30, _) => [(pow2(emax) * 2.0) as $float; 2],
+                    (_, Rounding::NearestEven | Rounding::NearestAway) => {
+                        [(exact_max + pow2(emax - 1 - i32::from(man_bits))) as $float; 2]
+                    }
+                    (_, Rounding::TowardZero) => [never; 2],
+                    (_, Rounding::Down) => [never, <$float>::from_bits(max.to_bits() + 1)],
+                };
+                Self {
+                    lowest: min_normal.to_bits(),
+                    pivot: ($mantissa - m) << $mantissa | 1 << ($mantissa - 1),
+                    unit: pow2(-i32::from(man_bits)) as $float,
+                    flush: if format.denormals == Denormals::Flush { min_normal } else { 0.0 },
+                    max,
+                    infinite,
+                }
+            }
+
+            /// Rounds a number of any size; infinities and NaN pass. The pivot must be a number: exponents of the host
+            /// reach as far beyond those of `x` as its mantissa is longer.
+            #[inline(always)]
+            pub(crate) fn round(&self, rounding: u8, x: $float) -> $float {
+                let exponent = (x.to_bits() & Self::EXPONENT).max(self.lowest);
+                let kept = self.near(rounding, x, exponent);
+                self.fit(rounding, x, kept)
+            }
+
+            /// All ones for a negative number or `-0`.
+            #[inline(always)]
+            fn negative(x: $float) -> $bits {
+                (x.to_bits() >> (<$bits>::BITS - 1)).wrapping_neg()
+            }
+
+            /// The magnitude rounded to the unit of the binade with these exponent bits.
+            ///
+            /// Adding the pivot and taking it away rounds to nearest even; the other roundings compare what that gives
+            /// with what there was. The pivot of an infinity or a NaN is some finite number, so that they come through.
+            #[inline(always)]
+            fn near(&self, rounding: u8, x: $float, exponent: $bits) -> $float {
+                let pivot = <$float>::from_bits(exponent.wrapping_add(self.pivot));
+                let unit = <$float>::from_bits(exponent) * self.unit;
+                let value = if rounding == DOWN { x } else { x.abs() };
+                let near = (value + pivot) - pivot;
+                match rounding {
+                    EVEN => near,
+                    AWAY => near + if value - near >= 0.5 * unit { unit } else { 0.0 },
+                    _ => (near - if near > value { unit } else { 0.0 }).abs(),
+                }
+            }
+
+            /// What becomes of a rounded magnitude at the ends of the range, with the sign of `x`.
+            #[inline(always)]
+            fn fit(&self, rounding: u8, x: $float, kept: $float) -> $float {
+                let kept = if kept < self.flush { 0.0 } else { kept };
+                // In this order a NaN stays.
+                let limited = if self.max < kept { self.max } else { kept };
+                let by_sign = (self.infinite[0].to_bits() ^ self.infinite[1].to_bits()) & Self::negative(x);
+                let differs = if rounding == DOWN { by_sign } else { 0 };
+                let infinite = <$float>::from_bits(self.infinite[0].to_bits() ^ differs);
+                let fits = if x.abs() >= infinite { <$float>::INFINITY } else { limited };
+                <$float>::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN)
+            }
+        }
+    };
+}
+
+rounder!(SingleRounder, f32, u32, 23);
+rounder!(DoubleRounder, f64, u64, 52);
+
+impl SingleRounder {
+    /// As [`Self::round`], for the roundings other than nearest even: normal numbers by their bits, so that there is no
+    /// pivot that could be too large.
+    #[inline(always)]
+    pub(crate) fn cut(&self, rounding: u8, x: f32) -> f32 {
+        let size = x.to_bits() & !Self::SIGN;
+        let dropped = self.dropped();
+        let carry = match rounding {
+            AWAY => (dropped >> 1).wrapping_add(1),
+            DOWN => Self::negative(x) & dropped,
+            _ => 0,
+        };
+        let normal = f32::from_bits(size.wrapping_add(carry) & !dropped);
+        let small = self.near(rounding, x, self.lowest);
+        self.fit(rounding, x, if size < self.lowest { small } else { normal })
+    }
+
+    /// Bits that a normal number of the format does not have. (No arithmetic here is checked: a check is a branch.)
+    #[inline(always)]
+    fn dropped(&self) -> u32 {
+        1u32.wrapping_shl(self.pivot >> 23).wrapping_sub(1)
+    }
+
+    /// As [`Self::cut`], away from zero or toward it, for formats of at most eleven bits.
+    ///
+    /// Adding the smallest normal number to a smaller one gives that one the unit of the format. With eleven bits, or
+    /// twelve where half a unit counts, the sum is exact or the number less than a quarter of a unit.
+    #[inline(always)]
+    pub(crate) fn cut_short(&self, rounding: u8, x: f32) -> f32 {
+        let size = x.to_bits() & !Self::SIGN;
+        let dropped = self.dropped();
+        let (below, half) =
+            if rounding == AWAY { (dropped >> 1, (dropped >> 1).wrapping_add(1)) } else { (dropped, 0) };
+        let kept = f32::from_bits(size & !below);
+        let lowest = f32::from_bits(self.lowest);
+        let raised = if size < self.lowest { lowest } else { 0.0 };
+        let sum = if size < self.lowest { kept + lowest } else { kept };
+        let cut = f32::from_bits(sum.to_bits().wrapping_add(half) & !dropped);
+        self.fit(rounding, x, cut - raised)
+    }
+
+    /// Makes a number that lies below the smallest normal one zero, if the format asks for it.
+    #[inline(always)]
+    pub(crate) fn flushed(&self, x: f32) -> f32 {
+        if x.abs() < self.flush { f32::from_bits(x.to_bits() & Self::SIGN) } else { x }
+    }
+}
+
+impl DoubleRounder {
+    /// Rounds a double into single precision to nearest even by the host's conversion, for the layout of binary32.
+    #[inline(always)]
+    pub(crate) fn convert(&self, x: f64) -> f32 {
+        let (size, max) = (x.abs(), f64::from(f32::MAX));
+        let limited = if max < size { max } else { size };
+        let fits = if size >= self.infinite[0] { f64::INFINITY } else { limited };
+        f64::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN) as f32
+    }
+}
