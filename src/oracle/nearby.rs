@@ -3,9 +3,9 @@
 //! Intersectors round. The test of Woop, Benthin and Wald, for one, answers exactly for a scene whose vertices, seen
 //! from the ray's origin, are each off by at most five roundings of f32. So its answer beside an outline is right for a
 //! ray next to the one it was asked about, and nothing is wrong with it. **Nearby** is a ray from the same origin whose
-//! direction is off in each of its two smaller components, by some ULPs of the largest; or, for a hit where
-//! the ray starts, one of the same direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays are tried one by one, in
-//! exact arithmetic, so the ray that is found proves what is said of the answer.
+//! direction is off in each of its two smaller components, by some ULPs of the largest; or, for a hit where the ray
+//! starts, one of the same direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays
+//! are tried one by one, in exact arithmetic, so the ray that is found proves what is said of the answer.
 
 use glam::{DVec2, DVec3};
 

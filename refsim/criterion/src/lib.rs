@@ -13,7 +13,7 @@
 //! let time = ModelledTime::of(&log, &model, &Default::default())?;
 //!
 //! let mut criterion = ModelledTime::criterion();
-//! criterion.bench_function("nothing at all", |bencher| bencher.iter_custom(|times| ModelledTime::repeat(time, times)));
+//! criterion.bench_function("nothing", |bencher| bencher.iter_custom(|times| ModelledTime::repeat(time, times)));
 //! # Ok(())
 //! # }
 //! ```

@@ -5,6 +5,7 @@ use strum::VariantArray;
 macro_rules! rules {
     ($(#[$doc:meta])* $Id:ident: $($name:ident $code:ident $text:literal;)*) => {
         $(#[$doc])*
+        #[allow(rustdoc::broken_intra_doc_links, reason = "o[COLH] is a register, not a link")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
         pub enum $Id {
             $(

@@ -1,5 +1,5 @@
 //! Form factors of rectangles in closed form: parallel ones, and ones at right angles. The contour integral of
-//! [`super::contour`] with both integrals done, which leaves a sum over the corners of both.
+//! `contour` with both integrals done, which leaves a sum over the corners of both.
 //!
 //! The corner sums cancel: between small patches far apart, sixteen numbers of order 1 leave one of the order of the
 //! patches' areas multiplied. So each result comes with an error bound (docs/papers/radiosity.md derives it), and

@@ -4,7 +4,7 @@
 //! products, square roots and [`crate::elementary`], and rounded to f32 once. A seed moves and turns things; it never
 //! changes a count.
 //!
-//! - [`parts`], [`solids`]: quads, blocks, surfaces of revolution, put together with their materials;
+//! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene.
 
 mod chance;

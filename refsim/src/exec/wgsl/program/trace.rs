@@ -12,7 +12,7 @@ use crate::num::{Flags, ops};
 /// come first, with numbers past those of the instructions.
 pub const TRACE_WORDS: usize = 6;
 
-/// The steps of a lane (0 to 3) out of the `q_traced` words that a shader made by [`super::PixelShader::traced`] put
+/// The steps of a lane (0 to 3) out of the `q_traced` words that a traced shader ([`super::PixelShader::new`]) put
 /// down, as [`crate::exec::Shading`] holds them.
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
