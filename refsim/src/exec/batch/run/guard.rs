@@ -1,8 +1,8 @@
 //! What a fast arithmetic leaves to the general one: results that came out infinite or NaN.
 //!
 //! Some arithmetics are fast because they ask nothing about the end of the range, or about products of zero and
-//! infinity. Whatever goes wrong there, an intermediate result of a longer operation too, ends in an infinity or a NaN, and only
-//! such results are made again.
+//! infinity. Whatever goes wrong there, an intermediate result of a longer operation too, ends in an infinity or a NaN,
+//! and only such results are made again.
 
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, Lane, apply, is_finite};
