@@ -105,7 +105,8 @@ fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &Ra
     group.finish();
 }
 
-/// The devices of [`DEVICES`] and [`RULES`], each with the format of the ideal device beside it, and those ideal devices.
+/// The devices of [`DEVICES`] and [`RULES`], each with the format of the ideal device beside it, and those
+/// ideal devices.
 fn devices() -> Vec<(String, &'static str)> {
     let cards = DEVICES.map(|(card, format)| (card.to_owned(), format));
     let ideal = |format: &str| format!("ideal-{format}");

@@ -1,8 +1,8 @@
 //! The batch executor's arithmetic against `num`: two implementations that share no code, equal on every operation.
 //!
 //! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule,
-//! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` walks the whole
-//! range, the short form a part of it.
+//! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` walks the
+//! whole range, the short form a part of it.
 
 use rayon::prelude::*;
 use refsim::exec::batch::{convert, evaluate, exact_dot};

@@ -1,7 +1,6 @@
 //! One operation on many operands, through the same lanes that programs run in.
 
 use super::any::{AnyLane, with_any_lane};
-use super::float::GeneralLane;
 use super::lane::Lane;
 use crate::num::{Format, NumberOperation};
 
@@ -52,7 +51,7 @@ fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) 
     };
     let raw = match lane.general() {
         Some(general) if lane.is_guarded() && !is_finite(L::store(value)) => {
-            apply(&general, operation, [a, b, c].map(|x| GeneralLane::load(L::store(x)))).map(GeneralLane::store)
+            apply(&general, operation, [a, b, c].map(|x| L::General::load(L::store(x)))).map(L::General::store)
         }
         _ => None,
     };

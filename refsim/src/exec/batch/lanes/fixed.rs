@@ -209,6 +209,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
 
 impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     type T = i32;
+    type General = Self;
 
     #[inline(always)]
     fn decode(&self, bits: u32) -> i32 {

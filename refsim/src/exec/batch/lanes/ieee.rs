@@ -89,6 +89,7 @@ impl<const PATH: u8> IeeeLane<PATH> {
 
 impl<const PATH: u8> Lane for IeeeLane<PATH> {
     type T = f32;
+    type General = GeneralLane;
 
     #[inline(always)]
     fn decode(&self, bits: u32) -> f32 {

@@ -2,8 +2,6 @@
 
 use std::fmt::Debug;
 
-use super::float::GeneralLane;
-
 /// Lanes of a batch: the fragments of one 16x16 tile, lane `16 y + x`.
 pub(crate) const LANES: usize = 256;
 
@@ -23,6 +21,8 @@ pub(crate) type LaneRow = [u32; LANES];
 pub(crate) trait Lane: Copy + Send + Sync {
     /// What a register component holds.
     type T: Copy + Default + Send + Sync + Debug + PartialEq;
+    /// What [`Lane::general`] gives.
+    type General: Lane;
 
     /// The number behind a bit pattern of the format.
     fn decode(&self, bits: u32) -> Self::T;
@@ -43,7 +43,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
         false
     }
     /// The arithmetic that is always right, for formats that have infinities and NaN.
-    fn general(&self) -> Option<GeneralLane> {
+    fn general(&self) -> Option<Self::General> {
         None
     }
 

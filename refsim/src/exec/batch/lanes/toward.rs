@@ -50,11 +50,11 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
         let sign = (a.to_bits() ^ b.to_bits()) & SIGN;
         let (a, b) = (a.abs(), b.abs());
         let p = a * b;
-        let too_large = a.mul_add(b, -p).to_bits().cast_signed() < INFINITE;
+        let too_large = error(a, b, p).to_bits().cast_signed() < INFINITE;
         return f32::from_bits(p.to_bits().wrapping_sub(too_large.into()) | sign);
     }
     let p = a * b;
-    one_lower(p, a.mul_add(b, -p).to_bits().cast_signed() < INFINITE)
+    one_lower(p, error(a, b, p).to_bits().cast_signed() < INFINITE)
 }
 
 /// `a + b` rounded to the nearest single, ties away from zero.
@@ -68,8 +68,18 @@ pub(crate) fn nearest_sum(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn nearest_product(a: f32, b: f32) -> f32 {
     let p = a * b;
-    let near = tie_away(p, a.mul_add(b, -p));
+    let near = tie_away(p, error(a, b, p));
     if (p.abs() < TINY) & (a != 0.0) & (b != 0.0) { f32::NAN } else { near }
+}
+
+/// `a b - p`, rounded once.
+#[inline(always)]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "fused on every host, in software where need be: its one rounding is wanted"
+)]
+fn error(a: f32, b: f32, p: f32) -> f32 {
+    a.mul_add(b, -p)
 }
 
 /// The next number away from zero if the error is half the way to it; otherwise the number, which is the nearest then.

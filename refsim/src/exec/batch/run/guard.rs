@@ -1,16 +1,16 @@
 //! What a fast arithmetic leaves to the general one: results that came out infinite or NaN.
 //!
-//! Some arithmetics are fast because they ask nothing about the end of the range, or about products of zero and infinity.
-//! Whatever goes wrong there, an intermediate result of a longer operation too, ends in an infinity or a NaN, and only
-//! such results are made again.
+//! Some arithmetics are fast because they ask nothing about the end of the range, or about products of zero and
+//! infinity. Whatever goes wrong there, an intermediate result of a longer operation too, ends in an infinity or a NaN,
+//! and only such results are made again.
 
 use super::slots::Slots;
-use crate::exec::batch::lanes::{GeneralLane, LANES, Lane, apply, is_finite};
+use crate::exec::batch::lanes::{LANES, Lane, apply, is_finite};
 use crate::exec::batch::schedule::{LaneCode, LaneOp};
 use crate::num::NumberOperation as Op;
 
 /// Makes the results in the scratch row again that are not finite.
-pub(crate) fn mend(lane: Option<GeneralLane>, op: &LaneOp, slots: &mut Slots) {
+pub(crate) fn mend<L: Lane>(lane: Option<L>, op: &LaneOp, slots: &mut Slots) {
     let Some(lane) = lane else { return };
     let Slots { rows, scratch, values, .. } = slots;
     for i in 0..LANES {
@@ -19,7 +19,7 @@ pub(crate) fn mend(lane: Option<GeneralLane>, op: &LaneOp, slots: &mut Slots) {
         }
         let operand = |k: usize, i: usize| {
             let slot = usize::from(op.args[k]);
-            GeneralLane::load(if op.code.is_shared(k) { values[slot] } else { rows[slot][i] })
+            L::load(if op.code.is_shared(k) { values[slot] } else { rows[slot][i] })
         };
         let value = match op.code {
             LaneCode::Neighbors(down) => {
@@ -29,13 +29,13 @@ pub(crate) fn mend(lane: Option<GeneralLane>, op: &LaneOp, slots: &mut Slots) {
             _ => value(&lane, op, |k| operand(k, i)),
         };
         if let Some(value) = value {
-            scratch[i] = GeneralLane::store(value);
+            scratch[i] = L::store(value);
         }
     }
 }
 
 /// The result of one lane; `None` for operations that need no second look.
-fn value(lane: &GeneralLane, op: &LaneOp, x: impl Fn(usize) -> f32) -> Option<f32> {
+fn value<L: Lane>(lane: &L, op: &LaneOp, x: impl Fn(usize) -> L::T) -> Option<L::T> {
     let factors = |k: usize| match (x(2 * k), x(2 * k + 1)) {
         (a, b) if op.zero_wins => (lane.factor(a, b), lane.factor(b, a)),
         pair => pair,
@@ -60,7 +60,7 @@ fn value(lane: &GeneralLane, op: &LaneOp, x: impl Fn(usize) -> f32) -> Option<f3
         }
         LaneCode::Difference => lane.add(product(0), lane.neg(product(1))),
         LaneCode::Dot(terms) => {
-            let (mut a, mut b) = ([0.0; 4], [0.0; 4]);
+            let (mut a, mut b) = ([L::T::default(); 4], [L::T::default(); 4]);
             for k in 0..usize::from(terms) {
                 (a[k], b[k]) = factors(k);
             }

@@ -20,23 +20,79 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
     });
 }
 
+/// The longer functions of lanes are inlined by order: outside they would be compiled for any processor.
 #[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
         match op.code {
-            LaneCode::Dot(2) => dot::<L, 2>(op, slots, |a, b| lane.exact_dot(a, b)),
-            LaneCode::Dot(3) => dot::<L, 3>(op, slots, |a, b| lane.exact_dot(a, b)),
-            LaneCode::Dot(_) => dot::<L, 4>(op, slots, |a, b| lane.exact_dot(a, b)),
-            LaneCode::Sum(2) => dot::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
-            LaneCode::Sum(3) => dot::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
-            LaneCode::Sum(_) => dot::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::Dot(2) => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Dot(3) => dot::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Dot(_) => dot::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.exact_dot(a, b),
+            ),
+            LaneCode::Sum(2) => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            LaneCode::Sum(3) => dot::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            LaneCode::Sum(_) => dot::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
             LaneCode::Difference => {
-                dot::<L, 2>(op, slots, |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))));
+                dot::<L, 2>(
+                    op,
+                    slots,
+                    #[inline(always)]
+                    |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
+                );
             }
-            LaneCode::SumBy(1) => dot_by::<L, 1>(op, slots, |a, b| lane.sum(a, b)),
-            LaneCode::SumBy(2) => dot_by::<L, 2>(op, slots, |a, b| lane.sum(a, b)),
-            LaneCode::SumBy(3) => dot_by::<L, 3>(op, slots, |a, b| lane.sum(a, b)),
-            LaneCode::SumBy(_) => dot_by::<L, 4>(op, slots, |a, b| lane.sum(a, b)),
+            LaneCode::SumBy(1) => dot_by::<L, 1>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            LaneCode::SumBy(2) => dot_by::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            LaneCode::SumBy(3) => dot_by::<L, 3>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
+            LaneCode::SumBy(_) => dot_by::<L, 4>(
+                op,
+                slots,
+                #[inline(always)]
+                |a, b| lane.sum(a, b),
+            ),
             LaneCode::Widen => {
                 let Slots { rows, wide, .. } = slots;
                 widen(lane, &rows[usize::from(op.args[0])], wide);
