@@ -3,9 +3,9 @@
 use std::fmt;
 
 use refsim::{
-    num::{Format, ops},
+    num::{Format, to_f64},
     output::DepthSurface,
-    texture::{ChannelValue, Image, SignedTexelMinimum},
+    texture::{Image, SignedTexelMinimum},
 };
 use serde::Serialize;
 
@@ -54,19 +54,6 @@ pub struct ProbeResult {
     pub passed: bool,
 }
 
-/// A channel as a double: exact but for ratios, which are rounded once.
-pub(super) fn number(value: ChannelValue) -> f64 {
-    match value {
-        ChannelValue::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
-        ChannelValue::Float { format, bits } => single(format, bits),
-    }
-}
-
-/// A float of any of the emulator's formats: each of them fits a single.
-fn single(format: Format, bits: u32) -> f64 {
-    f64::from(f32::from_bits(ops::convert(&format, Format::FP32, bits).bits))
-}
-
 /// Answers a probe from the target that it names, or from the depth buffer.
 pub(super) fn answer(
     probe: &Probe,
@@ -80,7 +67,7 @@ pub(super) fn answer(
     };
     let (found, passed) = match &probe.expected {
         Expected::Color(expected) => {
-            let found = target.texel(0, 0, y, x, minimum).0.map(number);
+            let found = target.texel(0, 0, y, x, minimum).to_f64();
             let passed = expected.iter().zip(found).all(|(&expected, found)| close(expected, found));
             (Found::Color(found), passed)
         }
@@ -96,7 +83,7 @@ pub(super) fn answer(
             // The set-up let this probe through only with a depth buffer.
             let found = depth.and_then(|surface| {
                 let stored = surface.get(x, y)?;
-                Some(single(Format::FP32, surface.format().to_format(stored, Format::FP32)))
+                Some(to_f64(&Format::FP32, surface.format().to_format(stored, Format::FP32)))
             });
             (Found::Depth(found.unwrap_or(f64::NAN)), found.is_some_and(|found| close(*expected, found)))
         }

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use refsim::{
-    num::{Format, FormatKind, Unpacked, power_of_two, unpack},
+    num::{Format, FormatKind, power_of_two, to_f64},
     texture::{Channel, ChannelClass, SignedTexelMinimum, decode_channel},
 };
 use serde::Serialize;
@@ -45,23 +45,7 @@ pub struct Compared {
 impl Number {
     /// The number as a double, which holds every number of every format exactly; NaN and infinities as such.
     pub fn double(&self) -> f64 {
-        // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
-        let format = self.format.with_denormals(refsim::num::Denormals::Keep);
-        match unpack(&format, self.bits) {
-            Unpacked::Nan { .. } => f64::NAN,
-            Unpacked::Inf { sign } => {
-                if sign {
-                    f64::NEG_INFINITY
-                } else {
-                    f64::INFINITY
-                }
-            }
-            Unpacked::Finite { sign, sig, exp } => {
-                // At most 32 significant bits.
-                let magnitude = sig as f64 * power_of_two(exp);
-                if sign { -magnitude } else { magnitude }
-            }
-        }
+        to_f64(&self.format, self.bits)
     }
 
     /// Whether two numbers are equal: with one layout (sizes of the fields), if their bits are, so that 0 and -0

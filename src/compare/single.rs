@@ -9,7 +9,6 @@
 /// assert_eq!((f32_ulps(1.0, 1.0 + f32::EPSILON), f32_ulps(0.0, -0.0)), (Some(1), Some(0)));
 /// assert_eq!(f32_ulps(1.0, f32::INFINITY), None);
 /// ```
-#[must_use]
 pub fn f32_ulps(left: f32, right: f32) -> Option<u64> {
     if left == right || (left.is_nan() && right.is_nan()) {
         return Some(0);

@@ -24,7 +24,6 @@ struct AimRow {
 
 impl Report {
     /// The wrong answers by aim. `rays` are the rays that were judged, in the same order.
-    #[must_use]
     pub fn by_aim(&self, rays: &[HardRay]) -> AimCounts {
         let mut counts = AimCounts::default();
         for hard in rays {
@@ -40,19 +39,16 @@ impl Report {
 
 impl AimCounts {
     /// Rays of an aim.
-    #[must_use]
     pub fn rays(&self, aim: Aim) -> usize {
         self.rows.get(&aim).map_or(0, |row| row.rays)
     }
 
     /// Wrong answers of one kind among the rays of an aim.
-    #[must_use]
     pub fn count(&self, aim: Aim, kind: DisagreementKind) -> usize {
         self.rows.get(&aim).and_then(|row| row.counts.get(&kind).copied()).unwrap_or(0)
     }
 
     /// Leaks among the rays of an aim.
-    #[must_use]
     pub fn leaks(&self, aim: Aim) -> usize {
         DisagreementKind::ALL.into_iter().filter(|kind| kind.is_leak()).map(|kind| self.count(aim, kind)).sum()
     }

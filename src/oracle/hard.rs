@@ -34,7 +34,6 @@ impl Aim {
     pub const ALL: [Self; 6] = [Self::Edge, Self::Vertex, Self::Axis, Self::Plane, Self::Surface, Self::Far];
 
     /// What to call it: `edge`.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Edge => "edge",
@@ -80,7 +79,6 @@ impl AsRef<Ray> for HardRay {
 /// assert_eq!(rays, hard_rays(&mesh, 100, 7));
 /// assert!(rays.iter().filter(|hard| hard.aim == Aim::Axis).all(|hard| hard.ray.direction().contains(&0.0)));
 /// ```
-#[must_use]
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };
     let dice = CounterRng::new(seed);

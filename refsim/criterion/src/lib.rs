@@ -34,7 +34,6 @@ pub struct ModelledTime;
 impl ModelledTime {
     /// Criterion in modelled time. Every sample is the same one, so that ten are enough; arguments of the command line
     /// are heeded.
-    #[must_use]
     pub fn criterion() -> Criterion<Self> {
         Criterion::default()
             .with_measurement(Self)
@@ -54,7 +53,6 @@ impl ModelledTime {
     }
 
     /// The time of so many equal runs.
-    #[must_use]
     pub fn repeat(run: Picoseconds, times: u64) -> Picoseconds {
         Picoseconds(run.0.saturating_mul(times))
     }

@@ -2,7 +2,7 @@
 
 use super::env::Env;
 use super::flags::{Flags, Outcome};
-use super::format::Format;
+use super::format::{Denormals, Format};
 use super::round::{from_parts, infinite};
 use super::unpack::{Unpacked, nan_bits, unpack};
 
@@ -19,6 +19,21 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
         }
         Unpacked::Inf { sign } => infinite(&to.format, sign),
         Unpacked::Finite { sign, sig, exp } => from_parts(to, sign, sig.into(), exp, false),
+    }
+}
+
+/// The number as a host double, for people to read: exact, for no format has more than 32 significant bits; NaN and
+/// infinities as such.
+pub fn to_f64(format: &Format, bits: u32) -> f64 {
+    // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
+    match unpack(&format.with_denormals(Denormals::Keep), bits) {
+        Unpacked::Nan { .. } => f64::NAN,
+        Unpacked::Inf { sign: true } => f64::NEG_INFINITY,
+        Unpacked::Inf { sign: false } => f64::INFINITY,
+        Unpacked::Finite { sign, sig, exp } => {
+            let magnitude = sig as f64 * power_of_two(exp);
+            if sign { -magnitude } else { magnitude }
+        }
     }
 }
 

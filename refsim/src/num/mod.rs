@@ -56,7 +56,7 @@ mod sum;
 mod transcendental;
 mod unpack;
 
-pub use convert::power_of_two;
+pub use convert::{power_of_two, to_f64};
 pub use env::{Env, Tininess};
 pub use flags::{Flags, Outcome};
 pub use format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};

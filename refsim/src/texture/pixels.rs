@@ -1,24 +1,14 @@
 //! An image as people look at it: red, green, blue and alpha by column and row.
 
 use super::{ChannelValue, Image, SignedTexelMinimum, Texel, decode};
-use crate::num::{self, Denormals, Unpacked, power_of_two};
+use crate::num;
 
 impl ChannelValue {
     /// The value in decimal, for people to read: rounded once to f64. A NaN or an infinity stays one.
     pub fn to_f64(self) -> f64 {
-        let (format, bits) = match self {
-            Self::Ratio { numerator, denominator } => return numerator as f64 / f64::from(denominator),
-            Self::Float { format, bits } => (format, bits),
-        };
-        // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
-        match num::unpack(&format.with_denormals(Denormals::Keep), bits) {
-            Unpacked::Nan { .. } => f64::NAN,
-            Unpacked::Inf { sign: true } => f64::NEG_INFINITY,
-            Unpacked::Inf { sign: false } => f64::INFINITY,
-            Unpacked::Finite { sign, sig, exp } => {
-                let magnitude = sig as f64 * power_of_two(exp);
-                if sign { -magnitude } else { magnitude }
-            }
+        match self {
+            Self::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
+            Self::Float { format, bits } => num::to_f64(&format, bits),
         }
     }
 }
