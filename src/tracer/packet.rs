@@ -59,11 +59,11 @@ impl Packets {
 
 impl Packet {
     fn new(mesh: &Mesh, scale: f64, ids: &[u32], more: bool) -> Self {
-        let lane = |i: usize| {
-            let corners = ids.get(i).and_then(|&id| mesh.corners(id)).unwrap_or_default();
-            scaled_corners(corners, scale)
-        };
-        let of = |corner: usize| std::array::from_fn(|axis| std::array::from_fn(|i| lane(i)[corner][axis]));
+        let mut lanes = [[Vec3::ZERO; 3]; LANES];
+        for (lane, &id) in lanes.iter_mut().zip(ids) {
+            *lane = scaled_corners(mesh.corners(id).unwrap_or_default(), scale);
+        }
+        let of = |corner: usize| std::array::from_fn(|axis| std::array::from_fn(|i| lanes[i][corner][axis]));
         Self {
             a: of(0),
             b: of(1),

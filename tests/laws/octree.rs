@@ -42,18 +42,24 @@ fn direction() -> impl Strategy<Value = [f32; 3]> {
     [part(), part(), part()].prop_filter("a direction", |d| d.iter().any(|x| *x != 0.0))
 }
 
-/// Small cells, so that there are many planes.
-const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth: 8 };
+/// Trees of every shape. One level more makes up to four times as many cells along a surface, so few trees are deep;
+/// planes of the grid are planes of cells from the fourth level on.
+fn parameters() -> impl Strategy<Value = OctreeParameters> {
+    (1usize..=4, prop_oneof![16 => 1u32..=5, 3 => Just(6), 1 => Just(8)])
+        .prop_map(|(most_triangles, most_depth)| OctreeParameters { most_triangles, most_depth })
+}
+
 /// One cell: all pairs.
 const WHOLE: OctreeParameters = OctreeParameters { most_triangles: usize::MAX, most_depth: 0 };
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 2_000 } else { 20_000 }, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 4_000 } else { 40_000 }, ..ProptestConfig::default() })]
 
     /// One octree a case for both: making it is what takes the time.
     #[test]
     fn every_hit_is_found_and_gpu_cells_hold_what_their_leaves_hold(
         mesh in mesh(),
+        parameters in parameters(),
         rays in prop::collection::vec((point(), direction()), 4),
         both in any::<bool>(),
         end in 0.0f32..4.0,
@@ -63,7 +69,7 @@ proptest! {
         let sides = if both { Sides::Both } else { Sides::Front };
         let [low, high] = mesh.bounds().expect("it has corners");
         let reach = (0..3).map(|i| high[i] - low[i]).fold(f32::MIN_POSITIVE, f32::max);
-        let (fine, whole) = (HostTracer::with_octree(&mesh, FINE, sides), HostTracer::with_octree(&mesh, WHOLE, sides));
+        let (fine, whole) = (HostTracer::with_octree(&mesh, parameters, sides), HostTracer::with_octree(&mesh, WHOLE, sides));
         for (i, (origin, d)) in rays.into_iter().enumerate() {
             let origin = if i % 2 == 1 { mesh.positions()[0] } else { origin.map(|x| x * reach) };
             let ray = Ray::new(origin, d).expect("finite, not 0");

@@ -76,6 +76,7 @@ impl OctreeBuilder {
 
     /// A triangle's corners from a point.
     fn from(&self, id: u32, point: DVec3) -> [DVec3; 3] {
-        self.corners[id as usize].map(|corner| corner - point)
+        let [a, b, c] = self.corners[id as usize];
+        [a - point, b - point, c - point]
     }
 }

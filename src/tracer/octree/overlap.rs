@@ -30,8 +30,8 @@ pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
 /// Whether a plane across this direction has the box on one side and the triangle on the other. No direction separates
 /// nothing.
 fn separates(direction: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
-    let [a, b, c] = corners.map(|corner| corner.dot(direction));
-    apart(a, b, c, half.dot(direction.abs()))
+    let [a, b, c] = corners;
+    apart(a.dot(direction), b.dot(direction), c.dot(direction), half.dot(direction.abs()))
 }
 
 /// The same for the direction that is across an edge and an axis: one of its components is 0, the others are the

@@ -12,6 +12,7 @@ mod scene;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 use cause::Cause;
 use crossbar::geom::{Hit, Mesh, Ray};
@@ -28,7 +29,7 @@ use scene::Scene;
 
 const SCENES: u64 = 10_000;
 /// Scenes of which one goes to the card; all with `CROSSBAR_FULL=1`.
-const ON_CARD: u64 = 8;
+const ON_CARD: usize = 8;
 /// A t so many ULPs off, a hundredth of it or more, lies elsewhere.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
@@ -90,15 +91,19 @@ impl Yardstick {
     }
 }
 
-/// The sum of what `each` counts of every scene; scenes run in parallel.
-fn sum(scenes: impl IntoParallelIterator<Item = u64>, each: impl Fn(u64) -> usize + Sync + Send) -> usize {
-    scenes.into_par_iter().map(each).sum()
+/// The yardsticks of all scenes, which every test holds something to. A test names them before it starts work in
+/// parallel: a worker that waited for another one's yardsticks could be the one that is to make them.
+static YARDSTICKS: LazyLock<Vec<Yardstick>> = LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
+
+/// The sum of what `each` counts of one scene in `step`; scenes run in parallel.
+fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> usize {
+    let yardsticks: &[Yardstick] = &YARDSTICKS;
+    yardsticks.par_iter().enumerate().step_by(step).map(|(number, yardstick)| each(number as u64, yardstick)).sum()
 }
 
 #[test]
 fn the_octree_finds_what_all_pairs_find() {
-    let differing = sum(0..SCENES, |number| {
-        let yardstick = Yardstick::new(number);
+    let differing = sum(1, |number, yardstick| {
         let scene = &yardstick.scene;
         let mut differing = 0;
         for (at, parameters) in OCTREES.into_iter().enumerate() {
@@ -119,9 +124,7 @@ fn the_octree_finds_what_all_pairs_find() {
 fn the_card_and_the_engine_find_what_all_pairs_find() {
     let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { ON_CARD };
     let profile = || Profile::named("ideal-fp32").expect("a profile");
-    sum(0..SCENES / step, |number| {
-        let number = number * step;
-        let yardstick = Yardstick::new(number);
+    sum(step, |number, yardstick| {
         let scene = &yardstick.scene;
         let mut differing = 0;
         // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is none: scenes of one size
@@ -132,7 +135,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
             differing += yardstick.hold("card", number, &hits);
         }
         let parameters = EngineParameters {
-            octree: OCTREES[1 + number as usize / step as usize % 3],
+            octree: OCTREES[1 + number as usize / step % 3],
             triangles: 1..=[1, 4, 12][number as usize % 3],
             rays: 1 + number as usize / 7 % 4,
             tree: RayTreeParameters { bucket: 5, merge: 2 },
@@ -170,10 +173,11 @@ fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
 
 #[test]
 fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
-    let scenes: Vec<(bool, [usize; 2], Counts)> = (0..SCENES)
-        .into_par_iter()
-        .map(|number| {
-            let Yardstick { scene, wrong, hits, .. } = Yardstick::new(number);
+    let yardsticks: &[Yardstick] = &YARDSTICKS;
+    let scenes: Vec<(bool, [usize; 2], Counts)> = yardsticks
+        .par_iter()
+        .enumerate()
+        .map(|(number, Yardstick { scene, wrong, hits })| {
             let mut counts = Counts::new();
             for wrong in wrong.values() {
                 let cause = cause::of(&scene.mesh, &scene.rays[wrong.ray], scene.sides, wrong);
@@ -181,12 +185,12 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
             }
             // The test's own equations are those of the tracer.
             let scale = cause::scale(&scene.mesh);
-            for (ray, hit) in scene.rays.iter().zip(&hits) {
+            for (ray, hit) in scene.rays.iter().zip(hits) {
                 let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides, scale));
                 assert_eq!(any, hit.is_some(), "scene {number}, {ray:?}");
             }
             let oracle = Oracle::new(&scene.mesh, scene.sides, TOLERANCE);
-            let surface = oracle.judge(&scene.rays, &hits).expect("one answer a ray").surface();
+            let surface = oracle.judge(&scene.rays, hits).expect("one answer a ray").surface();
             (scene.moderate, [hits.len(), surface], counts)
         })
         .collect();
