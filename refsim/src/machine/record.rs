@@ -3,7 +3,7 @@
 //! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits
 //! of one that does not, and the log is the same whichever executor draws, on any number of threads.
 
-use super::state::StateMarks;
+use super::state::DrawState;
 use super::validate::Plan;
 use super::vertices::{VertexStage, set_up};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
@@ -113,10 +113,8 @@ impl Machine {
             return;
         }
         let record = self.draw_record(call, plan, counts, traffic);
-        let state = StateMarks::of(call);
         self.recorder.with(|log| {
-            let changes = state.changes_from(log.state.as_ref());
-            log.state = Some(state);
+            let changes = DrawState::update(&mut log.state, call);
             if changes > 0 {
                 log.events.push(Event::StateChange { changes });
             }

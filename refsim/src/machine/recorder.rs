@@ -1,7 +1,7 @@
 //! The log of a machine, and the observer of its texel reads.
 
 use super::TextureId;
-use super::state::StateMarks;
+use super::state::DrawState;
 use crate::event::{Event, TexelObserver};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -20,7 +20,7 @@ pub(super) struct Recorder {
 #[derive(Debug, Default)]
 pub(super) struct Log {
     pub(super) events: Vec<Event>,
-    pub(super) state: Option<StateMarks>,
+    pub(super) state: Option<DrawState>,
     pub(super) fences: u32,
 }
 

@@ -1,55 +1,132 @@
-//! State changes between draws, counted by hashes of the pieces of state.
+//! State changes between draws: how many pieces of state a draw brings that the draw before it did not have.
 
-use super::{DrawCall, VertexSource};
+use super::{BoundTexture, DepthId, DrawCall, StepRate, TextureId, VertexSource};
 use crate::event::SAMPLERS;
-use std::fmt::{self, Write as _};
+use crate::exec::{BUMP_STAGES, BumpStage, Constants, Projection, program};
+use crate::isa::Program;
+use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, WriteMask};
+use crate::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
+use crate::texture::Region;
 
-/// One hash per piece of state.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct StateMarks(Vec<u64>);
+/// Pieces of state: the samplers, three pieces of the vertex stage and ten others.
+const PIECES: u32 = SAMPLERS as u32 + 3 + 10;
 
-impl StateMarks {
-    /// The state that a call brings.
-    pub(super) fn of(call: &DrawCall<'_>) -> Self {
-        let mut marks = Vec::with_capacity(SAMPLERS + 14);
-        marks.extend(call.samplers.iter().map(mark));
-        marks.push(mark(crate::exec::program(call.pixel_program)));
-        marks.push(mark(call.pixel_constants));
-        match &call.vertices {
-            VertexSource::Transformed(_) => marks.extend([0, 0, 0]),
-            VertexSource::Program { program, constants, streams } => {
-                let layout: Vec<_> = streams.streams.iter().map(|s| (s.register, s.step)).collect();
-                marks.extend([mark(crate::exec::program(program)), mark(constants), mark(&layout)]);
+/// The state of a draw.
+#[derive(Clone, Debug)]
+pub(super) struct DrawState {
+    samplers: [Option<BoundTexture>; SAMPLERS],
+    pixel_program: Program,
+    pixel_constants: Constants,
+    vertex_program: Option<Program>,
+    vertex_constants: Option<Constants>,
+    streams: Option<Vec<(usize, StepRate)>>,
+    fixed: FixedState,
+    targets: Vec<TextureId>,
+}
+
+/// The pieces that are a few numbers each.
+#[derive(Clone, Copy, Debug)]
+struct FixedState {
+    depth_buffer: Option<DepthId>,
+    depth: DepthState,
+    alpha_test: Option<AlphaTest>,
+    blend: Option<BlendState>,
+    masks: [WriteMask; MAX_TARGETS],
+    stages: ([BumpStage; BUMP_STAGES], [Projection; BUMP_STAGES]),
+    raster: (Option<Viewport>, Option<Region>, PixelCenter, ClipSpace, Cull, Option<Provoking>),
+}
+
+impl DrawState {
+    /// Takes over the state that a call brings; gives how many pieces differ. Before the first draw no piece is set.
+    pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> u32 {
+        match state {
+            Some(state) => state.take(call),
+            None => {
+                *state = Some(Self::of(call));
+                PIECES
             }
         }
-        marks.extend([mark(&call.targets), mark(&call.depth_buffer), mark(&call.depth), mark(&call.alpha_test)]);
-        marks.extend([mark(&call.blend), mark(&call.masks), mark(&(call.bump, call.projections))]);
-        marks.push(mark(&(call.viewport, call.scissor, call.center, call.clip_space, call.cull, call.flat)));
-        Self(marks)
     }
 
-    /// How many pieces differ from `last`; before the first draw, from a state in which no piece is set.
-    pub(super) fn changes_from(&self, last: Option<&Self>) -> u32 {
-        let Some(last) = last else { return self.0.len() as u32 };
-        self.0.iter().zip(&last.0).filter(|(a, b)| a != b).count() as u32
-    }
-}
-
-/// The hash of a value: FNV-1a of its debug text, the same on every computer.
-fn mark(value: &(impl fmt::Debug + ?Sized)) -> u64 {
-    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
-    // The writer never fails.
-    let _ = write!(hash, "{value:?}");
-    hash.0
-}
-
-struct Fnv(u64);
-
-impl fmt::Write for Fnv {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    fn of(call: &DrawCall<'_>) -> Self {
+        let (vertex_program, vertex_constants, streams) = vertex_stage(call);
+        Self {
+            samplers: call.samplers,
+            pixel_program: program(call.pixel_program).clone(),
+            pixel_constants: call.pixel_constants.clone(),
+            vertex_program: vertex_program.cloned(),
+            vertex_constants: vertex_constants.cloned(),
+            streams,
+            fixed: FixedState::of(call),
+            targets: call.targets.clone(),
         }
-        Ok(())
     }
+
+    fn take(&mut self, call: &DrawCall<'_>) -> u32 {
+        let (vertex_program, vertex_constants, streams) = vertex_stage(call);
+        let samplers: u32 = self.samplers.iter_mut().zip(&call.samplers).map(|(kept, new)| replace(kept, new)).sum();
+        samplers
+            + replace(&mut self.pixel_program, program(call.pixel_program))
+            + replace(&mut self.pixel_constants, call.pixel_constants)
+            + replace_optional(&mut self.vertex_program, vertex_program)
+            + replace_optional(&mut self.vertex_constants, vertex_constants)
+            + replace(&mut self.streams, &streams)
+            + replace(&mut self.targets, &call.targets)
+            + self.fixed.take(&FixedState::of(call))
+    }
+}
+
+impl FixedState {
+    fn of(call: &DrawCall<'_>) -> Self {
+        Self {
+            depth_buffer: call.depth_buffer,
+            depth: call.depth,
+            alpha_test: call.alpha_test,
+            blend: call.blend,
+            masks: call.masks,
+            stages: (call.bump, call.projections),
+            raster: (call.viewport, call.scissor, call.center, call.clip_space, call.cull, call.flat),
+        }
+    }
+
+    fn take(&mut self, new: &Self) -> u32 {
+        replace(&mut self.depth_buffer, &new.depth_buffer)
+            + replace(&mut self.depth, &new.depth)
+            + replace(&mut self.alpha_test, &new.alpha_test)
+            + replace(&mut self.blend, &new.blend)
+            + replace(&mut self.masks, &new.masks)
+            + replace(&mut self.stages, &new.stages)
+            + replace(&mut self.raster, &new.raster)
+    }
+}
+
+/// Program, constants and layout of the attributes; nothing of vertices that come as the stage would give them.
+fn vertex_stage<'a>(
+    call: &DrawCall<'a>,
+) -> (Option<&'a Program>, Option<&'a Constants>, Option<Vec<(usize, StepRate)>>) {
+    match &call.vertices {
+        VertexSource::Transformed(_) => (None, None, None),
+        VertexSource::Program { program: vertex, constants, streams } => {
+            let layout = streams.streams.iter().map(|stream| (stream.register, stream.step)).collect();
+            (Some(program(vertex)), Some(*constants), Some(layout))
+        }
+    }
+}
+
+/// Replaces a piece where it differs; gives whether it did, as a count. A piece that stays is not copied.
+fn replace<T: Clone + PartialEq>(kept: &mut T, new: &T) -> u32 {
+    let differs = kept != new;
+    if differs {
+        kept.clone_from(new);
+    }
+    differs.into()
+}
+
+/// [`replace`] of a piece that there may not be.
+fn replace_optional<T: Clone + PartialEq>(kept: &mut Option<T>, new: Option<&T>) -> u32 {
+    let differs = kept.as_ref() != new;
+    if differs {
+        *kept = new.cloned();
+    }
+    differs.into()
 }

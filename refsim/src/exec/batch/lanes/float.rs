@@ -232,10 +232,10 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let quotient = match (PATH, R) {
             (HOST, EVEN) => return self.narrow(a / b),
             (SINGLE, EVEN) => self.narrow(a / b),
-            // What decides a rounding is a number of one bit more than the format, and a quotient of two such numbers
-            // that isn't it differs from it by more than the double does from the quotient.
-            (_, EVEN) => self.round_f64(f64::from(a) / f64::from(b)),
-            _ => self.round_f64(odd::div_odd(f64::from(a), f64::from(b))),
+            // What decides a rounding, in any direction, is a number m of one bit more than the format, 25 at most.
+            // A quotient that is not m differs from it by 2^-49 of itself or more, since a - m b is a multiple of the
+            // unit of m b; the double differs from the quotient by 2^-53 at most. So both lie on one side of m.
+            _ => self.round_f64(f64::from(a) / f64::from(b)),
         };
         let pole = (b == 0.0) & (a.abs() < f32::INFINITY) & (a != 0.0);
         if pole { self.pole((a.to_bits() ^ b.to_bits()) & SIGN_BIT) } else { quotient }
@@ -246,7 +246,9 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        self.round_f64(odd::sqrt_odd(f64::from(a)))
+        // As for a quotient: a root that is not m differs from it by 2^-51 of itself or more, since a - m m is a
+        // multiple of the unit of m m.
+        self.round_f64(f64::from(a).sqrt())
     }
 
     #[inline(always)]

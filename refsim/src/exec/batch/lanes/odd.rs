@@ -43,21 +43,6 @@ pub(crate) fn head(x: f64) -> f64 {
     c - (c - x)
 }
 
-/// `a / b` rounded to odd, for `a`, `b` of at most 24 significant bits.
-///
-/// The quotient is cut to 26 bits, so that `q b` has at most 50 and is exact, and so is `a - q b` (it is a multiple of
-/// a unit that it exceeds by less than 2^27). The sign of that remainder says on which side of `q` the truth lies.
-#[inline(always)]
-pub(crate) fn div_odd(a: f64, b: f64) -> f64 {
-    let quotient = a / b;
-    let q = head(quotient);
-    let rest = a - q * b;
-    // Towards +inf if the remainder has the sign of the divisor.
-    let e = if b > 0.0 { rest } else { -rest };
-    // Without an error, an infinite divisor leaves NaN for it.
-    if quotient.abs() < f64::INFINITY { odd(q, e) } else { quotient }
-}
-
 /// `a / b` rounded to odd to all 53 bits, for finite `a`, `b` of at most 24 significant bits, `b` not 0: what
 /// fixed-point formats of more than 24 bits need.
 ///
@@ -69,15 +54,6 @@ pub(crate) fn div_odd_long(a: f64, b: f64) -> f64 {
     let high = head(q);
     let rest = (a - high * b) - (q - high) * b;
     odd(q, if b > 0.0 { rest } else { -rest })
-}
-
-/// The square root of `a >= 0` rounded to odd, for `a` of at most 24 significant bits.
-#[inline(always)]
-pub(crate) fn sqrt_odd(a: f64) -> f64 {
-    let root = a.sqrt();
-    let s = head(root);
-    let e = a - s * s;
-    if root < f64::INFINITY { odd(s, e) } else { root }
 }
 
 /// `1 / sqrt(a)` rounded to odd, for finite `a > 0` of at most 24 significant bits.
