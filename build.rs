@@ -34,8 +34,8 @@ fn commit_of_package() -> Option<String> {
     hash.bytes().all(|byte| byte.is_ascii_hexdigit()).then(|| hash.to_owned())
 }
 
-/// The commit that is checked out, if this folder is the root of a repository: not that of a project which has a copy of
-/// this one.
+/// The commit that is checked out, if this folder is the root of a repository: not that of a project which has a copy
+/// of this one.
 fn commit_of_repository() -> Option<String> {
     if !git(&["rev-parse", "--show-prefix"])?.is_empty() {
         return None;

@@ -7,7 +7,7 @@ use super::{Problem, error};
 #[cfg(unix)]
 const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
 
-/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written and says that the work is lost, then ends as
+/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, says that the work is lost, then ends as
 /// the signal would have ended the program, which shells report as 130, 143 and 129. A signal that the caller ignores,
 /// as `nohup` does SIGHUP, stays ignored.
 #[cfg(unix)]

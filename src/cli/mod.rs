@@ -88,7 +88,7 @@ Examples:
   crossbar leaky-teapot                                      # the teapot in each number format
   crossbar devices                                           # the emulated cards
   crossbar check docs/examples/intersect.psa --device r200   # is it legal on a Radeon 8500?
-  crossbar run docs/examples/product.toml                     # draw a case: pictures, counts
+  crossbar run docs/examples/product.toml                    # draw a case: pictures, counts
   echo 3C00 4000 | crossbar alu add --format fp16            # one plus two, in half precision
   crossbar alu --help                                        # what a command does, with examples
 

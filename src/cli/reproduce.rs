@@ -22,7 +22,8 @@ NAME.svg per chart.
 Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
 bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
 vague to judge.
-Interrupted, it leaves nothing half-written and does not resume; single entries can be named.
+Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
+entries that are named.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds

@@ -95,8 +95,8 @@ fn fill_file(
 /// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
 /// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
 /// process that is killed in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with
-/// the rest; the next set for the folder first finishes them. Files of other names are never touched, but for those that
-/// an earlier set of the same writer left there ([`FileSet::by`]).
+/// the rest; the next set for the folder first finishes them. Files of other names are never touched, but for those of
+/// an earlier set of the same writer ([`FileSet::by`]).
 #[derive(Debug)]
 pub struct FileSet {
     /// The folder as it was named.
@@ -130,8 +130,8 @@ impl FileSet {
         Ok(set)
     }
 
-    /// A set for `folder` that takes the place of the one that `writer`, a command for example, wrote there before: what
-    /// that one had and this one has not is removed, if nobody has changed it since. A list in the folder,
+    /// A set for `folder` that takes the place of the one that `writer`, a command for example, wrote there before:
+    /// what that one had and this one has not is removed, if nobody has changed it since. A list in the folder,
     /// `.crossbar_files`, says who wrote what.
     ///
     /// # Errors

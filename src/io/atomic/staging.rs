@@ -84,8 +84,8 @@ impl Staging {
     }
 
     /// Renames files, named as below `base`, to their places there, at most `most` of them; then removes those of
-    /// `stale`. Whoever comes after a process that was killed on the way does the rest. Returns the place that could not
-    /// be taken, if one could not.
+    /// `stale`. Whoever comes after a process that was killed on the way does the rest. Returns the place that could
+    /// not be taken, if one could not.
     pub(super) fn rename_files(
         &self,
         base: &Path,
