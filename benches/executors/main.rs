@@ -75,15 +75,6 @@ fn rays(side: u32) -> RayBatch {
     RayBatch::new(side, side, camera(side).rays()).expect("a ray a pixel")
 }
 
-fn executor_name(kind: ExecutorKind) -> &'static str {
-    match kind {
-        ExecutorKind::Scalar => "scalar",
-        ExecutorKind::Batch => "batch",
-        #[cfg(feature = "wgpu")]
-        ExecutorKind::Wgpu => "wgpu",
-    }
-}
-
 fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &RayBatch) {
     let mut group = criterion.benchmark_group("executors");
     group.sample_size(10);
@@ -94,11 +85,11 @@ fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &Ra
         let shaded = card.intersect(&mesh, rays, Sides::Front).expect("the card intersects").events.fragments.shaded;
         assert_eq!(shaded, (TRIANGLES * rays.rays().len()) as u64, "{format}: every ray meets every triangle");
         group.throughput(Throughput::Elements(shaded));
-        group.bench_function(BenchmarkId::new(format!("{name} {format}"), executor_name(kind)), |b| {
+        group.bench_function(BenchmarkId::new(format!("{name} {format}"), kind.name()), |b| {
             b.iter(|| card.intersect(black_box(&mesh), black_box(rays), Sides::Front).expect("the card intersects"));
         });
         let mut resident = card.make_resident(&mesh, rays, Sides::Front).expect("the card takes them");
-        group.bench_function(BenchmarkId::new(format!("{name}{RESIDENT} {format}"), executor_name(kind)), |b| {
+        group.bench_function(BenchmarkId::new(format!("{name}{RESIDENT} {format}"), kind.name()), |b| {
             b.iter(|| black_box(resident.intersect().expect("the card intersects")));
         });
     }
@@ -140,7 +131,7 @@ fn draws(criterion: &mut Criterion) {
         for scene in scenes::all(kind) {
             let mut card = scenes::Card::new(&scene, kind);
             group.throughput(Throughput::Elements(card.elements(&scene)));
-            group.bench_function(BenchmarkId::new(scene.name, executor_name(kind)), |b| {
+            group.bench_function(BenchmarkId::new(scene.name, kind.name()), |b| {
                 b.iter(|| black_box(card.draw(&scene)));
             });
         }

@@ -36,10 +36,8 @@ enum Geometry {
 /// All of them, smaller for the executor that needs milliseconds where the other needs microseconds.
 pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
     let (side, vertices) = match kind {
-        ExecutorKind::Batch => (256, 3 * 65_536),
-        #[cfg(feature = "wgpu")]
-        ExecutorKind::Wgpu => (256, 3 * 65_536),
         ExecutorKind::Scalar => (32, 3 * 1024),
+        _ => (256, 3 * 65_536),
     };
     let of =
         |name, pixel: &str, geometry| Scene { name, side, pixel: program(pixel), geometry, counts_vertices: false };

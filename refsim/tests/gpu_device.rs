@@ -1,7 +1,10 @@
 //! The host side of the GPU executor: buffers go there and back, shaders run, faults are errors.
-#![cfg(feature = "wgpu")]
 
-use refsim::exec::gpu::{Access, Gpu, GpuError, testing};
+#[path = "common/adapter.rs"]
+mod adapter;
+
+use refsim::exec::gpu::{Access, Gpu, GpuError};
+use std::process::ExitCode;
 use std::sync::Arc;
 
 const DOUBLE: &str = "
@@ -11,18 +14,11 @@ const DOUBLE: &str = "
     if id.x < arrayLength(&given) { made[id.x] = 2u * given[id.x]; }
 }";
 
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn gpu() -> Option<Arc<Gpu>> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
-    if gpu.is_none() {
-        println!("ignored: no adapter");
-    }
-    gpu
+fn main() -> ExitCode {
+    adapter::run(adapter::trials![on_adapter: words_go_there_and_back, faults_are_errors])
 }
 
-#[test]
-fn words_go_there_and_back() {
-    let Some(gpu) = gpu() else { return };
+fn words_go_there_and_back(gpu: &Arc<Gpu>) {
     let given: Vec<u32> = (0..1000).collect();
     let made = gpu.compute(DOUBLE, "double", &[&given], 1000, [16, 1, 1]).unwrap_or_else(|e| panic!("{e}"));
     assert!(made.iter().zip(&given).all(|(m, g)| *m == 2 * g));
@@ -34,9 +30,7 @@ fn words_go_there_and_back() {
     assert_eq!(gpu.read(&wider, 998..1002), Ok(vec![998, 999, 0, 0]));
 }
 
-#[test]
-fn faults_are_errors() {
-    let Some(gpu) = gpu() else { return };
+fn faults_are_errors(gpu: &Arc<Gpu>) {
     assert!(matches!(gpu.pipeline("fn broken(", "main", &[]), Err(GpuError::Shader { .. })));
     assert!(matches!(gpu.pipeline(DOUBLE, "main", &[Access::Read, Access::ReadWrite]), Err(GpuError::Shader { .. })));
     assert!(matches!(gpu.pipeline(DOUBLE, "double", &[Access::Read]), Err(GpuError::Shader { .. })));

@@ -1,11 +1,12 @@
 //! Draws on a GPU against the reference: targets, depth buffers and counts are equal to the last bit.
-#![cfg(feature = "wgpu")]
 
+#[path = "common/adapter.rs"]
+mod adapter;
 #[path = "common/running.rs"]
 mod running;
 
 use refsim::device::Profile;
-use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::gpu::Gpu;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
 use refsim::num::Format;
@@ -15,15 +16,18 @@ use refsim::output::{
 use refsim::raster::{ClipSpace, Cull, PixelCenter, Primitive, Vertex, Viewport};
 use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
 use running::{bits, checked, ideal};
+use std::process::ExitCode;
 use std::sync::Arc;
 
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn gpu() -> Option<Arc<Gpu>> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
-    if gpu.is_none() {
-        println!("ignored: no adapter");
-    }
-    gpu
+fn main() -> ExitCode {
+    adapter::run(adapter::trials![on_adapter:
+        triangles,
+        output_stage,
+        memory_follows,
+        programs,
+        short_programs_agree_on_any_driver,
+        long_traces_are_whole,
+    ])
 }
 
 /// Numbers from a seed.
@@ -176,13 +180,11 @@ impl State {
     }
 }
 
-#[test]
-fn triangles() {
-    let Some(gpu) = gpu() else { return };
+fn triangles(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
     let program = copy(&profile);
     let host = Constants::default();
-    let mut pair = Pair::new(&profile, &gpu);
+    let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba32f, 40, 24, [0; 4]);
     let mut dice = Dice(1);
     for count in [3, 30, 300] {
@@ -194,16 +196,14 @@ fn triangles() {
 }
 
 /// Every target format, every depth format, all of the output stage, in formats of every kind.
-#[test]
-fn output_stage() {
-    let Some(gpu) = gpu() else { return };
+fn output_stage(gpu: &Arc<Gpu>) {
     for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3"].into_iter().enumerate() {
         let mut profile = ideal(device);
         if number % 2 == 1 {
             profile.rules.target_rounding = TargetRounding::Truncate;
             profile.rules.depth_rounding = TargetRounding::Truncate;
         }
-        output_under(&profile, &gpu, number as u64, TexelFormat::ALL);
+        output_under(&profile, gpu, number as u64, TexelFormat::ALL);
     }
 }
 
@@ -238,13 +238,11 @@ fn output_under(profile: &Profile, gpu: &Arc<Gpu>, seed: u64, formats: &[TexelFo
 }
 
 /// Handles, clears, releases and read-back between draws.
-#[test]
-fn memory_follows() {
-    let Some(gpu) = gpu() else { return };
+fn memory_follows(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
     let program = copy(&profile);
     let host = Constants::default();
-    let mut pair = Pair::new(&profile, &gpu);
+    let mut pair = Pair::new(&profile, gpu);
     let mut dice = Dice(5);
     let first = pair.target(TexelFormat::Rgba8, 33, 17, bits([0.5; 4]));
     let second = pair.target(TexelFormat::Bgr565, 33, 17, bits([0.25; 4]));
@@ -272,33 +270,36 @@ fn memory_follows() {
 }
 
 /// Programs with texture reads, constants, kill, depth of their own; samplers that are unbound.
-#[test]
-fn programs() {
-    agree(&[
-        ("r200", "ps_1_4\ntexld r0, t0\ntexld r1, t1\nmad r0, r0, c0, r1"),
-        ("r200", "ps_1_4\ntexcrd r0.rgb, t0\ntexcrd r1.rgb, t1\ndp3 r2, r0, r1\nmov r0, r2"),
-        ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\ntexkill t0\nmov oC0, r0"),
-        ("r300", "ps_2_0\ndcl t0\nrcp r0, t0.x\nrsq r1, r0.x\nmov r0, r1.x\nmov oDepth, r1.x\nmov oC0, r0"),
-        ("nv30", "ps_2_a\ndcl t0\nexp r0, t0.x\nlog r1, t0.y\ndsx r2, t0\nmad r0, r0.x, r1.x, r2\nmov oC0, r0"),
-    ]);
+fn programs(gpu: &Arc<Gpu>) {
+    agree(
+        gpu,
+        &[
+            ("r200", "ps_1_4\ntexld r0, t0\ntexld r1, t1\nmad r0, r0, c0, r1"),
+            ("r200", "ps_1_4\ntexcrd r0.rgb, t0\ntexcrd r1.rgb, t1\ndp3 r2, r0, r1\nmov r0, r2"),
+            ("r300", "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\ntexkill t0\nmov oC0, r0"),
+            ("r300", "ps_2_0\ndcl t0\nrcp r0, t0.x\nrsq r1, r0.x\nmov r0, r1.x\nmov oDepth, r1.x\nmov oC0, r0"),
+            ("nv30", "ps_2_a\ndcl t0\nexp r0, t0.x\nlog r1, t0.y\ndsx r2, t0\nmad r0, r0.x, r1.x, r2\nmov oC0, r0"),
+        ],
+    );
 }
 
 /// A short agreement for drivers that compile slowly.
-#[test]
-fn short_programs_agree_on_any_driver() {
-    agree(&[
-        ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
-        ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
-    ]);
+fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
+    agree(
+        gpu,
+        &[
+            ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
+            ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
+        ],
+    );
 }
 
-fn agree(texts: &[(&str, &str)]) {
-    let Some(gpu) = gpu() else { return };
+fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
     for &(device, text) in texts {
         let profile = Profile::named(device).unwrap();
         let program = checked(text, &profile);
         let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);
-        let mut pair = Pair::new(&profile, &gpu);
+        let mut pair = Pair::new(&profile, gpu);
         let mut dice = Dice(77);
         let target = pair.target(TexelFormat::Bgra8, 24, 24, [0; 4]);
         let depth = pair.depth(DepthFormat::Unorm24, 24, 24, 0x3f80_0000);
@@ -326,16 +327,14 @@ fn texture(dice: &mut Dice) -> Image {
 }
 
 /// More steps than a record holds, with blending over what another triangle left: traced as the reference traces it.
-#[test]
-fn long_traces_are_whole() {
-    let Some(gpu) = gpu() else { return };
+fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     let profile = ideal("fp16");
     let text = "ps_2_a\ndcl t0\nmov r0, t0\nrep i0\nadd r0, r0, c0\nif_gt r0.x, c0.y\nmul r0, r0, c0.z\nendif\nendrep\n\
                 mov oC0, r0";
     let program = checked(text, &profile);
     let mut host = running::constants(&[[0.5, 1.25, 0.5, 0.125]]);
     host.int = vec![[250, 0, 0, 0]];
-    let mut pair = Pair::new(&profile, &gpu);
+    let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba16f, 9, 7, bits([0.25; 4]));
     let depth = pair.depth(DepthFormat::Unorm16, 9, 7, 0x3f80_0000);
     let corners = vertices(&mut Dice(11), 12);

@@ -1,13 +1,26 @@
 //! Texture reads of the GPU text against the texture room, bit for bit: every texel format, kind of texture, filter,
 //! address mode and level of detail, with coordinates at and beyond every edge.
 
+#[path = "common/adapter.rs"]
+mod adapter;
+
 mod wgsl_texture {
-    mod cases;
+    pub(crate) mod cases;
     #[cfg(feature = "wgpu")]
-    #[expect(clippy::print_stdout, reason = "tests say what took how long, and that they saw no adapter")]
-    mod device;
-    mod module;
-    mod random;
-    mod reference;
-    mod valid;
+    pub(crate) mod device;
+    pub(crate) mod module;
+    pub(crate) mod random;
+    pub(crate) mod reference;
+    pub(crate) mod valid;
+}
+
+use wgsl_texture::*;
+
+fn main() -> std::process::ExitCode {
+    let mut trials = adapter::trials![on_host: valid::modules_are_valid];
+    #[cfg(feature = "wgpu")]
+    trials.extend(adapter::trials![
+        on_adapter: device::reads_are_those_of_the_texture_room, device::texels_decode_as_the_texture_room_has_it
+    ]);
+    adapter::run(trials)
 }

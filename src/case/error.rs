@@ -81,6 +81,7 @@ pub enum CaseError {
 }
 
 /// What runs otherwise than a case says, or may.
+#[non_exhaustive]
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseWarning {

@@ -10,9 +10,9 @@ use crate::shader::{ShaderError, ShaderText, slots};
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar check intersect.psa --device r200
+  crossbar check docs/examples/intersect.psa --device r200
       every rule and limit of the Radeon 8500 that the program breaks, each with its place
-  crossbar check intersect.psa --device r200 --switch ray-textures=wide --json
+  crossbar check docs/examples/intersect.psa --device r200 --switch ray-textures=wide --json
       the same with an open question of the card answered otherwise, for machines
 
 Exit codes: 0 the program is legal (warnings say what runs otherwise than it is written), 1 it breaks a rule or limit, 2 it is no program (or there is no such file or device).";

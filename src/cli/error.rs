@@ -21,7 +21,8 @@ const PLAIN_WIDTH: usize = 100;
 #[diagnostic(code(crossbar::output))]
 pub struct OutputError(#[from] io::Error);
 
-/// Bad input that a command found itself; the rooms bring errors of their own.
+/// Bad input that a command found itself, or its end by a signal; the rooms bring errors of their own.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum Problem {
     /// A file or folder that cannot be written; nothing of it was left behind.
@@ -32,6 +33,10 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Memory(#[from] MemoryError),
+    /// A signal ended the work before its files were there.
+    #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
+    #[diagnostic(code(crossbar::interrupted), help("work does not resume: the same command starts from the beginning"))]
+    Interrupted,
     /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]

@@ -1,10 +1,17 @@
-//! What a signal that asks for the end leaves behind: nothing.
+//! What a signal that asks for the end leaves behind: nothing but a sentence that says so.
 
-/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, then ends as the signal would have ended
-/// the program, which shells report as 130, 143 and 129. A signal that the caller ignores, as `nohup` does SIGHUP,
-/// stays ignored.
 #[cfg(unix)]
-pub(super) fn clean_up_on_signals() {
+use super::{Problem, error};
+
+/// How long the program waits for a reader of its last sentence.
+#[cfg(unix)]
+const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
+
+/// On SIGINT, SIGTERM and SIGHUP from here on: removes what is half-written, says that the work is lost, then ends as
+/// the signal would have ended the program, which shells report as 130, 143 and 129. A signal that the caller ignores,
+/// as `nohup` does SIGHUP, stays ignored.
+#[cfg(unix)]
+pub(super) fn clean_up_on_signals(json: bool) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::{iterator::Signals, low_level::emulate_default_handler};
 
@@ -14,16 +21,31 @@ pub(super) fn clean_up_on_signals() {
     let Ok(mut signals) = Signals::new(heeded) else { return };
     let wait = move || {
         for signal in &mut signals {
-            crate::io::atomic::abandon();
+            if crate::io::atomic::abandon() {
+                say_what_is_lost(json);
+            }
             emulate_default_handler(signal).ok();
         }
     };
     std::thread::Builder::new().name("signals".to_owned()).stack_size(1 << 18).spawn(wait).ok();
 }
 
+/// Says that nothing was written, without waiting for a pipe that nobody empties.
+#[cfg(unix)]
+fn say_what_is_lost(json: bool) {
+    let (said, heard) = std::sync::mpsc::channel();
+    let say = move || {
+        error::print(&Problem::Interrupted.into(), json, false);
+        said.send(()).ok();
+    };
+    if std::thread::Builder::new().name("last words".to_owned()).spawn(say).is_ok() {
+        heard.recv_timeout(LAST_WORDS).ok();
+    }
+}
+
 /// Where there are no signals, there is nothing to heed.
 #[cfg(not(unix))]
-pub(super) const fn clean_up_on_signals() {}
+pub(super) const fn clean_up_on_signals(_json: bool) {}
 
 /// The signals that the process was started to ignore, signal n as bit n - 1; none where the system does not say.
 #[cfg(unix)]

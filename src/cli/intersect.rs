@@ -23,13 +23,13 @@ use crate::ray_engine::engine::EngineCounts;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar intersect --mesh teapot.obj --rays rays.csv --executor exact --out hits.csv
+  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --executor exact --out hits.csv
       decided in exact arithmetic on the f32 numbers of the files
-  crossbar intersect --mesh teapot.obj --rays rays.csv --device r200 --out hits.csv
+  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --out hits.csv
       what a Radeon 8500 would have said, with every ray against the triangles near it
-  crossbar intersect --mesh bunny.obj --rays rays.csv --caster host --time --out hits.csv
+  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster host --time --out hits.csv
       found by the host's octree in single precision; says how long the octree took to build, and the rays to cast
-  crossbar intersect --mesh bunny.obj --rays rays.csv --caster engine --device r300 --time --out hits.csv
+  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --device r300 --time --out hits.csv
       the same by the Ray Engine, host and emulated Radeon 9700 together
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line

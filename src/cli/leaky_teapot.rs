@@ -79,6 +79,7 @@ pub(super) struct Args {
 
 impl StudyArgs for Args {
     type Study = Parameters;
+    const COMMAND: &'static str = "leaky-teapot";
 
     fn folder(&self) -> &Path {
         &self.out

@@ -23,6 +23,7 @@ const STACK: u64 = 2 << 20;
 const SMALL: u64 = 16 << 20;
 
 /// Where a limit comes from.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 pub enum LimitSource {
     /// `--memory-limit`.

@@ -8,12 +8,14 @@ mod alu;
 mod caster;
 mod check;
 mod compare;
+mod completions;
 mod devices;
 mod error;
 mod executor;
 mod interrupt;
 mod intersect;
 mod leaky_teapot;
+mod man;
 mod memory;
 mod number;
 mod out;
@@ -31,6 +33,7 @@ mod size;
 mod study;
 mod switch;
 mod timeline;
+mod version;
 mod view;
 mod words;
 
@@ -56,7 +59,7 @@ const BAD_INPUT: u8 = 2;
 ///
 /// Exit codes: 0 done, 1 the check failed, 2 bad input or usage.
 #[derive(Debug, Parser)]
-#[command(name = "crossbar", version, arg_required_else_help = true, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "crossbar", version = version::VERSION.as_str(), arg_required_else_help = true, max_term_width = 100, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -82,21 +85,26 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar leaky-teapot                             the main job: the teapot in each number format, as one page
-  crossbar devices                                  the emulated cards
-  crossbar check shader.psa --device r200           is it a legal program for the Radeon 8500?
-  crossbar run fixtures/cases/modulate.toml         draw a case: pictures, probes, counts
-  echo 3C00 4000 | crossbar alu add --format fp16   one plus two, in half precision
-  crossbar alu --help                               what a subcommand does, with an example";
+  crossbar leaky-teapot                                      # the teapot in each number format
+  crossbar devices                                           # the emulated cards
+  crossbar check docs/examples/intersect.psa --device r200   # is it legal on a Radeon 8500?
+  crossbar run docs/examples/product.toml                    # draw a case: pictures, counts
+  echo 3C00 4000 | crossbar alu add --format fp16            # one plus two, in half precision
+  crossbar alu --help                                        # what a command does, with examples
+
+docs/examples and fixtures are folders of the repository; examples are run from its root.
+A command that is interrupted leaves nothing half-written; it does not resume.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
     Alu(alu::Args),
     Check(check::Args),
     Compare(compare::Args),
+    Completions(completions::Args),
     Devices(devices::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
+    Man(man::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -130,7 +138,7 @@ pub fn main() -> ExitCode {
         error::print(&problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }
-    interrupt::clean_up_on_signals();
+    interrupt::clean_up_on_signals(cli.json);
     let mut out = Out::new(cli.json, cli.all_errors);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
@@ -154,9 +162,11 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Alu(args) => alu::run(&args, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
+        Command::Man(args) => man::run(&args, Cli::command(), out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, out),
         Command::Reproduce(args) => reproduce::run(&args, command_line, out),

@@ -22,6 +22,8 @@ NAME.svg per chart.
 Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
 bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
 vague to judge.
+Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
+entries that are named.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
@@ -47,6 +49,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
 
 impl StudyArgs for Args {
     type Study = Parameters;
+    const COMMAND: &'static str = "reproduce";
 
     fn folder(&self) -> &Path {
         &self.out

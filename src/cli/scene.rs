@@ -16,8 +16,8 @@ Examples:
       all scenes
   crossbar scene office
       what is in one: triangles, materials, emitters, views
-  crossbar scene teapot-room --out scenes
-      scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
+  crossbar scene teapot-room --out out/scenes
+      out/scenes/teapot_room.toml (views and point lights), teapot_room.obj and teapot_room.mtl, which read back to the same bits";
 
 /// List the scenes that the program builds itself, count what is in one, write its files
 #[derive(Debug, clap::Args)]

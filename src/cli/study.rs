@@ -18,6 +18,9 @@ pub(super) trait StudyArgs {
     /// The study that they ask for.
     type Study: Study;
 
+    /// The command, in whose name the folder is written.
+    const COMMAND: &'static str;
+
     /// Where its files go.
     fn folder(&self) -> &Path;
 
@@ -29,13 +32,13 @@ pub(super) trait StudyArgs {
 }
 
 /// Runs a study; `command_line` is what its findings come from.
-pub(super) fn run(args: &impl StudyArgs, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(need) = args.memory()? {
         need.require()?;
     }
     let study = args.study()?;
     // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::new(args.folder()).map_err(Problem::from)?;
+    let folder = FileSet::by(A::COMMAND, args.folder()).map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1);
     let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);

@@ -1,16 +1,6 @@
 //! Words for what the emulator names by types.
 
-use refsim::{isa::Mask, machine::ExecutorKind, output::FragmentFate};
-
-/// The word that `--executor` takes.
-pub(super) const fn executor(kind: ExecutorKind) -> &'static str {
-    match kind {
-        ExecutorKind::Scalar => "scalar",
-        ExecutorKind::Batch => "batch",
-        #[cfg(feature = "wgpu")]
-        ExecutorKind::Wgpu => "wgpu",
-    }
-}
+use refsim::{isa::Mask, output::FragmentFate};
 
 /// What became of a fragment.
 pub(super) const fn fate(fate: FragmentFate) -> &'static str {

@@ -40,6 +40,7 @@ pub struct FragmentPass {
 }
 
 /// The stage of the pipeline at which the traces of a fragment first differ.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "left and right are the sides that are compared")]
 pub enum TraceStage {

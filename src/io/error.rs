@@ -12,6 +12,7 @@ use crate::geom::MeshError;
 use crate::scene::SceneError;
 
 /// Why there are no bytes of a file.
+#[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReadError {
@@ -59,6 +60,7 @@ impl fmt::Display for FilePlace {
 }
 
 /// Why a file is no mesh, no scene or no material library.
+#[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ModelError {

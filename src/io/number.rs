@@ -4,6 +4,7 @@ use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
 /// Why a piece of text is no number in single precision. What was found is quoted by those who know where it stands.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
 pub enum NumberError {

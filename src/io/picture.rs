@@ -11,6 +11,7 @@ use crate::picture::{Picture, PictureError};
 pub const MAX_BYTES: u64 = 256 << 20;
 
 /// Why a file is no picture.
+#[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureFileError {

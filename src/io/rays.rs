@@ -26,6 +26,7 @@ pub const MAX_BYTES: u64 = 1 << 30;
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Why a file is no table of rays. Lines count from 1, the header's.
+#[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RaysError {

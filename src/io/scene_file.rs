@@ -34,6 +34,7 @@ use crate::scene::{CameraError, PointLight, Scene, View};
 const LONGEST: u64 = 1 << 20;
 
 /// Why a file is no scene.
+#[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneFileError {

@@ -6,6 +6,7 @@ pub const MAX_SIDE: u32 = 16384;
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 
 /// A file format of pictures.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 pub enum PictureFormat {
     /// Portable Network Graphics: sRGB values of 8 or 16 bits.

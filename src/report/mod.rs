@@ -25,6 +25,7 @@ pub use table::{Cell, Table};
 use crate::picture::PictureError;
 
 /// A table, chart or picture that cannot be encoded.
+#[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReportError {

@@ -4,6 +4,7 @@
 pub type Color = [f32; 3];
 
 /// How a surface scatters.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
     /// Lambert: the same radiance in all directions. Both sides of a triangle scatter.

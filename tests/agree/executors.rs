@@ -88,18 +88,10 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     all
 });
 
-/// The adapter that there is.
+/// The adapter, if there is one; if not, tests/gpu counts an ignored test for these suites.
 #[cfg(feature = "wgpu")]
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
 fn on_gpu() -> Option<Executor> {
-    match testing::shared() {
-        Ok(Some(_)) => {}
-        Ok(None) => {
-            println!("ignored: no adapter");
-            return None;
-        }
-        Err(e) => panic!("{e}"),
-    }
+    testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
     Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: EVERY_GPU, ..REFERENCE.clone() })
 }
 

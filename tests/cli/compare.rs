@@ -65,23 +65,7 @@ size = [4, 4]
 format = "rgba32f"
 "#;
 
-const TWO_ROUNDINGS: &str = r#"shader_model = "ps_1_4"
-format = "s3.12"
-[pixel]
-source = """
-ps_1_4
-mov r1, c0
-mul r0, r1, c1
-"""
-[constants]
-c0 = [0.25, 0.000732421875, 0.000732421875, 1]
-c1 = [0.5, 0.5, 1, 1]
-[geometry]
-full_screen = true
-[target]
-size = [2, 2]
-format = "rgba16f"
-"#;
+const TWO_ROUNDINGS: &str = include_str!("two_roundings.toml");
 
 /// Half of three units in the last place of s3.12 lies between two and one: ties go to the even one, or toward zero.
 #[test]
@@ -310,57 +294,4 @@ fn nothing_to_trace() {
         assert_eq!(ran.code, Some(if name == "outside" { 2 } else { 0 }), "{}", ran.stderr);
         insta::assert_snapshot!(format!("nothing_{name}"), ran.transcript());
     }
-}
-
-/// Whether there is a GPU adapter; in CI there must be one.
-#[cfg(feature = "wgpu")]
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn has_adapter() -> bool {
-    let listed = crate::crossbar(&["devices", "--adapters", "--json"], "").stdout;
-    let found = serde_json::from_str::<Value>(&listed).is_ok_and(|all| all.as_array().is_some_and(|a| !a.is_empty()));
-    if !found {
-        println!("ignored: no adapter");
-    }
-    found
-}
-
-#[cfg(feature = "wgpu")]
-#[test]
-fn a_gpu_is_equal_on_every_example_down_to_its_instructions() {
-    if !has_adapter() {
-        return;
-    }
-    for name in CASES {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        let on_gpu = ["compare", &example(name), "--right", "wgpu", "--pixel", "1,1"];
-        let ran = crossbar_in(folder.path(), &on_gpu, "");
-        assert_eq!(ran.code, Some(0), "{name}: {}", ran.transcript());
-        let trace = |executor| {
-            let arguments = ["run", &example(name), "--executor", executor, "--trace", "1,1", "--json"];
-            let ran = crossbar_in(folder.path(), &arguments, "");
-            assert_eq!(ran.code, Some(0), "{name}: {}", ran.transcript());
-            serde_json::from_str::<Value>(&ran.stdout).expect("one JSON document")["trace"].clone()
-        };
-        // Neither knows flags.
-        assert_eq!(trace("wgpu"), trace("batch"), "{name}");
-    }
-}
-
-/// The first instruction that differs is named for a GPU as for the others.
-#[cfg(feature = "wgpu")]
-#[test]
-fn two_roundings_on_a_gpu() {
-    if !has_adapter() {
-        return;
-    }
-    let first = |arguments: &[&str]| {
-        let all = [&["compare", "case.toml", "--json", "--right-format", "s3.12:rtz"], arguments].concat();
-        let ran = on(TWO_ROUNDINGS, &all);
-        assert_eq!(ran.code, Some(1), "{}", ran.transcript());
-        serde_json::from_str::<Value>(&ran.stdout).expect("one JSON document")["first"].clone()
-    };
-    let wanted = first(&[]);
-    assert_eq!(wanted["difference"]["instruction"]["source"]["text"], "mul r0, r1, c1");
-    assert_eq!(first(&["--left", "wgpu", "--right", "wgpu"]), wanted);
-    assert_eq!(first(&["--right", "wgpu"]), wanted);
 }

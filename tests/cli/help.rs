@@ -2,7 +2,9 @@
 
 use crate::crossbar;
 
-const COMMANDS: &str = "alu check compare devices intersect leaky-teapot radiosity render reproduce run scene timeline";
+/// All commands, in the order of the help.
+pub(crate) const COMMANDS: &str = "alu check compare completions devices intersect leaky-teapot man radiosity render reproduce run scene \
+                        timeline";
 
 #[test]
 fn program() {
@@ -42,11 +44,65 @@ fn every_command_has_an_example_and_speaks_json() {
     }
 }
 
+/// Which commit, where the program is not a development build, and which features.
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");
-    assert_eq!(ran.stdout, format!("crossbar {}\n", env!("CARGO_PKG_VERSION")));
+    let number = env!("CARGO_PKG_VERSION");
+    let features = if cfg!(feature = "wgpu") { "cli, wgpu" } else { "cli" };
+    let (start, end) = (format!("crossbar {number} ("), format!(", features {features})\n"));
+    let from = ran.stdout.strip_prefix(&start).and_then(|rest| rest.strip_suffix(&end));
+    let from = from.unwrap_or_else(|| panic!("{}", ran.stdout));
+    let commit =
+        from.split(',').next().is_some_and(|hash| hash.len() >= 7 && hash.bytes().all(|b| b.is_ascii_hexdigit()));
+    assert!(from == "development build" || from == "unknown commit" || commit, "{from}");
     assert_eq!(ran.code, Some(0));
+    assert_eq!(ran.stdout, crossbar(&["-V"], "").stdout);
+}
+
+#[test]
+fn completions_know_every_command_and_option() {
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let ran = crossbar(&["completions", shell], "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{shell}");
+        for word in COMMANDS.split(' ').chain(["rays-per-edge", "memory-limit"]) {
+            assert!(ran.stdout.contains(word), "{shell} completes {word}");
+        }
+        let json = crossbar(&["completions", shell, "--json"], "").stdout;
+        let json: serde_json::Value = serde_json::from_str(&json).expect("one JSON document");
+        assert_eq!(json["script"], ran.stdout);
+    }
+    assert_eq!(crossbar(&["completions", "abacus"], "").code, Some(2));
+}
+
+/// The script is one that bash takes, and that completes.
+#[cfg(target_os = "linux")]
+#[test]
+fn bash_completes() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("crossbar.bash"), crossbar(&["completions", "bash"], "").stdout)
+        .expect("written");
+    let script = "source ./crossbar.bash; COMP_WORDS=(crossbar leaky-teapot --rays-per); COMP_CWORD=2; \
+                  _crossbar crossbar --rays-per leaky-teapot; echo \"${COMPREPLY[@]}\"";
+    let mut bash = std::process::Command::new("bash");
+    let output = bash.args(["--norc", "-c", script]).current_dir(folder.path()).output().expect("bash");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "--rays-per-edge\n", "{output:?}");
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ran = crate::crossbar_in(folder.path(), &["man", "--out", "pages"], "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    for command in std::iter::once("crossbar".to_owned()).chain(COMMANDS.split(' ').map(|c| format!("crossbar-{c}"))) {
+        let path = folder.path().join(format!("pages/{command}.1"));
+        let page = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{command}: {e}"));
+        assert!(page.contains(&format!(".TH {command} 1")), "{command}: {page}");
+        assert!(page.contains("Examples:"), "{command}: {page}");
+        assert!(page.contains("memory\\-limit"), "{command}: {page}");
+        assert!(ran.stdout.contains(&format!("{command}.1")), "{command}");
+    }
+    assert_eq!(crossbar(&["man"], "").code, Some(2), "--out is needed: nothing is written by surprise");
 }
 
 #[test]

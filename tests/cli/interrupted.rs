@@ -67,6 +67,39 @@ fn signals_leave_nothing_behind() {
     }
 }
 
+/// The last sentence says that nothing was written and that work does not resume, as text or JSON.
+#[test]
+fn what_is_lost_is_said() {
+    for (more, expected) in [(None, "Error: crossbar::interrupted"), (Some("--json"), "{\"")] {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let mut command = unignoring(env!("CARGO_BIN_EXE_crossbar"));
+        command.args(LONG).args(more).current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null());
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("the program that this test was built with");
+        begun(&mut child, folder.path());
+        signal(&child, "INT");
+        let output = child.wait_with_output().expect("a child");
+        assert_eq!(output.status.signal(), Some(2));
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(said.starts_with(expected) && said.contains("does not resume"), "{said}");
+    }
+}
+
+/// A reader that never empties its pipe does not keep the program alive.
+#[test]
+fn a_full_pipe_does_not_keep_the_program() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    // The shell fills its pipe, which nobody reads, and hands it over as standard error.
+    let script = "(head -c 65536 /dev/zero >&2) & wait; exec \"$0\" \"$@\"";
+    let mut command = unignoring("sh");
+    command.args(["-c", script, env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
+    let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a shell");
+    begun(&mut child, folder.path());
+    let start = Instant::now();
+    signal(&child, "TERM");
+    assert_eq!(child.wait().expect("a child").signal(), Some(15));
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}
+
 #[test]
 fn shells_see_130_and_143() {
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {

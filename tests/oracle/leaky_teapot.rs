@@ -1,35 +1,12 @@
 //! The leaky teapot: what the paper's Figure 4 shows, asserted; the same bits on every executor and thread count.
 
 use crossbar::geom::exact::Sides;
-use crossbar::geom::teapot::teapot;
-use crossbar::ray_engine::RayBatch;
-use crossbar::scene::Camera;
 use crossbar::study::configuration::Configuration;
-use crossbar::study::leaky_teapot::{Parameters, TeapotOutcome, run};
+use crossbar::study::leaky_teapot::TeapotOutcome;
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
-fn parameters(size: u32, rate: u32, configurations: Vec<Configuration>) -> Parameters {
-    let camera = Camera::teapot(size, size).expect("a camera");
-    Parameters {
-        mesh: teapot(rate).expect("a teapot"),
-        view: RayBatch::new(size, size, camera.rays()).expect("a square of rays"),
-        sides: Sides::Front,
-        configurations,
-        rays_per_edge: 2,
-        seed: 1,
-        executor: ExecutorKind::Batch.into(),
-        all_pairs: false,
-    }
-}
-
-fn study(parameters: &Parameters) -> TeapotOutcome {
-    run(parameters, &mut |_, _, _| ()).expect("the study runs")
-}
-
-fn formats(names: &[&str]) -> Vec<Configuration> {
-    names.iter().map(|n| Configuration::format(n).expect("a format")).collect()
-}
+use super::teapot_study::{assert_same, formats, parameters, small_study, study};
 
 /// Size and tessellation: small for everyday runs, the program's defaults for the full form.
 fn scale() -> (u32, u32) {
@@ -65,54 +42,11 @@ fn rays_at_seams_leak_even_in_fp32() {
     assert!(outcome.rows[1].edges.leak_share() > share, "fp16 leaks more");
 }
 
-/// The study by the batch executor, small enough for every executor.
-fn small_study() -> (Parameters, TeapotOutcome) {
-    let mut configurations = vec![Configuration::device("r200").expect("a card")];
-    for card in ["r300", "nv35"] {
-        configurations.push(Configuration::device(card).expect("a card"));
-    }
-    configurations.push(Configuration::device_in_format("nv35", Format::FP16).expect("a card"));
-    configurations.extend(formats(&["fp16", "fp24", "fp32", "s5.10", "e6m9:rtz"]));
-    let small = parameters(24, 2, configurations);
-    let batch = study(&small);
-    (small, batch)
-}
-
-fn assert_same(batch: &TeapotOutcome, other: &TeapotOutcome, who: &str) {
-    for (b, o) in batch.rows.iter().zip(&other.rows) {
-        let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
-        assert_eq!(b.triangle, o.triangle, "{who}, {}: triangles", b.configuration.label);
-        assert_eq!(bits(&b.t), bits(&o.t), "{who}, {}: t", b.configuration.label);
-        assert_eq!((b.edges, b.vertices), (o.edges, o.vertices), "{who}, {}: aimed rays", b.configuration.label);
-    }
-}
-
 #[test]
 fn scalar_and_batch_give_the_same_study() {
     let (mut small, batch) = small_study();
     small.executor = ExecutorKind::Scalar.into();
     assert_same(&batch, &study(&small), "scalar");
-}
-
-#[cfg(feature = "wgpu")]
-#[test]
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn a_gpu_gives_the_same_study() {
-    use refsim::exec::gpu::testing;
-    let Some(gpu) = testing::shared().expect("an adapter that opens") else {
-        println!("ignored: no adapter");
-        return;
-    };
-    // A software driver takes minutes for the whole small study.
-    let mut small = parameters(16, 1, formats(&["fp16", "fp24", "fp32"]));
-    small.configurations.push(Configuration::device("r200").expect("a card"));
-    small.rays_per_edge = 0;
-    if std::env::var_os("CROSSBAR_FULL").is_some() {
-        small = small_study().0;
-    }
-    let batch = study(&small);
-    small.executor = refsim::machine::Executor::Gpu { gpu };
-    assert_same(&batch, &study(&small), "wgpu");
 }
 
 #[test]

@@ -3,4 +3,5 @@
 mod leaky_teapot;
 mod linalg;
 mod probes;
+mod teapot_study;
 mod timing;

@@ -1,30 +1,49 @@
 //! Criterion benchmarks in modelled time.
 //!
-//! Record what a [`Machine`](refsim::machine::Machine) does, and give [`ModelledTime`] the log: a benchmark then
-//! measures the timeline of the run on the emulated card, not the emulator.
+//! [`ModelledTime::on_card`] records what a [`Machine`] does and gives its time by the card's timeline, which
+//! [`ModelledTime::bench`] hands to criterion: what is measured is the emulated card, not the emulator.
 //!
 //! ```no_run
-//! use refsim::{device::Profile, event::Event, timing::{Level, Model}};
+//! use refsim::{device::Profile, texture::TexelFormat};
 //! use refsim_criterion::ModelledTime;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let log: Vec<Event> = Vec::new(); // `Machine::take_log` after `Machine::record(true)`
-//! let model = Model::new(Level::Pipeline, &Profile::named("nv20")?)?;
-//! let time = ModelledTime::of(&log, &model, &Default::default())?;
-//!
-//! let mut criterion = ModelledTime::criterion();
-//! criterion.bench_function("nothing", |bencher| bencher.iter_custom(|times| ModelledTime::repeat(time, times)));
+//! let time = ModelledTime::on_card(Profile::named("nv20")?, |machine| {
+//!     let target = machine.create_target(TexelFormat::Bgra8, 256, 256)?;
+//!     machine.clear_target(target, [0; 4]) // draws, in earnest
+//! })?;
+//! ModelledTime::bench("nv20", "65536 texels", 65536, time);
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! Logs that are there already go through [`ModelledTime::of`], benchmarks of several kinds through
+//! [`ModelledTime::criterion`].
 
 use std::time::Duration;
 
 use criterion::measurement::{Measurement, ValueFormatter};
 use criterion::{Criterion, Throughput};
+use refsim::device::Profile;
 use refsim::event::Event;
+use refsim::machine::{ExecutorKind, Machine, MachineError};
 use refsim::timing::replay::{Options, ReplayError, replay};
-use refsim::timing::{Model, Picoseconds};
+use refsim::timing::{Level, Model, Picoseconds, TimingError};
+
+/// Why a run has no modelled time.
+#[non_exhaustive]
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The device has no time.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
+    /// The machine refuses what it is asked.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// What was recorded cannot be replayed.
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
+}
 
 /// Picoseconds of a timeline, as criterion measures them. There is no clock to start: benchmarks hand over what they
 /// found (`Bencher::iter_custom`).
@@ -42,6 +61,30 @@ impl ModelledTime {
             .warm_up_time(Duration::from_millis(1))
             .measurement_time(Duration::from_millis(10))
             .configure_from_args()
+    }
+
+    /// How long `run` takes on `card`: clocks of each unit, drawn by the batch executor.
+    ///
+    /// # Errors
+    /// [`RunError`].
+    pub fn on_card<T>(
+        card: Profile,
+        run: impl FnOnce(&mut Machine) -> Result<T, MachineError>,
+    ) -> Result<Picoseconds, RunError> {
+        let model = Model::new(Level::Pipeline, &card)?;
+        let mut machine = Machine::new(card, ExecutorKind::Batch);
+        machine.record(true);
+        run(&mut machine)?;
+        Ok(Self::of(&machine.take_log(), &model, &Options::default())?)
+    }
+
+    /// Reports a run that does `elements` things, fragments for example, as the benchmark `name` of `group`.
+    pub fn bench(group: &str, name: &str, elements: u64, run: Picoseconds) {
+        let mut criterion = Self::criterion();
+        let mut group = criterion.benchmark_group(group);
+        group.throughput(Throughput::Elements(elements));
+        group.bench_function(name, |bencher| bencher.iter_custom(|times| Self::repeat(run, times)));
+        group.finish();
     }
 
     /// How long a recorded run takes: the makespan of its timeline.
@@ -137,6 +180,24 @@ mod tests {
         let mut values = [2e6];
         let unit = Formatter.scale_throughputs(2e6, &Throughput::Elements(4), &mut values);
         assert_eq!((values[0], unit), (2.0, "Melem/s modelled"), "4 in 2 microseconds");
+    }
+
+    #[test]
+    fn a_run_on_a_card_takes_its_time_and_refusals_come_back() {
+        use refsim::texture::TexelFormat;
+        let card = || Profile::named("nv20").expect("a card");
+        let run = |size: u32| {
+            ModelledTime::on_card(card(), |machine| {
+                let target = machine.create_target(TexelFormat::Bgra8, size, size)?;
+                machine.clear_target(target, [0; 4])?;
+                machine.read_back(target).map(drop)
+            })
+        };
+        let (small, large) = (run(64).expect("a time"), run(256).expect("a time"));
+        assert!(Picoseconds::ZERO < small && small < large, "{small:?} {large:?}");
+        assert!(matches!(run(1 << 20), Err(RunError::Machine(_))));
+        let ideal = Profile::named("ideal-fp32").expect("a device");
+        assert!(matches!(ModelledTime::on_card(ideal, |_| Ok(())), Err(RunError::Timing(_))));
     }
 
     #[test]

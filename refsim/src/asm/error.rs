@@ -5,6 +5,7 @@ use miette::{Diagnostic, LabeledSpan};
 use std::fmt;
 
 /// The kind of a syntax error.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum ErrorKind {
     /// The text exceeds [`super::MAX_TEXT`].

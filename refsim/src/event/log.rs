@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Names something in the memory of one card, as its handles number them.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ResourceId {
     /// A texture or a colour target: a target is a texture.
@@ -36,6 +37,7 @@ pub struct HostWork {
 }
 
 /// One thing that the host asked of the card, or did itself.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
     /// Data went to the card.

@@ -88,6 +88,7 @@ pub struct Condition {
 }
 
 /// Which kind of texture a read asks for.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "UPPERCASE")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]

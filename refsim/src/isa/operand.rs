@@ -49,6 +49,7 @@ impl Mask {
 
 /// A source modifier, Direct3D's before those that only OpenGL has. Arithmetic meaning, with `x` the value after the
 /// swizzle; each step rounds once into the register format, and negation comes last.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, VariantArray)]
 pub enum Modifier {
     /// `x`

@@ -5,6 +5,7 @@ use super::{
 };
 
 /// The value of a `def`, `defi` or `defb`.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ConstantValue {
     /// `def c#`: four IEEE single bit patterns, the decimal text rounded to nearest even.
@@ -29,6 +30,7 @@ pub struct ConstantDef {
 }
 
 /// What a declared register carries.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the variants are Direct3D's usages and texture types")]
 pub enum Usage {

@@ -5,6 +5,7 @@ use std::fmt;
 use strum::VariantArray;
 
 /// A register file, Direct3D's before those that only OpenGL has. The comment gives the spelling in programs.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
 pub enum RegisterFile {
     /// `r#`: temporaries.

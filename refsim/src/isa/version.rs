@@ -12,6 +12,7 @@ pub enum Stage {
 }
 
 /// A shader version, as the first token of a program names it.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the variants are the version tokens")]
 pub enum Version {

@@ -8,6 +8,7 @@ use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
 /// An executor with its GPU, if it needs one: for code that makes machines of its own. They share what it has decoded.
+#[non_exhaustive]
 #[derive(Clone, Debug)]
 pub enum Executor {
     /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has.

@@ -16,6 +16,7 @@ const ALIASES: [(&str, Format); 6] = [
 ];
 
 /// Why a string is not a number format. Each message carries the whole string and what to write instead.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum FormatError {
     /// The part before the first colon is not a layout.

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 /// How vertices make primitives.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Primitive {

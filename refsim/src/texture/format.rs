@@ -5,6 +5,7 @@ use super::TextureError;
 use crate::num::Format;
 
 /// What the bits of one stored channel mean.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelClass {
     /// `k / (2^n - 1)`
@@ -129,6 +130,7 @@ macro_rules! texel_formats {
     ($($(#[$doc:meta])* $variant:ident $name:literal $d3d:literal $bytes:literal $count:literal $channels:expr, $components:expr;)*) => {
         /// The texel formats of textures and render targets. Texels are little-endian; channel lists in the names go
         /// from the lowest bits up.
+        #[non_exhaustive]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum TexelFormat { $($(#[$doc])* $variant,)* }
 

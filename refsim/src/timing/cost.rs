@@ -22,6 +22,7 @@ pub struct DrawCost {
 }
 
 /// What bounds a draw.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash, PartialOrd, Ord, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Bottleneck {

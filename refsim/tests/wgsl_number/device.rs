@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::{format_words, library, source_word};
 use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation, ops};
@@ -16,15 +16,6 @@ const SINGLE: Format = Format::FP32;
 /// The library with a text that has this entry point.
 pub(crate) fn text(more: &str, entry: &str) -> String {
     Parts::all().of(&(library() + more), entry)
-}
-
-/// The adapter, or `None` after saying that there is none.
-pub(crate) fn adapter() -> Option<Arc<Gpu>> {
-    let gpu = testing::shared().expect("an adapter that can be opened");
-    if gpu.is_none() {
-        println!("ignored: no adapter");
-    }
-    gpu
 }
 
 /// One operation to try.
@@ -163,9 +154,7 @@ fn tried(operation: NumberOperation) -> bool {
     !matches!(operation, Op::Mad | Op::Decode | Op::Encode | Op::Select | Op::And | Op::Or | Op::AndNot)
 }
 
-#[test]
-fn every_operation_in_many_formats() {
-    let Some(gpu) = adapter() else { return };
+pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
     let formats = formats();
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
     let count = std::env::var("CROSSBAR_LONG").ok().map_or(300, |_| 20_000);
@@ -175,15 +164,11 @@ fn every_operation_in_many_formats() {
         for format in 0..formats.len() {
             items.extend((0..count).map(|_| random_item(&mut words, &formats, &all, operation, format)));
         }
-        let start = std::time::Instant::now();
-        check(&gpu, &formats, &items);
-        println!("{operation:?}: {} results in {:?}", items.len(), start.elapsed());
+        check(gpu, &formats, &items);
     }
 }
 
-#[test]
-fn every_pair_of_short_formats() {
-    let Some(gpu) = adapter() else { return };
+pub(crate) fn every_pair_of_short_formats(gpu: &Arc<Gpu>) {
     let formats: Vec<Format> =
         ["e3m2", "s1.2", "e2m2:rdn:nvovf:nv", "e3m2:rtz:ftz:sat", "s2.2:rdn:wrap", "s0.4:rna", "e4m1:rna"]
             .iter()
@@ -219,6 +204,5 @@ fn every_pair_of_short_formats() {
             }
         }
     }
-    println!("{} results", items.len());
-    check(&gpu, &formats, &items);
+    check(gpu, &formats, &items);
 }

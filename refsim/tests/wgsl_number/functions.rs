@@ -1,9 +1,11 @@
 //! The functions beside `n_alu`: exact dots, conversions, rounding of given parts, single precision.
 
+use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
 use refsim::num::{DotOrder, Format, from_parts, ops};
+use std::sync::Arc;
 
-use crate::device::{adapter, text};
+use crate::device::text;
 use crate::operands::{Words, edges, formats, pattern};
 
 /// Number of a function in `functions.wgsl`, places of two formats, operands.
@@ -69,9 +71,7 @@ impl Call {
     }
 }
 
-#[test]
-fn functions_beside_the_switch() {
-    let Some(gpu) = adapter() else { return };
+pub(crate) fn functions_beside_the_switch(gpu: &Arc<Gpu>) {
     let all = formats();
     let edges_of: Vec<Vec<u32>> = all.iter().map(edges).collect();
     let table: Vec<u32> = all.iter().flat_map(format_words).collect();

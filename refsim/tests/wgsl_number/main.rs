@@ -1,10 +1,7 @@
 //! The arithmetic library in WGSL: valid text, and on an adapter the reference's bits.
 
-#![cfg_attr(
-    feature = "wgpu",
-    expect(clippy::print_stdout, reason = "says what was tried, and that there is no adapter")
-)]
-
+#[path = "../common/adapter.rs"]
+mod adapter;
 #[cfg(feature = "wgpu")]
 mod device;
 #[cfg(feature = "wgpu")]
@@ -26,7 +23,21 @@ fn validate(text: &str) {
     validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(text)));
 }
 
-#[test]
 fn the_library_is_valid_wgsl() {
     validate(&(parts::constants() + &library()));
+}
+
+fn main() -> std::process::ExitCode {
+    let mut trials = adapter::trials![on_host: the_library_is_valid_wgsl];
+    #[cfg(feature = "wgpu")]
+    {
+        trials.extend(adapter::trials![on_host: probe::the_intervals_are_those_of_the_standard]);
+        trials.extend(adapter::trials![
+            on_adapter: device::every_operation_in_many_formats,
+            device::every_pair_of_short_formats,
+            functions::functions_beside_the_switch,
+            probe::the_probe_finds_nothing_outside_the_standard,
+        ]);
+    }
+    adapter::run(trials)
 }

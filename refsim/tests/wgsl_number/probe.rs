@@ -1,30 +1,16 @@
 //! The adapter's own single precision: what the probe sees, and what WGSL allows.
 
-use refsim::exec::gpu::probe;
+use refsim::exec::gpu::{Gpu, probe};
 use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
+use std::sync::Arc;
 
-use crate::device::adapter;
-
-#[test]
-fn the_probe_finds_nothing_outside_the_standard() {
-    let Some(gpu) = adapter() else { return };
+pub(crate) fn the_probe_finds_nothing_outside_the_standard(gpu: &Arc<Gpu>) {
     let count = if std::env::var("CROSSBAR_LONG").is_ok() { refsim::exec::gpu::FULL_PROBE } else { 1 << 14 };
-    let report = probe(&gpu, count).expect("the probe runs");
-    for operation in &report.operations {
-        println!(
-            "{}: exact {}\n  {:?}\n  {:?}\n  {:?}",
-            operation.name,
-            operation.exact(),
-            operation.normal,
-            operation.denormal,
-            operation.special
-        );
-    }
-    assert!(report.conforms(), "results outside what WGSL allows");
+    let report = probe(gpu, count).expect("the probe runs");
+    assert!(report.conforms(), "results outside what WGSL allows: {:#?}", report.operations);
 }
 
-#[test]
-fn the_intervals_are_those_of_the_standard() {
+pub(crate) fn the_intervals_are_those_of_the_standard() {
     use SingleOperation as Op;
     let one = 0x3f80_0000;
     let within = |op, operands, bits| allowed(op, operands).contains(bits);

@@ -8,9 +8,26 @@ mod generate;
 #[allow(dead_code, reason = "shared with the agreement suites")]
 mod random;
 
+#[path = "../common/adapter.rs"]
+mod adapter;
 mod cases;
 mod modules;
 #[cfg(feature = "wgpu")]
-#[expect(clippy::print_stdout, reason = "tests say what took how long, and that they saw no adapter")]
 mod runs;
 mod texts;
+
+fn main() -> std::process::ExitCode {
+    let mut trials = adapter::trials![
+        on_host: texts::the_modules_are_valid,
+        texts::the_validator_says_no_to_something,
+        texts::files_become_sound_words,
+        texts::random_programs_become_sound_words,
+    ];
+    #[cfg(feature = "wgpu")]
+    trials.extend(adapter::trials![
+        on_adapter: runs::the_machine_runs_random_programs,
+        runs::the_machine_tells_what_instructions_write,
+        runs::the_machine_reads_textures,
+    ]);
+    adapter::run(trials)
+}

@@ -4,7 +4,7 @@ use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
 use crate::modules;
 use crate::random::Random;
 use refsim::device::{Profile, Rules};
-use refsim::exec::gpu::{Access, Buffer, Gpu, GpuError, Pipeline, testing};
+use refsim::exec::gpu::{Access, Buffer, Gpu, GpuError, Pipeline};
 use refsim::exec::scalar::PixelProgram;
 use refsim::exec::wgsl::number::format_words;
 use refsim::exec::wgsl::program::{self, PixelShader};
@@ -26,14 +26,6 @@ const MORE_ROWS: usize = 66 + 4;
 
 fn done<T>(result: Result<T, GpuError>) -> T {
     result.unwrap_or_else(|e| panic!("{e}"))
-}
-
-pub(crate) fn gpu() -> Option<Arc<Gpu>> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
-    if gpu.is_none() {
-        println!("ignored: no adapter");
-    }
-    gpu
 }
 
 /// The formats table of a draw.
@@ -219,12 +211,8 @@ fn comparable(mut words: Vec<u32>, rules: &Rules) -> Vec<u32> {
     words
 }
 
-#[test]
-fn the_machine_runs_random_programs() {
-    let Some(gpu) = gpu() else { return };
-    let start = std::time::Instant::now();
-    let runner = Runner::new(&gpu, &modules::pixel());
-    println!("the machine is compiled in {:?} on {}", start.elapsed(), gpu.adapter().name);
+pub(crate) fn the_machine_runs_random_programs(gpu: &Arc<Gpu>) {
+    let runner = Runner::new(gpu, &modules::pixel());
     for seed in seeds(140) {
         let (profile, text, checked, mut r) = random_case(seed, 2);
         let constants = random_constants(&mut r, 32);
@@ -240,10 +228,8 @@ fn the_machine_runs_random_programs() {
     }
 }
 
-#[test]
-fn the_machine_tells_what_instructions_write() {
-    let Some(gpu) = gpu() else { return };
-    let runner = Runner::new(&gpu, &modules::followed());
+pub(crate) fn the_machine_tells_what_instructions_write(gpu: &Arc<Gpu>) {
+    let runner = Runner::new(gpu, &modules::followed());
     let mut told = 0;
     for seed in seeds(70) {
         let (profile, text, checked, mut r) = random_case(seed ^ 0x7ace, 2);
@@ -307,12 +293,8 @@ fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
     (image, state)
 }
 
-#[test]
-fn the_machine_reads_textures() {
-    let Some(gpu) = gpu() else { return };
-    let start = std::time::Instant::now();
-    let runner = Runner::new(&gpu, &modules::textured());
-    println!("with textures it is compiled in {:?}", start.elapsed());
+pub(crate) fn the_machine_reads_textures(gpu: &Arc<Gpu>) {
+    let runner = Runner::new(gpu, &modules::textured());
     let mut reads = 0;
     for seed in seeds(70) {
         let (profile, text, checked, mut r) = random_case(seed ^ 0x7e71, 2);

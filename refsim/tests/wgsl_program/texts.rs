@@ -76,20 +76,17 @@ fn operation_names() -> Vec<String> {
     names.collect()
 }
 
-#[test]
-fn the_modules_are_valid() {
+pub(crate) fn the_modules_are_valid() {
     for module in [modules::pixel(), modules::followed(), modules::textured()] {
         modules::validate(&module).unwrap_or_else(|e| panic!("{e}"));
     }
 }
 
-#[test]
-fn the_validator_says_no_to_something() {
+pub(crate) fn the_validator_says_no_to_something() {
     assert!(modules::validate("fn shade() { return 1u; }").is_err());
 }
 
-#[test]
-fn files_become_sound_words() {
+pub(crate) fn files_become_sound_words() {
     for format in ["fp32", "s3.12"] {
         let profile = ideal(format);
         for (name, program) in cases::files(&profile).into_iter().filter(|(_, p)| p.version.stage() == Stage::Pixel) {
@@ -100,8 +97,7 @@ fn files_become_sound_words() {
     }
 }
 
-#[test]
-fn random_programs_become_sound_words() {
+pub(crate) fn random_programs_become_sound_words() {
     for seed in seeds(400) {
         let mut r = Random::new(seed);
         let version = PIXEL[seed as usize % PIXEL.len()];

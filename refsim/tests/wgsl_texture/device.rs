@@ -3,26 +3,17 @@
 use super::cases::{self, Case, READ_WORDS, Read};
 use super::random::Random;
 use super::{module, reference};
-use refsim::exec::gpu::{Gpu, testing};
+use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
 use refsim::exec::wgsl::texture::{component_words, image_words, sampler_words};
 use refsim::num::Format;
 use refsim::texture::{SignedTexelMinimum, TexelFormat, decode};
 use std::sync::Arc;
-use std::time::Instant;
 
 const FORMATS: &str = "fp32 s3.12 fp16 fp24:rtz:ftz s1.10 s0.31 s3.12:rtz:wrap s0.7:rdn bf16:rna \
                        fp32:ftz:rtz e5m10:nvovf:nv:rtz e4m3:sat e2m1:rdn s15.16:rna";
 /// Reads of a quad from each texture.
 const READS: usize = 24;
-
-fn gpu() -> Option<Arc<Gpu>> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"));
-    if gpu.is_none() {
-        println!("ignored: no adapter");
-    }
-    gpu
-}
 
 fn groups(invocations: usize) -> [u32; 3] {
     [invocations.div_ceil(64) as u32, 1, 1]
@@ -52,11 +43,9 @@ fn difference(gpu: &Gpu, text: &str, seed: u64, name: &str) -> Option<String> {
     let words: Vec<u32> = reads.iter().flat_map(Read::words).collect();
     assert_eq!(words.len(), reads.len() * READ_WORDS);
     let inputs: [&[u32]; 4] = [&format_words(&format), &samplers, &video, &words];
-    let start = Instant::now();
     let made = gpu
         .compute(text, "read_texels", &inputs, 16 * reads.len(), groups(reads.len()))
         .unwrap_or_else(|e| panic!("{e}"));
-    println!("{name}: {} quads in {:?}", reads.len(), start.elapsed());
     reads.iter().zip(made.chunks_exact(16)).find_map(|(read, made)| {
         let case = &cases[read.sampler];
         (0..4).find_map(|lane| {
@@ -74,18 +63,14 @@ fn difference(gpu: &Gpu, text: &str, seed: u64, name: &str) -> Option<String> {
     })
 }
 
-#[test]
-fn reads_are_those_of_the_texture_room() {
-    let Some(gpu) = gpu() else { return };
+pub(crate) fn reads_are_those_of_the_texture_room(gpu: &Arc<Gpu>) {
     let text = module::reading();
     for (seed, name) in (0..).zip(FORMATS.split(' ')) {
-        assert_eq!(difference(&gpu, &text, seed, name), None);
+        assert_eq!(difference(gpu, &text, seed, name), None);
     }
 }
 
-#[test]
-fn texels_decode_as_the_texture_room_has_it() {
-    let Some(gpu) = gpu() else { return };
+pub(crate) fn texels_decode_as_the_texture_room_has_it(gpu: &Arc<Gpu>) {
     let text = module::decoding();
     for (seed, name) in (100..).zip(FORMATS.split(' ')) {
         let main: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));

@@ -2,8 +2,7 @@
 
 use super::module;
 
-#[test]
-fn modules_are_valid() {
+pub(crate) fn modules_are_valid() {
     for text in [module::reading(), module::decoding()] {
         let parsed = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
         let mut validator =

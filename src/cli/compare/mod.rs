@@ -20,7 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar compare fixtures/cases/transform.toml
       the reference against the batch executor: the bits must be the same
-  crossbar compare fixtures/cases/transform.toml --right-format fp32
+  crossbar compare fixtures/cases/transform.toml --right-format fp32    # exit code 1
       the device's own number format against single precision
   crossbar compare fixtures/cases/transform.toml --right-switch rounding=rtz --pixel 2,2
       two answers to an open question, followed at one pixel whether or not what is drawn there differs

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::super::{
     Out,
-    words::{executor, fate, letters},
+    words::{fate, letters},
 };
 use crate::{
     case::{Comparison, First, Setup, Side},
@@ -98,7 +98,7 @@ impl ShownComparison<'_> {
         }
         for (name, side) in ["left ", "right"].into_iter().zip(self.sides) {
             let profile = &side.setup.profile;
-            let executor = executor(side.executor.kind());
+            let executor = side.executor.kind().name();
             out.line(format_args!(
                 "{name}  executor {executor}, device {}, pixel registers {}",
                 profile.name, profile.rules.format
@@ -340,7 +340,7 @@ fn side_json(side: &Side<'_>) -> Value {
     let switches: serde_json::Map<String, Value> =
         profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
     json!({
-        "executor": executor(side.executor.kind()),
+        "executor": side.executor.kind().name(),
         "device": profile.name,
         "format": profile.rules.format.to_string(),
         "switches": switches,

@@ -18,7 +18,7 @@ Examples:
       both packings in both precisions, and how the room looks after some iterations
   crossbar radiosity cornell-room --emit light=4,12,17 --paint red=0.1,0.1,0.6
       solve, then change the light and the left wall, and go on from the solution
-  crossbar radiosity room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
+  crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep 60,240,515,889
       half floats on a card that truncates, and how dark the room gets with more patches and under every open switch

@@ -16,6 +16,7 @@ pub(super) use args::Args;
 
 impl StudyArgs for Args {
     type Study = Parameters;
+    const COMMAND: &'static str = "radiosity";
 
     fn folder(&self) -> &Path {
         &self.out

@@ -14,11 +14,11 @@ use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar render bunny.obj --out bunny
-      bunny/picture.png (shaded), bunny/layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
-  crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
+  crossbar render docs/examples/teapot.obj --out out/teapot
+      picture.png (shaded) and layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
+  crossbar render docs/examples/teapot.obj --device r200 --size 256x256 --eye 0,-10,4 --target 0,0,1 --out out/leaky
       the same on a Radeon 8500
-  crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out room
+  crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out out/room
       a scene of the project by path tracing: also colour in layers.exr
   crossbar render teapot-room --caster engine --device r300 --executor batch
       after Whitted, with first hits found by the Ray Engine on a Radeon 9700";

@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all: written beside their place, then renamed into it.
 
+mod manifest;
 mod staging;
 
 use std::fs::{self, File};
@@ -8,10 +9,12 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use self::manifest::Manifest;
 use self::staging::Staging;
 pub use self::staging::abandon;
 
 /// Why a file was not written.
+#[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum WriteError {
@@ -92,7 +95,8 @@ fn fill_file(
 /// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
 /// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
 /// process that is killed in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with
-/// the rest; the next set for the folder first finishes them. Files of other names are never touched.
+/// the rest; the next set for the folder first finishes them. Files of other names are never touched, but for those of
+/// an earlier set of the same writer ([`FileSet::by`]).
 #[derive(Debug)]
 pub struct FileSet {
     /// The folder as it was named.
@@ -103,6 +107,8 @@ pub struct FileSet {
     rest: PathBuf,
     staging: Staging,
     names: Vec<PathBuf>,
+    /// In whose name, if files that are written no more are to go.
+    writer: Option<String>,
 }
 
 impl FileSet {
@@ -119,9 +125,19 @@ impl FileSet {
             return Err(fail(io::Error::new(io::ErrorKind::NotFound, "a link leads nowhere")));
         }
         let staging = Staging::within(&base).map_err(fail)?;
-        let set = Self { folder: folder.into(), base, rest, staging, names: Vec::new() };
+        let set = Self { folder: folder.into(), base, rest, staging, names: Vec::new(), writer: None };
         fs::create_dir_all(set.staged(Path::new(""))).map_err(fail)?;
         Ok(set)
+    }
+
+    /// A set for `folder` that takes the place of the one that `writer`, a command for example, wrote there before:
+    /// what that one had and this one has not is removed, if nobody has changed it since. A list in the folder,
+    /// `.crossbar_files`, says who wrote what.
+    ///
+    /// # Errors
+    /// [`WriteError::Folder`].
+    pub fn by(writer: impl Into<String>, folder: &Path) -> Result<Self, WriteError> {
+        Ok(Self { writer: Some(writer.into()), ..Self::new(folder)? })
     }
 
     fn staged(&self, name: &Path) -> PathBuf {
@@ -164,13 +180,29 @@ impl FileSet {
     ///
     /// # Errors
     /// [`WriteError`]; unless a rename itself fails, nothing has then appeared.
-    pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
+    pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
+        let places = self.names.iter().map(|name| self.folder.join(name)).collect();
         self.commit_at_most(usize::MAX)?;
-        Ok(self.names.iter().map(|name| self.folder.join(name)).collect())
+        Ok(places)
+    }
+
+    /// Stages the list of who wrote what; returns what is to be removed.
+    fn stage_manifest(&mut self) -> Result<Manifest, WriteError> {
+        let Some(writer) = &self.writer else { return Ok(Manifest::default()) };
+        let fail = |name: &Path, source| WriteError::File { path: self.folder.join(name), source };
+        let mut written = Manifest::default();
+        for name in &self.names {
+            written.add(writer, name, &self.staged(name)).map_err(|source| fail(name, source))?;
+        }
+        let name = Path::new(manifest::FILE_NAME);
+        let (list, stale) = Manifest::read(&self.folder.join(name)).replaced(writer, written);
+        fs::write(self.staged(name), list.to_string()).map_err(|source| fail(name, source))?;
+        self.names.push(name.into());
+        Ok(stale)
     }
 
     /// Commits, but stops in the midst of the renames, after `most` of them.
-    fn commit_at_most(&self, most: usize) -> Result<(), WriteError> {
+    fn commit_at_most(&mut self, most: usize) -> Result<(), WriteError> {
         for name in &self.names {
             let fail = |source| WriteError::File { path: self.folder.join(name), source };
             fs::metadata(self.staged(name)).map_err(fail)?;
@@ -178,6 +210,7 @@ impl FileSet {
                 return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
             }
         }
+        let stale = self.stage_manifest()?;
         if let Some(first) = self.rest.iter().next() {
             let place = self.base.join(first);
             match self.staging.rename_folder(first.as_ref(), &place) {
@@ -195,7 +228,7 @@ impl FileSet {
                 made.extend(missing_folders(&folder).into_iter().rev());
                 fs::create_dir_all(&folder).map_err(|source| WriteError::Folder { path: folder, source })?;
             }
-            let renamed = self.staging.rename_files(&self.base, &names, most);
+            let renamed = self.staging.rename_files(&self.base, &names, &stale, most);
             renamed.map_err(|(path, source)| WriteError::File { path, source })
         };
         let renamed = { rename }();

@@ -1,9 +1,9 @@
 //! The folder in which files are written before they appear.
 //!
 //! `.crossbar-XXXXXX/new` holds them while they are written, `.crossbar-XXXXXX/whole` once all are there and only
-//! renames are left. A process that is killed leaves the folder; the next one that writes to the same place clears it
-//! away, or finishes its renames. A lock on `.crossbar-XXXXXX/lock`, which ends with its process, tells a folder that
-//! was left from one that is in use.
+//! renames are left, and the removal of the files in the list `.crossbar-XXXXXX/stale`. A process that is killed leaves
+//! the folder; the next one that writes to the same place clears it away, or finishes its renames and removals. A lock
+//! on `.crossbar-XXXXXX/lock`, which ends with its process, tells a folder that was left from one that is in use.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -12,10 +12,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempDir;
 
+use super::manifest::Manifest;
+
 const PREFIX: &str = ".crossbar-";
 const LOCK: &str = "lock";
 const NEW: &str = "new";
 const WHOLE: &str = "whole";
+const STALE: &str = "stale";
 
 /// The staging folders of this process. Held while one is made, and while files are renamed out of one: whoever ends
 /// the process waits for that.
@@ -27,9 +30,10 @@ fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 /// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process
-/// that is about to end because a signal says so.
-pub fn abandon() {
+/// that is about to end because a signal says so. Returns whether there was one, so that files are lost.
+pub fn abandon() -> bool {
     let folders = in_use();
+    let some = !folders.is_empty();
     for folder in folders.iter() {
         // A thread may still be writing into it.
         for _ in 0..100 {
@@ -39,6 +43,7 @@ pub fn abandon() {
         }
     }
     std::mem::forget(folders);
+    some
 }
 
 /// A staging folder, removed when dropped.
@@ -78,16 +83,27 @@ impl Staging {
         fs::rename(self.new_files().join(name), place)
     }
 
-    /// Renames files, named as below `base`, to their places there, at most `most` of them. Whoever comes after a
-    /// process that was killed on the way renames the rest. Returns the place that could not be taken, if one could
-    /// not.
-    pub(super) fn rename_files(&self, base: &Path, names: &[PathBuf], most: usize) -> Result<(), (PathBuf, io::Error)> {
+    /// Renames files, named as below `base`, to their places there, at most `most` of them; then removes those of
+    /// `stale`. Whoever comes after a process that was killed on the way does the rest. Returns the place that could
+    /// not be taken, if one could not.
+    pub(super) fn rename_files(
+        &self,
+        base: &Path,
+        names: &[PathBuf],
+        stale: &Manifest,
+        most: usize,
+    ) -> Result<(), (PathBuf, io::Error)> {
         let _quiet = in_use();
+        let list = self.folder.path().join(STALE);
+        fs::write(&list, stale.to_string()).map_err(|error| (base.to_path_buf(), error))?;
         let whole = self.folder.path().join(WHOLE);
         fs::rename(self.new_files(), &whole).map_err(|error| (base.to_path_buf(), error))?;
         for name in names.iter().take(most) {
             let place = base.join(name);
             fs::rename(whole.join(name), &place).map_err(|error| (place, error))?;
+        }
+        if most > names.len() {
+            stale.remove_files(base);
         }
         Ok(())
     }
@@ -118,7 +134,12 @@ fn sweep(base: &Path) {
             Err(TryLockError::WouldBlock | TryLockError::Error(_)) => continue,
         }
         let _quiet = in_use();
-        if finish(&folder.join(WHOLE), base).is_ok() {
+        let whole = folder.join(WHOLE);
+        let decided = whole.exists();
+        if finish(&whole, base).is_ok() {
+            if decided {
+                Manifest::read(&folder.join(STALE)).remove_files(base);
+            }
             drop(lock);
             let _ = fs::remove_dir_all(&folder);
         }

@@ -103,7 +103,7 @@ fn set_over_old_files(folder: &Path) -> FileSet {
 fn a_process_killed_between_renames_is_finished_by_the_next() {
     for renames in 0..=3 {
         let root = tempfile::tempdir().expect("a folder");
-        let set = set_over_old_files(root.path());
+        let mut set = set_over_old_files(root.path());
         set.commit_at_most(renames).expect("renamed");
         set.staging.leave();
         assert!(listing(root.path())[0].starts_with(".crossbar-"), "the rest is there");
@@ -157,4 +157,86 @@ fn names_stay_below_the_folder() {
     fs::write(&file, b"").expect("written");
     assert!(matches!(FileSet::new(&file), Err(WriteError::Folder { .. })));
     assert!(matches!(write_file(&file.join("x"), |_| Ok(())), Err(WriteError::Folder { .. })));
+}
+
+/// Commits the files with these names and contents in the name of `writer`.
+fn write_by(writer: &str, folder: &Path, files: &[(&str, &str)]) {
+    staged_by(writer, folder, files).commit().expect("places");
+}
+
+fn staged_by(writer: &str, folder: &Path, files: &[(&str, &str)]) -> FileSet {
+    let mut set = FileSet::by(writer, folder).expect("a set");
+    for (name, text) in files {
+        set.write(Path::new(name), |out| out.write_all(text.as_bytes())).expect("written");
+    }
+    set
+}
+
+#[test]
+fn what_is_written_no_more_goes_and_nothing_else() {
+    let root = tempfile::tempdir().expect("a folder");
+    let folder = root.path().join("out");
+    write_by("study", &folder, &[("a", "a"), ("b", "b"), ("sub/c", "c"), ("changed", "ours"), ("replaced", "ours")]);
+    write_by("other", &folder, &[("d", "d")]);
+    for (name, text) in [("mine", "mine"), ("changed", "mine"), ("replaced", "mine, and longer")] {
+        fs::write(folder.join(name), text).expect("written");
+    }
+    write_by("study", &folder, &[("a", "new")]);
+    assert_eq!(listing(&folder), [".crossbar_files", "a", "changed", "d", "mine", "replaced", "sub"]);
+    assert!(listing(&folder.join("sub")).is_empty());
+    assert_eq!(fs::read(folder.join("a")).expect("read"), b"new");
+    // A file that another writer has taken over is that one's from then on.
+    write_by("other", &folder, &[("a", "new"), ("d", "d")]);
+    write_by("study", &folder, &[("e", "e")]);
+    assert_eq!(listing(&folder), [".crossbar_files", "a", "changed", "d", "e", "mine", "replaced", "sub"]);
+    write_by("other", &folder, &[]);
+    write_by("study", &folder, &[]);
+    assert_eq!(listing(&folder), [".crossbar_files", "changed", "mine", "replaced", "sub"]);
+    let list = fs::read_to_string(folder.join(".crossbar_files")).expect("read");
+    assert_eq!(list.lines().count(), 1, "a heading alone: {list}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_list_that_somebody_has_written_harms_nothing() {
+    let root = tempfile::tempdir().expect("a folder");
+    let (folder, outside) = (root.path().join("out"), root.path().join("x"));
+    fs::create_dir_all(folder.join("old")).expect("made");
+    fs::write(&outside, b"x").expect("written");
+    fs::write(folder.join("old/x"), b"x").expect("written");
+    fs::write(folder.join("y"), b"x").expect("written");
+    std::os::unix::fs::symlink(root.path(), folder.join("up")).expect("linked");
+    std::os::unix::fs::symlink(&outside, folder.join("link")).expect("linked");
+    let crc = crc32fast::hash(b"x");
+    let names = ["../x", "/x", "up/x", "link", "old", "", ".", "y\ty"];
+    let mut list: String = names.iter().map(|name| format!("1\t{crc:08x}\tstudy\t{name}\n")).collect();
+    list.push_str("1\tno number\tstudy\ty\nbut\0noise\n\n-1\t0\tstudy\ty\n");
+    fs::write(folder.join(".crossbar_files"), list).expect("written");
+    write_by("study", &folder, &[("a", "a")]);
+    assert_eq!(listing(&folder), [".crossbar_files", "a", "link", "old", "up", "y"]);
+    assert!(outside.exists() && folder.join("old/x").exists());
+    // The same line does remove a file that stands where it says.
+    fs::write(folder.join(".crossbar_files"), format!("1\t{crc:08x}\tstudy\told/x\n")).expect("written");
+    write_by("study", &folder, &[("a", "a")]);
+    assert!(!folder.join("old/x").exists());
+}
+
+#[test]
+fn a_kill_amid_the_renames_leaves_the_removal_to_the_next() {
+    for renames in 0..=2 {
+        let root = tempfile::tempdir().expect("a folder");
+        write_by("study", root.path(), &[("a", "old"), ("stale", "old")]);
+        let mut set = staged_by("study", root.path(), &[("a", "new")]);
+        set.commit_at_most(renames).expect("renamed");
+        set.staging.leave();
+        assert!(root.path().join("stale").exists(), "after {renames} renames");
+        drop(FileSet::new(root.path()).expect("a set"));
+        assert_eq!(listing(root.path()), [".crossbar_files", "a"], "after {renames} renames");
+    }
+    // One that was killed before has decided nothing.
+    let root = tempfile::tempdir().expect("a folder");
+    write_by("study", root.path(), &[("a", "old"), ("stale", "old")]);
+    staged_by("study", root.path(), &[("a", "new")]).staging.leave();
+    drop(FileSet::new(root.path()).expect("a set"));
+    assert_eq!(listing(root.path()), [".crossbar_files", "a", "stale"]);
 }

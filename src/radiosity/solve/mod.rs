@@ -13,6 +13,7 @@ use thiserror::Error;
 pub use problem::{Options, Problem, Solution, SolveError, mean_square, residual};
 
 /// How a system is solved.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// Jacobi (equations 3 and 4): every element from those of the last iteration.

@@ -34,6 +34,7 @@ pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
         Version::Ps2_0 | Version::Ps2A | Version::Ps2B => ps_2::program(version, layout, size, r, &mut lines),
         Version::Fp1_0 | Version::ArbFp1_0 => fp::program(version, layout, size, r, &mut lines),
         Version::Vs1_1 | Version::Vs2_0 => vs::program(version, layout, size, r, &mut lines),
+        _ => panic!("no program is drawn for {version}"),
     }
     lines
 }

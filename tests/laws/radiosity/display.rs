@@ -4,42 +4,22 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{narrow, wide};
 use crossbar::geom::{Mesh, Ray};
-use crossbar::picture::Picture;
 use crossbar::radiosity::display::{Display, DisplayOptions, VectorTexture, at_corners};
-use crossbar::radiosity::rooms::{self, CornellBox};
+use crossbar::radiosity::rooms;
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
 use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind, Machine};
-use refsim::texture::TexelFormat;
 
-const FLOATS: DisplayOptions = DisplayOptions { vector: VectorTexture::Row, target: TexelFormat::Rgba32f };
+use super::all_pictures::{FLOATS, all_pictures, colours, pixels, rooms_and_cameras};
+
 /// Corners are snapped to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 32 of one, and rounding adds a
 /// little.
 const SNAPPED: f64 = 0.05;
 
 fn card(device: &str) -> Machine {
     Machine::new(Profile::named(device).expect("a device"), ExecutorKind::Batch)
-}
-
-fn rooms_and_cameras() -> Vec<(Patches, Camera)> {
-    let room = |blocks, open, side: u32| {
-        let scene = rooms::cornell(CornellBox { blocks, open });
-        let camera = scene.views[0].camera(side, side * 3 / 4).expect("a camera");
-        (Patches::new(&scene, Subdivision::AtMost(300)).expect("patches"), camera)
-    };
-    vec![room(true, true, 48), room(true, false, 48), room(false, false, 40)]
-}
-
-/// Numbers that tell patches apart.
-fn colours(patches: &Patches) -> Vec<[f64; 3]> {
-    (0..patches.list().len()).map(|i| [0.25 + i as f64, 3.0 / (1.0 + i as f64), 0.1]).collect()
-}
-
-/// Linear red, green and blue per pixel.
-fn pixels(picture: &Picture) -> Vec<[f64; 3]> {
-    picture.linear().expect("color").into_iter().map(|pixel| pixel.map(f64::from)).collect()
 }
 
 /// A point of the picture as a ray, in pixels from the upper left corner.
@@ -199,21 +179,6 @@ fn any_number_of_patches_can_meet_in_a_corner() {
     }
 }
 
-/// Flat, smooth and ids.
-fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
-    let (patches, _) = rooms_and_cameras().remove(0);
-    let scene = rooms::cornell(CornellBox { blocks: true, open: true });
-    let camera = scene.views[0].camera(24, 18).expect("a camera");
-    let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
-    let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
-    let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
-    let bits = |picture: Picture| pixels(&picture).iter().flatten().map(|value| value.to_bits()).collect();
-    let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
-    let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
-    let ids = display.ids(&mut machine).expect("ids");
-    [flat, smooth, ids.into_iter().map(|id| id.map_or(u64::MAX, u64::from)).collect()]
-}
-
 #[test]
 fn scalar_and_batch_draw_the_same_pictures() {
     for device in ["nv30", "nv35"] {
@@ -221,20 +186,6 @@ fn scalar_and_batch_draw_the_same_pictures() {
             [ExecutorKind::Scalar, ExecutorKind::Batch].map(|kind| all_pictures(device, &Executor::from(kind)));
         assert!(scalar == batch, "{device}");
     }
-}
-
-#[cfg(feature = "wgpu")]
-#[test]
-#[expect(clippy::print_stdout, reason = "a test that saw no adapter says so")]
-fn a_gpu_draws_the_same_pictures_in_integer_mode() {
-    use refsim::exec::gpu::testing;
-    let Some(gpu) = testing::shared().expect("an adapter that opens") else {
-        println!("ignored: no adapter");
-        return;
-    };
-    let batch = all_pictures("nv35", &ExecutorKind::Batch.into());
-    let found = all_pictures("nv35", &Executor::Gpu { gpu });
-    assert!(found == batch);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Matrix radiosity: what light must satisfy, whoever computes it.
 
+mod all_pictures;
 mod bias;
 mod bounds;
 mod covered;

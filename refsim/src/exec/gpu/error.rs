@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 /// Why the GPU can't do what it was asked.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum GpuError {
     /// There is none.

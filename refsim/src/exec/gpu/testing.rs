@@ -11,7 +11,7 @@ static SHARED: LazyLock<Result<Arc<Gpu>, GpuError>> = LazyLock::new(|| {
 /// The adapter that tests of one process share: the one that the environment variable `CROSSBAR_ADAPTER` names, or the
 /// best there is.
 ///
-/// `Ok(None)` without any adapter: the test says `ignored: no adapter` and passes.
+/// `Ok(None)` without any adapter: the test is to be counted as ignored.
 ///
 /// # Errors
 /// Where the environment variable `CI` is set, no adapter is a failure too; as is one that can't be opened.

@@ -87,3 +87,27 @@ pub(crate) fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Compo
     }
     vector
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::Profile;
+    use crate::isa::OpcodeClass;
+
+    /// An operation that is in the table and not above would give zero in silence.
+    #[test]
+    fn every_arithmetic_operation_is_here_or_elsewhere() {
+        const ELSEWHERE: [Opcode; 4] = [Opcode::Mova, Opcode::Dsx, Opcode::Dsy, Opcode::Setp];
+        let profile = Profile::named("ideal-fp32").expect("a device");
+        let operands = [[1.5, 2.5, 0.75, 3.0], [1.5, 0.5, 4.0, 2.0], [0.25, 1.25, 2.0, 0.5]];
+        let operands = operands.map(|operand: [f32; 4]| operand.map(f32::to_bits));
+        for &opcode in Opcode::ALL.iter().filter(|opcode| opcode.info().class == OpcodeClass::Arithmetic) {
+            let mut alu = Alu::new(&profile.rules, profile.rules.format);
+            let found = compute(&mut alu, opcode, &operands, &Context { bump: [0x3f80_0000; 4], mask: Mask::ALL });
+            let packing = ["pk", "up"].iter().any(|start| opcode.info().mnemonic.starts_with(start));
+            let elsewhere = ELSEWHERE.contains(&opcode) || opcode.matrix().is_some() || packing;
+            // Set on false is zero by definition.
+            assert_eq!(found == [0; 4], elsewhere || opcode == Opcode::Sfl, "{opcode:?}");
+        }
+    }
+}

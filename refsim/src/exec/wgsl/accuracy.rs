@@ -14,6 +14,7 @@ const FP32: Format = Format::FP32;
 const BELOW: Format = FP32.with_rounding(Rounding::Down);
 
 /// A single precision operation of an adapter.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[repr(u32)]

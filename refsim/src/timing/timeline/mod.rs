@@ -16,6 +16,7 @@ use super::Picoseconds;
 pub type Label = Arc<str>;
 
 /// A unit of host, card or bus. Each does one thing at a time.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Unit {
@@ -54,6 +55,7 @@ impl Unit {
 }
 
 /// The kind of work of a span.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum SpanKind {
@@ -118,6 +120,7 @@ impl TimelineSpan {
 }
 
 /// Why a unit waits that has something to do.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum WaitReason {

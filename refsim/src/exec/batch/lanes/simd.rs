@@ -4,6 +4,7 @@
 use multiversion::multiversion;
 
 /// A set of vector instructions, each level with those of the ones before it.
+#[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {
     /// What every processor of the target has (SSE2 on x86-64).

@@ -16,6 +16,7 @@ const HEADER: usize = 8;
 const MAX_PASSES: u32 = 40_000;
 
 /// Why a program has no form for GPUs.
+#[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ProgramError {
     /// More values at a time, or more constants, than operands can name.

@@ -1,0 +1,40 @@
+//! A harness for tests that need a GPU adapter: where there is none they are counted as ignored, not as passed. Where
+//! the environment variable `CI` is set, no adapter is a failure.
+
+use libtest_mimic::{Arguments, Trial};
+use std::process::ExitCode;
+
+/// Runs the tests that the arguments of the process select, as the built-in harness does.
+pub(crate) fn run(trials: Vec<Trial>) -> ExitCode {
+    libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
+}
+
+/// A test that needs no adapter.
+#[allow(dead_code, reason = "some binaries have none")]
+pub(crate) fn on_host(name: &'static str, test: fn()) -> Trial {
+    Trial::test(name, move || {
+        test();
+        Ok(())
+    })
+}
+
+/// A test on the adapter that all tests of the process share.
+#[cfg(feature = "wgpu")]
+pub(crate) fn on_adapter(name: &'static str, test: fn(&std::sync::Arc<refsim::exec::gpu::Gpu>)) -> Trial {
+    use libtest_mimic::Completion;
+    Trial::ignorable_test(name, move || match refsim::exec::gpu::testing::shared()? {
+        Some(gpu) => {
+            test(&gpu);
+            Ok(Completion::Completed)
+        }
+        None => Ok(Completion::ignored_with("no adapter")),
+    })
+}
+
+/// Tests by their paths, which are their names: `trials![on_host: valid::modules_are_valid]`.
+macro_rules! trials {
+    ($kind:ident: $($test:path),* $(,)?) => {
+        vec![$($crate::adapter::$kind(stringify!($test), $test)),*]
+    };
+}
+pub(crate) use trials;

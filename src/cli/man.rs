@@ -1,0 +1,53 @@
+//! `crossbar man`: a manual page per command.
+
+use std::path::PathBuf;
+
+use clap_mangen::Man;
+use serde_json::json;
+
+use super::{Out, Problem, Verdict, view};
+use crate::io::atomic::FileSet;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar man --out out/man
+      out/man/crossbar.1, crossbar-alu.1 and so on; `man out/man/crossbar-alu.1` shows one
+  crossbar man --out ~/.local/share/man/man1
+      where `man crossbar-alu` finds it";
+
+/// Write the manual pages: one of the program, one of each command
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Folder for the pages
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette::Result<Verdict> {
+    let folder = FileSet::by("man", &args.out).map_err(Problem::from)?;
+    let written = view::write_folder(folder, &pages(program))?;
+    if out.json() {
+        out.document(&json!({ "files": written }))?;
+        return Ok(Verdict::Done);
+    }
+    for path in written {
+        out.line(format_args!("wrote {}", path.display()))?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// Name and text of each page.
+fn pages(program: clap::Command) -> Vec<(String, Vec<u8>)> {
+    let mut program = program.disable_help_subcommand(true);
+    program.build();
+    let commands: Vec<clap::Command> = program.get_subcommands().cloned().collect();
+    let page = |command| {
+        let page = Man::new(command).source(concat!("crossbar ", env!("CARGO_PKG_VERSION"))).manual("Crossbar");
+        let mut text = Vec::new();
+        // Writing to a vector cannot fail.
+        page.render(&mut text).ok();
+        (page.get_filename(), text)
+    };
+    std::iter::once(program).chain(commands).map(page).collect()
+}

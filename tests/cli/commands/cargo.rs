@@ -1,0 +1,99 @@
+//! Commands of cargo held against what `cargo metadata` says of the workspace.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use serde_json::Value;
+
+use super::texts::CargoCommand;
+
+static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
+    let mut command = std::process::Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(["metadata", "--no-deps", "--offline", "--format-version", "1"]);
+    let output = command.current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("cargo, which runs this test");
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    metadata["packages"].as_array().expect("a list").clone()
+});
+
+/// The packages that the command is about.
+fn packages(asked: Option<&str>) -> Vec<&'static Value> {
+    PACKAGES.iter().filter(|package| asked.is_none_or(|asked| package["name"] == asked)).collect()
+}
+
+/// The source of a target of this kind and name.
+fn target(packages: &[&Value], kind: &str, name: &str) -> Option<String> {
+    let targets = packages.iter().flat_map(|package| package["targets"].as_array().into_iter().flatten());
+    let is = |target: &&Value| {
+        target["name"] == name && target["kind"].as_array().is_some_and(|kinds| kinds.iter().any(|k| k == kind))
+    };
+    targets.into_iter().find(is)?["src_path"].as_str().map(str::to_owned)
+}
+
+/// Whether `word` stands in a file of the target whose root is `source`.
+fn mentions(source: &Path, word: &str) -> bool {
+    fn within(folder: &Path, word: &str) -> bool {
+        std::fs::read_dir(folder).into_iter().flatten().flatten().any(|entry| {
+            let path = entry.path();
+            if path.is_dir() {
+                within(&path, word)
+            } else {
+                std::fs::read_to_string(&path).is_ok_and(|text| text.contains(word))
+            }
+        })
+    }
+    if source.file_name().is_some_and(|name| name == "main.rs") {
+        return source.parent().is_some_and(|folder| within(folder, word));
+    }
+    within(&source.with_extension(""), word) || std::fs::read_to_string(source).is_ok_and(|text| text.contains(word))
+}
+
+/// What the command names that does not exist, if it names any such thing.
+pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
+    let split = command.arguments.iter().position(|word| word == "--").unwrap_or(command.arguments.len());
+    let (own, handed_on) = command.arguments.split_at(split);
+    let values = |names: &[&str]| -> Vec<&str> {
+        let pairs = own.windows(2).filter(|pair| names.contains(&pair[0].as_str()));
+        pairs.map(|pair| pair[1].as_str()).collect()
+    };
+    let asked = values(&["-p", "--package"]);
+    let known = packages(asked.first().copied());
+    let say = |what: String| Some(format!("{}: cargo {}: {what}", command.place, command.arguments.join(" ")));
+    if known.is_empty() {
+        return say(format!("no package {asked:?}"));
+    }
+    let mut sources = Vec::new();
+    for kind in ["test", "bench", "example", "bin"] {
+        for name in values(&[&format!("--{kind}")]) {
+            match target(&known, kind, name) {
+                Some(source) => sources.push(source),
+                None => return say(format!("no {kind} `{name}`")),
+            }
+        }
+    }
+    for feature in values(&["--features"]).into_iter().flat_map(|list| list.split(',')) {
+        if !known.iter().any(|package| package["features"].get(feature).is_some()) {
+            return say(format!("no feature `{feature}`"));
+        }
+    }
+    // Names of tests: what is no option and no option's value, before `--` and behind it.
+    let is_value = |index: usize| index > 0 && own[index - 1].starts_with('-') && !is_flag(&own[index - 1]);
+    let before = own.iter().enumerate().skip(1).filter(|(index, _)| !is_value(*index)).map(|(_, word)| word);
+    let names = before.chain(handed_on.iter().skip(1)).filter(|word| !word.starts_with('-'));
+    if own.first().is_some_and(|command| command == "test") {
+        for name in names {
+            // A suite's name is put together by macros: its parts stand in the source.
+            let found = sources.iter().any(|source| name.split("::").all(|part| mentions(Path::new(source), part)));
+            if !found {
+                return say(format!("no test `{name}`"));
+            }
+        }
+    }
+    None
+}
+
+/// Options of cargo without a value.
+fn is_flag(option: &str) -> bool {
+    let flags =
+        ["--release", "--workspace", "--all-features", "--no-default-features", "--all-targets", "--lib", "--doc"];
+    flags.contains(&option)
+}

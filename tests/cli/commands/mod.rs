@@ -1,0 +1,171 @@
+//! Every command in README.md, docs and the help texts, as a reader would type it at the root of the repository.
+//!
+//! Commands of the program run, on copies of `fixtures` and `docs/examples`, and must end with 0 or with the exit code
+//! that `# exit code N` behind them states. [`CUT`] says how long work is made short: it changes sizes and counts,
+//! never which options there are. What cannot run here is listed in [`NOT_RUN`] with its reason, and its options are
+//! parsed all the same. Commands of cargo must name packages, targets, features and tests that exist.
+
+mod cargo;
+mod texts;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::{Ran, crossbar_in};
+use texts::Command;
+
+/// Sizes and counts of long work: command, option and the value that takes the place of the one in the text, or joins
+/// the command where the option is not in the text and `always` is true.
+const CUT: &[(&str, &str, &str, bool)] = &[
+    ("leaky-teapot", "--size", "16x16", true),
+    ("leaky-teapot", "--tessellation", "1", true),
+    ("leaky-teapot", "--rays-per-edge", "0", true),
+    ("render", "--size", "8x8", true),
+    ("render", "--samples", "1", false),
+    ("render", "--photons", "1000", false),
+    ("radiosity", "--size", "8x8", true),
+    ("radiosity", "--patches", "60", true),
+    ("radiosity", "--iterations", "4", true),
+    ("radiosity", "--frames", "1,2", false),
+    ("radiosity", "--sweep", "60", false),
+    ("timeline", "--rays", "8x8", false),
+];
+
+/// Commands that do not run here, by what they begin with, and why.
+const NOT_RUN: &[(&str, &str)] = &[
+    ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
+    ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
+    ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
+    ("reproduce", "takes minutes; tests/papers runs every entry"),
+];
+
+/// A copy of the folders that commands read.
+fn copy_of_the_repository() -> tempfile::TempDir {
+    fn copy(from: &Path, to: &Path) {
+        fs::create_dir_all(to).expect("a folder");
+        for entry in fs::read_dir(from).expect("a folder").flatten() {
+            let place = to.join(entry.file_name());
+            if entry.path().is_dir() {
+                copy(&entry.path(), &place);
+            } else {
+                fs::copy(entry.path(), &place).expect("a copy");
+            }
+        }
+    }
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for part in ["fixtures/cases", "fixtures/models", "fixtures/rays", "docs/examples"] {
+        copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join(part), &folder.path().join(part));
+    }
+    folder
+}
+
+/// The arguments with long work made short.
+fn cut(arguments: &[String]) -> Vec<String> {
+    let mut cut = arguments.to_vec();
+    for (command, option, value, always) in CUT {
+        if cut.first().is_none_or(|name| name != command) || cut.iter().any(|word| word == "--help") {
+            continue;
+        }
+        match cut.iter().position(|word| word == option) {
+            Some(place) if place + 1 < cut.len() => cut[place + 1] = (*value).to_owned(),
+            Some(_) => {}
+            None if *always => cut.extend([(*option).to_owned(), (*value).to_owned()]),
+            None => {}
+        }
+    }
+    cut
+}
+
+/// Whether the command is listed as one that does not run.
+fn exemption(arguments: &[String]) -> Option<&'static str> {
+    let text = arguments.join(" ");
+    // The list and single entries of `reproduce` are quick.
+    let named = |start: &str| if start == "reproduce" { text == start } else { text.starts_with(start) };
+    NOT_RUN.iter().map(|(start, _)| *start).find(|start| named(start))
+}
+
+fn run(folder: &Path, arguments: &[String], input: &str) -> Ran {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    crossbar_in(folder, &words, input)
+}
+
+/// Why the command does not do what its text says, if it does not.
+fn fault(command: &Command) -> Option<String> {
+    let root = copy_of_the_repository();
+    let (arguments, expected) = match exemption(&command.arguments) {
+        None => (cut(&command.arguments), command.code),
+        // Asked for help at the end, the program parses all that stands before it and does nothing.
+        Some(_) => ([&command.arguments[..], &["--help".to_owned()]].concat(), 0),
+    };
+    let ran = run(root.path(), &arguments, &command.input);
+    (ran.code != Some(expected)).then(|| format!("{}: `{}`\n{}", command.place, arguments.join(" "), ran.transcript()))
+}
+
+#[test]
+fn every_command_of_the_program_runs() {
+    let commands = texts::of_the_program();
+    assert!(commands.len() > 50, "the texts are full of commands: {}", commands.len());
+    let mut seen = BTreeSet::new();
+    let once: Vec<&Command> = commands.iter().filter(|c| seen.insert((&c.arguments, &c.input, c.code))).collect();
+    let faults: Vec<String> = once.par_iter().filter_map(|command| fault(command)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_exemption_and_cut_is_used() {
+    let commands = texts::of_the_program();
+    let exempt: BTreeSet<_> = commands.iter().filter_map(|command| exemption(&command.arguments)).collect();
+    assert_eq!(exempt.len(), NOT_RUN.len(), "{exempt:?}");
+    for (name, option, ..) in CUT {
+        let used = commands.iter().any(|command| command.arguments.first().is_some_and(|first| first == name));
+        assert!(used, "{name} {option}");
+    }
+}
+
+#[test]
+fn every_command_of_cargo_names_what_exists() {
+    let faults: Vec<String> = texts::of_cargo().iter().filter_map(cargo::fault).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// What a page shows of a command's output, behind `<!-- output of: COMMAND -->`, is what the command says.
+/// `CROSSBAR_BLESS=1` writes it.
+#[test]
+fn outputs_on_pages_are_those_of_the_program() {
+    let root = copy_of_the_repository();
+    let shown = texts::outputs();
+    assert!(!shown.is_empty(), "docs/compare.md shows an output");
+    for output in shown {
+        let ran = run(root.path(), &output.arguments, "");
+        assert_eq!(ran.stderr, "", "{}", output.place);
+        let found = ran.stdout.trim_end();
+        if std::env::var_os("CROSSBAR_BLESS").is_some() {
+            let page = fs::read_to_string(&output.page).expect("the page");
+            let heading = format!("{}\n```text\n", output.heading);
+            let blessed =
+                page.replace(&format!("{heading}{}\n```\n", output.text), &format!("{heading}{found}\n```\n"));
+            fs::write(&output.page, blessed).expect("written");
+        } else {
+            assert_eq!(output.text, found, "{}: run with CROSSBAR_BLESS=1 to write it", output.place);
+        }
+    }
+}
+
+/// A text with a mistake is found out: a file that is not there, an option that is not.
+#[test]
+fn mistakes_are_found() {
+    for text in ["crossbar run docs/examples/none.toml", "crossbar devices --colour", "crossbar reproduce --all"] {
+        let page = format!("```\n{text}\n```\n");
+        let commands = texts::commands_of_page("a page", &page);
+        assert_eq!(commands.len(), 1, "{text}");
+        assert!(fault(&commands[0]).is_some(), "{text}");
+    }
+    for text in ["--test nowhere", "--bench nowhere", "-p nobody", "--features speed", "--test watertight no_such_test"]
+    {
+        let found = texts::cargo_of_page("a page", &format!("```\ncargo test {text}\n```\n"));
+        assert!(cargo::fault(&found[0]).is_some(), "{text}");
+    }
+}

@@ -1,0 +1,27 @@
+//! What needs a GPU adapter, beside the emulator's own tests (`refsim/tests/gpu_*`, `wgsl_*`): the same bits as by the
+//! batch executor. Without an adapter every test here is counted as ignored.
+//!
+//! `tests/agree` draws one case in four on the adapter too, and compares the other executors where there is none.
+
+#[path = "../../refsim/tests/common/adapter.rs"]
+mod adapter;
+#[path = "../laws/radiosity/all_pictures.rs"]
+mod all_pictures;
+mod display;
+mod leaky_teapot;
+#[path = "../cli/program.rs"]
+mod program;
+mod programs;
+#[path = "../oracle/teapot_study.rs"]
+mod teapot_study;
+
+fn main() -> std::process::ExitCode {
+    adapter::run(adapter::trials![
+        on_adapter: display::the_same_pictures,
+        leaky_teapot::the_same_study,
+        programs::adapters_are_listed,
+        programs::an_adapter_is_probed,
+        programs::every_example_is_equal_down_to_its_instructions,
+        programs::the_first_instruction_that_differs_is_named,
+    ])
+}
