@@ -11,6 +11,7 @@ mod error;
 mod exr;
 mod hdr;
 mod limits;
+pub mod metrics;
 mod png;
 mod read;
 
