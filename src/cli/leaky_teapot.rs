@@ -80,8 +80,12 @@ pub(super) struct Args {
 impl StudyArgs for Args {
     type Study = Parameters;
 
-    fn folder(&self) -> &Path {
-        &self.out
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        Vec::new()
     }
 
     /// What the rays, the truth about them and the files of every row take.

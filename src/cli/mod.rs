@@ -9,6 +9,7 @@ mod caster;
 mod check;
 mod compare;
 mod devices;
+mod diff;
 mod error;
 mod executor;
 mod interrupt;
@@ -95,6 +96,7 @@ enum Command {
     Check(check::Args),
     Compare(compare::Args),
     Devices(devices::Args),
+    Diff(diff::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
     Radiosity(radiosity::Args),
@@ -155,10 +157,11 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
         Command::Devices(args) => devices::run(&args, out),
+        Command::Diff(args) => diff::run(&args, command_line, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
-        Command::Render(args) => render::run(&args, out),
+        Command::Render(args) => render::run(&args, command_line, out),
         Command::Reproduce(args) => reproduce::run(&args, command_line, out),
         Command::Run(args) => run::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),

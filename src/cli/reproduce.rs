@@ -48,8 +48,12 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
 impl StudyArgs for Args {
     type Study = Parameters;
 
-    fn folder(&self) -> &Path {
-        &self.out
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        Vec::new()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

@@ -2,7 +2,8 @@
 
 use crate::crossbar;
 
-const COMMANDS: &str = "alu check compare devices intersect leaky-teapot radiosity render reproduce run scene timeline";
+const COMMANDS: &str =
+    "alu check compare devices diff intersect leaky-teapot radiosity render reproduce run scene timeline";
 
 #[test]
 fn program() {

@@ -6,6 +6,7 @@ mod case;
 mod check;
 mod compare;
 mod devices;
+mod diff;
 mod help;
 mod hostile;
 mod interrupted;

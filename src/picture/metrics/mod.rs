@@ -7,10 +7,12 @@
 mod channel;
 mod filter;
 mod flip;
+mod luminance;
 mod screen;
 mod ssim;
 
 pub use channel::{ChannelDifference, MismatchError, WorstSample, channels, signed_differences};
 pub use flip::{DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, flip};
+pub use luminance::{luminance_differences, relative_luminance_differences};
 pub use screen::ScreenPicture;
 pub use ssim::{WINDOW, ssim};

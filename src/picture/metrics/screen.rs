@@ -3,9 +3,7 @@
 use super::super::channels::Picture;
 use super::super::display::{clip, curve};
 use super::super::error::PictureError;
-
-/// Rec. 709's weights of red, green and blue.
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+use super::luminance::WEIGHTS;
 
 /// Linear red, green and blue within [0, 1], rows from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,12 +26,7 @@ impl ScreenPicture {
 
     /// Rec. 709's weighted sum of the values that a screen is sent, through the sRGB curve.
     pub fn luma(&self) -> Vec<f64> {
-        let luma = |pixel: &[f64; 3]| [0, 1, 2].iter().map(|&c| LUMINANCE[c] * curve(pixel[c])).sum();
+        let luma = |pixel: &[f64; 3]| [0, 1, 2].iter().map(|&c| WEIGHTS[c] * curve(pixel[c])).sum();
         self.linear.iter().map(luma).collect()
-    }
-
-    /// The luminance of each pixel, white 1.
-    pub fn luminance(&self) -> Vec<f64> {
-        self.linear.iter().map(|pixel| [0, 1, 2].iter().map(|&c| LUMINANCE[c] * pixel[c]).sum()).collect()
     }
 }
