@@ -20,10 +20,11 @@ Examples:
   crossbar diff reference.exr mine.exr --exposure 2 --max-flip 0.02
       a check: is FLIP at most 0.02 in the mean, twice as bright as the files say?
 
-Channels are compared as the files have them; where one picture is encoded for a screen (PNG) and the other linear
-(EXR, HDR), the former is decoded. NaN equals NaN. SSIM and FLIP compare what a screen shows of both pictures.
-Written to --out: index.html (self-contained), difference.png, flip.png, first.png, second.png, difference.exr,
-channels.csv, study.json. docs/diff.md says what each figure means.
+Channels are compared as the files have them; where one picture is encoded for a screen (PNG) and \
+the other linear (EXR, HDR), the former is decoded. NaN equals NaN. SSIM and FLIP compare what a \
+screen shows of both pictures.
+Written to --out: index.html (self-contained), difference.png, flip.png, first.png, second.png, \
+difference.exr, channels.csv, study.json. docs/diff.md says what each figure means.
 
 Exit codes: 0 the pictures are equal, or within all bounds that are given; 1 they are not; 2 they cannot be compared.";
 
@@ -52,7 +53,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = ppd)]
     ppd: Option<f64>,
 
-    /// The difference at the ends of the false colors [default: the largest]
+    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ exceeds]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     scale: Option<f64>,
 
@@ -114,7 +115,15 @@ impl StudyArgs for Args {
             DifferenceBounds { rmse: self.max_rmse, maximum: self.max_error, flip: self.max_flip, ssim: self.min_ssim };
         let ppd = self.ppd.unwrap_or(DEFAULT_PPD);
         let (exposure, scale) = (self.exposure, self.scale);
-        Ok(PictureDifference { pictures, channels: self.channel.clone(), exposure, ppd, scale, bounds })
+        Ok(PictureDifference {
+            pictures,
+            channels: self.channel.clone(),
+            exposure,
+            ppd,
+            scale,
+            bounds,
+            maps: self.out.is_some(),
+        })
     }
 }
 

@@ -69,6 +69,10 @@ fn document(nodes: Value) -> Value {
     })
 }
 
+fn add_view(document: &mut Value, view: Value) {
+    document["bufferViews"].as_array_mut().expect("views").push(view);
+}
+
 /// The document and the buffer as GLB.
 fn glb(document: &Value, buffer: &[u8]) -> Vec<u8> {
     let padded = |mut bytes: Vec<u8>, with: u8| {
@@ -155,8 +159,8 @@ fn sparse_elements_replace_those_of_the_base_or_zeros() {
     let mut sparse = document(json!([{ "mesh": 3 }]));
     // The third corner moves to where the normal's numbers point: (0, 1, 0), with z up (0, 0, 1).
     let values = json!({ "bufferView": 4, "byteOffset": 0 });
-    sparse["bufferViews"][4] = json!({ "buffer": 0, "byteOffset": 12, "byteLength": 12 });
-    sparse["bufferViews"][5] = json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 });
+    add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 12, "byteLength": 12 }));
+    add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 }));
     let indices = json!({ "bufferView": 5, "byteOffset": 0, "componentType": 5123 });
     sparse["accessors"][0]["sparse"] = json!({ "count": 1, "indices": indices, "values": values });
     assert_eq!(read(&sparse).mesh().positions()[2], [0.0, 0.0, 1.0]);
@@ -169,6 +173,18 @@ fn sparse_elements_replace_those_of_the_base_or_zeros() {
         message(&sparse),
         "m.glb: accessors[0]: expected a buffer view, or at most 1048576 elements, found 1099511627776"
     );
+}
+
+#[test]
+fn texture_coordinates_may_be_unsigned_fractions() {
+    let mut fractions = document(json!([{ "mesh": 0 }]));
+    // The bytes of 1.0, little-endian: 0, 0, 128, 63.
+    fractions["accessors"][2] = json!({ "bufferView": 0, "byteOffset": 2, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": true });
+    fractions["bufferViews"][0]["byteOffset"] = json!(0);
+    let first = |document: &Value| read(document).mesh().texcoords().map(|uv| uv[1]);
+    assert_eq!(first(&fractions), Some([128.0 / 255.0, 63.0 / 255.0]));
+    fractions["accessors"][2]["componentType"] = json!(5123);
+    assert_eq!(first(&fractions), Some([16256.0 / 65535.0, 0.0]));
 }
 
 #[test]
@@ -294,7 +310,7 @@ fn base64_text(bytes: &[u8]) -> String {
 fn rich() -> Vec<u8> {
     let nodes = json!([{ "mesh": 0, "scale": [1, 2, 1] }, { "mesh": 1 }, { "mesh": 2 }, { "mesh": 3, "children": [] }]);
     let mut all = document(nodes);
-    all["bufferViews"][4] = json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 });
+    add_view(&mut all, json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 }));
     let indices = json!({ "bufferView": 4, "componentType": 5123 });
     all["accessors"][1]["sparse"] =
         json!({ "count": 1, "indices": indices, "values": { "bufferView": 0, "byteOffset": 0 } });

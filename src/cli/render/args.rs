@@ -15,8 +15,8 @@ use crate::renderer::Lens;
 const EXAMPLES: &str = "\
 Examples:
   crossbar render bunny.obj --out bunny
-      bunny/picture.png (shaded), bunny/layers.exr (depth and triangle of each pixel), framed by itself, in exact
-      arithmetic; bunny/index.html shows the picture and says how it was made
+      bunny/picture.png (shaded), bunny/layers.exr (depth and triangle of each pixel), framed by
+      itself, in exact arithmetic; bunny/index.html shows the picture and says how it was made
   crossbar render bunny.obj --device r200 --size 256x256 --eye 0,-4,1.5 --target 0,0,0.5 --out leaky-bunny
       the same on a Radeon 8500
   crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out room

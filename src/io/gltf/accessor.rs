@@ -11,6 +11,8 @@ use gltf::buffer::View;
 use super::super::error::ModelError;
 use super::buffers::Buffers;
 
+/// Most elements of an accessor.
+pub(super) const MAX_ELEMENTS: usize = 1 << 26;
 /// Most elements of an accessor that no bytes of a buffer stand behind.
 const MAX_ZEROS: usize = 1 << 20;
 /// An element of which no bytes are given.
@@ -27,11 +29,10 @@ impl AccessorReader<'_> {
     pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, ModelError> {
         let fits = accessor.dimensions().multiplicity() == N
             && !matches!(accessor.dimensions(), Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4);
-        let code = |bytes: &[u8]| f64::from(u16::from_le_bytes([bytes[0], bytes.get(1).copied().unwrap_or(0)]));
         let (size, read): (usize, &dyn Fn(&[u8]) -> f32) = match (accessor.data_type(), accessor.normalized()) {
             (DataType::F32, _) => (4, &|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
-            (DataType::U8, true) => (1, &|bytes| (code(bytes) / 255.0) as f32),
-            (DataType::U16, true) => (2, &|bytes| (code(bytes) / 65535.0) as f32),
+            (DataType::U8, true) => (1, &|bytes| (f64::from(whole(&bytes[..1])) / 255.0) as f32),
+            (DataType::U16, true) => (2, &|bytes| (f64::from(whole(&bytes[..2])) / 65535.0) as f32),
             _ => (0, &|_| 0.0),
         };
         if !fits || size == 0 {
@@ -59,6 +60,9 @@ impl AccessorReader<'_> {
     fn elements<'s>(&'s self, accessor: &Accessor<'_>) -> Result<Vec<&'s [u8]>, ModelError> {
         let (count, size) = (accessor.count(), accessor.size());
         let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
+        if count > MAX_ELEMENTS {
+            return Err(self.wrong(accessor, format!("at most {MAX_ELEMENTS} elements"), &count.to_string()));
+        }
         let mut elements = match accessor.view() {
             Some(view) => {
                 let all = self.packed(&view, accessor.offset(), (count, size, view.stride()));
@@ -71,6 +75,13 @@ impl AccessorReader<'_> {
             }
         };
         if let Some(sparse) = accessor.sparse() {
+            if sparse.count() > count {
+                return Err(self.wrong(
+                    accessor,
+                    format!("at most {count} sparse elements"),
+                    &sparse.count().to_string(),
+                ));
+            }
             let (places, values) = (sparse.indices(), sparse.values());
             let width = match places.index_type() {
                 IndexType::U8 => 1,

@@ -5,14 +5,14 @@ use gltf::mesh::Mode;
 use gltf::{Accessor, Primitive, Semantic};
 
 use super::super::error::ModelError;
-use super::accessor::AccessorReader;
+use super::accessor::{AccessorReader, MAX_ELEMENTS};
 use super::material::Materials;
 use super::nodes::Instance;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, MeshError};
 
-/// Most vertices, and most triangles, of a model with all its copies of meshes.
-const MAX_PLACED: usize = 1 << 24;
+/// Most vertices of a model with all its copies of meshes.
+const MAX_VERTICES: usize = 1 << 24;
 
 /// Vertices and triangles so far. Vertices without normals or texture coordinates have zeros.
 #[derive(Default)]
@@ -24,6 +24,8 @@ pub(super) struct Geometry {
     /// One per triangle.
     pub(super) material_of: Vec<u32>,
     some_without: [bool; 2],
+    /// Corners that primitives have named, those of triangles that were left out among them.
+    corners: usize,
 }
 
 impl Geometry {
@@ -64,9 +66,10 @@ impl Geometry {
                 return Err(wrong("attributes of as many elements as `POSITION`", count.to_string()));
             }
         }
-        let placed = (self.positions.len() + vertices).max(self.triangles.len() + indices.len());
-        if placed > MAX_PLACED {
-            return Err(wrong("at most 16777216 vertices and triangles, copies counted", placed.to_string()));
+        self.corners += indices.len();
+        if self.positions.len() + vertices > MAX_VERTICES || self.corners > MAX_ELEMENTS {
+            let found = format!("{} and {}", self.positions.len() + vertices, self.corners);
+            return Err(wrong("at most 16777216 vertices and 67108864 corners, copies counted", found));
         }
         let first = self.positions.len() as u32;
         self.some_without[0] |= normals.is_none();

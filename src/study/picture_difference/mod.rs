@@ -43,10 +43,13 @@ pub struct PictureDifference {
     pub exposure: f64,
     /// Pixels per degree of the observer.
     pub ppd: f64,
-    /// The number at the ends of the false colors of differences; the largest difference if there is none.
+    /// The number at the ends of the false colors of differences; if there is none, one that one in a hundred of the
+    /// pixels that differ exceeds.
     pub scale: Option<f64>,
     /// What must hold.
     pub bounds: DifferenceBounds,
+    /// Whether there are to be maps and a page.
+    pub maps: bool,
 }
 
 /// Why pictures cannot be compared.

@@ -28,7 +28,9 @@ pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) ->
     if let Some(seen) = &outcome.seen {
         tell(&mut found, asked, seen);
     }
-    maps(&mut found, asked, &outcome)?;
+    if asked.maps {
+        maps(&mut found, asked, &outcome)?;
+    }
     Ok(found)
 }
 
@@ -83,11 +85,12 @@ fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOut
         Some(seen) => ("luminance".to_owned(), seen.luminance.clone()),
         None => worst_channel(outcome),
     };
-    let largest = values.iter().filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()));
-    let scale = asked.scale.unwrap_or(if largest > 0.0 { largest } else { 1.0 });
+    let scale = asked.scale.unwrap_or_else(|| usual_scale(&values));
     let ends = digits(scale).text();
-    let caption = format!("{what}, second minus first: blue -{ends}, white 0, red +{ends}; black where not finite");
-    found.print(format!("false colors of {caption}"));
+    let caption = format!(
+        "{what}, second minus first: blue -{ends} or less, white 0, red +{ends} or more; black where not finite"
+    );
+    found.print(format!("difference.png: {caption}"));
     found.field("scale", json!(scale));
     pictures.push(NamedPicture::new("difference", false_color::signed(width, &values, scale), caption));
     let mut layers = Picture::new(width, height);
@@ -105,6 +108,13 @@ fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOut
     found.pictures(pictures);
     found.keep_layers("difference", layers);
     Ok(())
+}
+
+/// Of a hundred pixels that differ, one differs by more: a few bright ones do not make all others pale.
+fn usual_scale(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).filter(|x| x.is_finite() && *x > 0.0).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.get((sizes.len() * 99).div_ceil(100).saturating_sub(1)).copied().unwrap_or(1.0)
 }
 
 /// The channel of floats that differs most, else the first.
@@ -127,4 +137,18 @@ fn digits(x: f64) -> Cell {
         return x.into();
     }
     format!("{x:.5e}").parse::<f64>().unwrap_or(x).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_scale_is_what_one_in_a_hundred_exceeds() {
+        let mut values: Vec<f64> = (1..=100).map(f64::from).collect();
+        values.extend([0.0, f64::NAN]);
+        assert_eq!(usual_scale(&values), 99.0);
+        assert_eq!(usual_scale(&[0.0, -0.5]), 0.5);
+        assert_eq!(usual_scale(&[0.0]), 1.0);
+    }
 }
