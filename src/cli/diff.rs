@@ -53,7 +53,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = ppd)]
     ppd: Option<f64>,
 
-    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ exceeds]
+    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ
+    /// exceeds]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     scale: Option<f64>,
 

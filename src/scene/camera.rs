@@ -151,8 +151,8 @@ impl Camera {
         self.up
     }
 
-    /// The matrix that takes points of the scene, as row vectors, to those seen from the camera: x to the right, y up, z
-    /// along the view.
+    /// The matrix that takes points of the scene, as row vectors, to those seen from the camera: x to the right, y up,
+    /// z along the view.
     pub fn world_to_camera(&self) -> [f32; 16] {
         let [right, up] = [self.right, self.up].map(|axis| unit(axis).unwrap_or(axis));
         let (axes, eye) = ([right, up, self.forward], wide(self.eye));

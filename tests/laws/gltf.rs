@@ -168,11 +168,13 @@ fn sparse_elements_replace_those_of_the_base_or_zeros() {
     sparse["accessors"][0].as_object_mut().expect("an accessor").remove("bufferView");
     sparse["accessors"][0].as_object_mut().expect("an accessor").remove("byteOffset");
     assert_eq!(read(&sparse).mesh().positions(), [[0.0; 3], [0.0; 3], [0.0, 0.0, 1.0], [0.0; 3]]);
-    sparse["accessors"][0]["count"] = json!(1_u64 << 40);
-    assert_eq!(
-        message(&sparse),
-        "m.glb: accessors[0]: expected a buffer view, or at most 1048576 elements, found 1099511627776"
-    );
+    for (count, want) in [
+        (1_u64 << 21, "a buffer view, or at most 1048576 elements, found 2097152"),
+        (1 << 40, "at most 67108864 elements, found 1099511627776"),
+    ] {
+        sparse["accessors"][0]["count"] = json!(count);
+        assert_eq!(message(&sparse), format!("m.glb: accessors[0]: expected {want}"));
+    }
 }
 
 #[test]

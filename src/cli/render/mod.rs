@@ -2,6 +2,7 @@
 
 mod args;
 mod light;
+mod page;
 mod scene;
 
 use miette::IntoDiagnostic as _;
@@ -14,12 +15,13 @@ use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::io::load_mesh;
-use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
+use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::{Findings, NamedPicture, Provenance, Verdict};
+use crate::report::{Provenance, Verdict};
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
 use args::SMALLER;
+use page::page;
 
 pub(super) use args::Args;
 
@@ -68,16 +70,6 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         out.line(format_args!("{found} of {} pixels hit; written to {}", hits.len(), args.out.display()))?;
     }
     Ok(Verdict::Done)
-}
-
-/// The page of a picture with its numbers.
-fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
-    let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
-    found.taken_from(camera.world_to_camera());
-    found.pictures(vec![NamedPicture::new("picture", image, caption)]);
-    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
-    found.keep_layers("layers", layers);
-    found
 }
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.

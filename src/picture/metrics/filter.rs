@@ -4,12 +4,12 @@ use rayon::prelude::*;
 
 /// Numbers of a picture's pixels, rows from the top.
 #[derive(Clone, Debug)]
-pub(super) struct Plane {
+pub(super) struct PixelPlane {
     pub(super) width: usize,
     pub(super) values: Vec<f64>,
 }
 
-impl Plane {
+impl PixelPlane {
     /// The sum of products with the weights around each pixel: first along rows, then along columns. Weights are odd in
     /// number; outside the picture its border goes on.
     pub(super) fn filtered(&self, along_rows: &[f64], along_columns: &[f64]) -> Self {
@@ -57,9 +57,9 @@ mod tests {
     #[test]
     fn borders_go_on_and_weights_of_sum_one_keep_what_is_constant() {
         let weights = normalized(&taps(3, |x| 1.0 / (1.0 + x * x)));
-        let plane = Plane { width: 2, values: vec![0.5; 6] };
+        let plane = PixelPlane { width: 2, values: vec![0.5; 6] };
         assert!(plane.filtered(&weights, &weights).values.iter().all(|value| (value - 0.5).abs() < 1e-15));
-        let step = Plane { width: 3, values: vec![0.0, 1.0, 1.0] };
+        let step = PixelPlane { width: 3, values: vec![0.0, 1.0, 1.0] };
         assert_eq!(step.filtered(&[0.0, 0.0, 1.0], &[1.0]).values, [1.0, 1.0, 1.0], "the neighbour to the right");
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! [`channels`] compares samples. [`ssim`] and [`flip`] compare what a screen shows of both ([`ScreenPicture`]): SSIM
 //! the structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP what an observer notices who flips
-//! between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the same bits.
+//! between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the same
+//! bits.
 
 mod channel;
 mod filter;

@@ -1,7 +1,7 @@
 //! SSIM: structural similarity (Wang, Bovik, Sheikh and Simoncelli, 2004, "Image quality assessment: from error
 //! visibility to structural similarity").
 
-use super::filter::{Plane, normalized, taps};
+use super::filter::{PixelPlane, normalized, taps};
 use super::screen::ScreenPicture;
 
 /// Pixels along a side of the window.
@@ -21,7 +21,7 @@ pub fn ssim(left: &ScreenPicture, right: &ScreenPicture) -> Option<f64> {
     }
     let radius = WINDOW / 2;
     let gaussian = normalized(&taps(radius as u32, |x| crate::elementary::exp(-x * x / (2.0 * DEVIATION * DEVIATION))));
-    let mean = |values: Vec<f64>| Plane { width, values }.filtered(&gaussian, &gaussian).values;
+    let mean = |values: Vec<f64>| PixelPlane { width, values }.filtered(&gaussian, &gaussian).values;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Vec<f64>>();
     let (x, y) = (left.luma(), right.luma());
     let [xx, yy, xy] = [product(&x, &x), product(&y, &y), product(&x, &y)].map(mean);

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::{DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
+use super::compare::{DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
 use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table, Verdict, false_color};

@@ -1,6 +1,6 @@
 //! Edges and points: first and second derivatives of the lightness.
 
-use super::super::filter::{Plane, normalized, taps};
+use super::super::filter::{PixelPlane, normalized, taps};
 use crate::elementary::exp;
 
 /// Width of the features that the eye detects, in degrees.
@@ -14,7 +14,7 @@ pub(super) struct Features {
 
 impl Features {
     /// Of a lightness in [0, 1].
-    pub(super) fn of(lightness: &Plane, ppd: f64) -> Self {
+    pub(super) fn of(lightness: &PixelPlane, ppd: f64) -> Self {
         let deviation = 0.5 * FEATURE_WIDTH * ppd;
         let radius = (3.0 * deviation).ceil() as u32;
         let gaussian = |x: f64| exp(-x * x / (2.0 * deviation * deviation));

@@ -9,7 +9,7 @@ mod features;
 
 use rayon::prelude::*;
 
-use super::filter::{Plane, taps};
+use super::filter::{PixelPlane, taps};
 use super::screen::ScreenPicture;
 use crate::elementary::{exp, pow};
 use color::{from_opponents, hyab, to_hunt_lab, to_opponents};
@@ -75,10 +75,10 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
 fn seen(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
     let width = picture.width;
     let opponents: Vec<[f64; 3]> = picture.linear.par_iter().map(|&linear| to_opponents(linear)).collect();
-    let plane = |channel: usize| Plane { width, values: opponents.iter().map(|pixel| pixel[channel]).collect() };
+    let plane = |channel: usize| PixelPlane { width, values: opponents.iter().map(|pixel| pixel[channel]).collect() };
     let lightness = plane(0);
     let features =
-        Features::of(&Plane { width, values: lightness.values.iter().map(|y| (y + 16.0) / 116.0).collect() }, ppd);
+        Features::of(&PixelPlane { width, values: lightness.values.iter().map(|y| (y + 16.0) / 116.0).collect() }, ppd);
     let filtered = [
         contrast_filtered(&lightness, &[LIGHTNESS], ppd),
         contrast_filtered(&plane(1), &[RED_GREEN], ppd),
@@ -92,7 +92,7 @@ fn seen(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
 }
 
 /// A plane filtered by a sum of Gaussians, whose weights sum to 1.
-fn contrast_filtered(plane: &Plane, gaussians: &[[f64; 2]], ppd: f64) -> Vec<f64> {
+fn contrast_filtered(plane: &PixelPlane, gaussians: &[[f64; 2]], ppd: f64) -> Vec<f64> {
     use std::f64::consts::PI;
     // Three standard deviations of the widest, for all channels.
     let radius = (3.0 * (BLUE_YELLOW[0][1] / (2.0 * PI * PI)).sqrt() * ppd).ceil() as u32;
