@@ -102,7 +102,7 @@ const MODELS: [&str; 4] = ["obj", "ply", "gltf", "glb"];
 /// Reads a scene: a model by the name's ending, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
     let is = |known: &&str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
-    if MODELS.iter().any(|known| is(&known)) {
+    if MODELS.iter().any(is) {
         return Ok(load_scene(path)?);
     }
     let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;

@@ -57,7 +57,7 @@ impl AccessorReader<'_> {
     }
 
     /// The bytes of each element.
-    fn elements<'s>(&'s self, accessor: &Accessor<'_>) -> Result<Vec<&'s [u8]>, ModelError> {
+    fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, ModelError> {
         let (count, size) = (accessor.count(), accessor.size());
         let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
         if count > MAX_ELEMENTS {
@@ -103,12 +103,12 @@ impl AccessorReader<'_> {
     }
 
     /// So many elements of so many bytes, one after the other or a stride apart; `None` if they do not fit the view.
-    fn packed<'s>(
-        &'s self,
+    fn packed(
+        &self,
         view: &View<'_>,
         offset: usize,
         (count, size, stride): (usize, usize, Option<usize>),
-    ) -> Option<Vec<&'s [u8]>> {
+    ) -> Option<Vec<&[u8]>> {
         let bytes = self.buffers.view(view)?.get(offset..)?;
         let stride = stride.unwrap_or(size);
         let last = count.checked_sub(1)?.checked_mul(stride)?;

@@ -58,7 +58,7 @@ impl Geometry {
             Some(accessor) => reader.indices(&accessor, vertices)?,
             None => (0..vertices as u32).collect(),
         };
-        if mode == Mode::Triangles && indices.len() % 3 != 0 {
+        if mode == Mode::Triangles && !indices.len().is_multiple_of(3) {
             return Err(wrong("three vertices per triangle", format!("{} in all", indices.len())));
         }
         for count in [normals.as_ref().map(Vec::len), texcoords.as_ref().map(Vec::len)].into_iter().flatten() {
