@@ -15,6 +15,16 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
+/// e to the power x.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// The cube root.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
 /// The angle of the point (x, y) from the x axis, in radians.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)

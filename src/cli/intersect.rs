@@ -36,11 +36,11 @@ Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hi
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
 the ray's direction, written so that it reads back to the same f32.";
 
-/// First hits of the rays of a CSV file on the triangles of an OBJ or PLY file
+/// First hits of the rays of a CSV file on the triangles of an OBJ, PLY or glTF file
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The mesh, a Wavefront OBJ or PLY file
+    /// The mesh, a Wavefront OBJ, PLY or glTF file
     #[arg(long, value_name = "M.obj")]
     mesh: PathBuf,
 

@@ -81,8 +81,12 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const COMMAND: &'static str = "leaky-teapot";
 
-    fn folder(&self) -> &Path {
-        &self.out
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        Vec::new()
     }
 
     /// What the rays, the truth about them and the files of every row take.

@@ -10,6 +10,7 @@ mod check;
 mod compare;
 mod completions;
 mod devices;
+mod diff;
 mod error;
 mod executor;
 mod interrupt;
@@ -102,6 +103,7 @@ enum Command {
     Compare(compare::Args),
     Completions(completions::Args),
     Devices(devices::Args),
+    Diff(diff::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
@@ -164,11 +166,12 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Compare(args) => compare::run(&args, out),
         Command::Completions(args) => completions::run(&args, Cli::command(), out),
         Command::Devices(args) => devices::run(&args, out),
+        Command::Diff(args) => diff::run(&args, command_line, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, Cli::command(), out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
-        Command::Render(args) => render::run(&args, out),
+        Command::Render(args) => render::run(&args, command_line, out),
         Command::Reproduce(args) => reproduce::run(&args, command_line, out),
         Command::Run(args) => run::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),

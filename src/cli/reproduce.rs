@@ -51,8 +51,12 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const COMMAND: &'static str = "reproduce";
 
-    fn folder(&self) -> &Path {
-        &self.out
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        Vec::new()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {

@@ -25,7 +25,12 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     Ok(None)
 }
 
-/// A scene of the project by its name, or of a scene file, an OBJ or a PLY.
+/// The path, unless it is the name of a scene of the project.
+pub(super) fn named_file(path: &Path) -> Vec<&Path> {
+    if built::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
+}
+
+/// A scene of the project by its name, or of a scene file, an OBJ, PLY or glTF file.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(match by_name(path)? {
         Some(scene) => scene,

@@ -3,6 +3,7 @@
 //!
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
 
+use std::fs::File;
 use std::path::Path;
 
 use serde_json::json;
@@ -10,7 +11,7 @@ use serde_json::json;
 use super::memory::MemoryNeed;
 use super::{Out, Problem, ProgressBar, view};
 use crate::io::atomic::FileSet;
-use crate::report::{Provenance, Verdict};
+use crate::report::{Provenance, Verdict, sha256};
 use crate::study::Study;
 
 /// The options of a study's command.
@@ -21,8 +22,11 @@ pub(super) trait StudyArgs {
     /// The command, in whose name the folder is written.
     const COMMAND: &'static str;
 
-    /// Where its files go.
-    fn folder(&self) -> &Path;
+    /// Where its files go; `None` if there are to be none.
+    fn folder(&self) -> Option<&Path>;
+
+    /// The files that it reads.
+    fn inputs(&self) -> Vec<&Path>;
 
     /// The memory that it takes at most, by the options alone; `None` if that is little.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>>;
@@ -38,12 +42,14 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
     }
     let study = args.study()?;
     // Before the long work, so that a folder that cannot be written is found out at once.
-    let folder = FileSet::by(A::COMMAND, args.folder()).map_err(Problem::from)?;
+    let folder = args.folder().map(|folder| FileSet::by(A::COMMAND, folder)).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1);
     let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
-    let provenance = study.provenance(Provenance::new(command_line));
-    view::write_folder(folder, &found.take_files(&provenance)?)?;
+    let provenance = study.provenance(with_inputs(Provenance::new(command_line), &args.inputs()));
+    if let Some(folder) = folder {
+        view::write_folder(folder, &found.take_files(&provenance)?)?;
+    }
     if out.json() {
         let mut document = found.document(&provenance);
         document["out"] = json!(args.folder());
@@ -57,6 +63,17 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
     for line in found.printed_lines() {
         out.line(line)?;
     }
-    out.line(format_args!("pictures and tables: {}", args.folder().join("index.html").display()))?;
+    if let Some(folder) = args.folder() {
+        out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;
+    }
     Ok(found.verdict())
+}
+
+/// The provenance with digests of the inputs; names of scenes and what comes through a pipe have none.
+pub(super) fn with_inputs(mut provenance: Provenance, inputs: &[&Path]) -> Provenance {
+    // Opening a pipe would wait for who writes to it.
+    let digest = |path: &Path| sha256(path.is_file().then(|| File::open(path).ok())??).ok();
+    let digested = inputs.iter().filter_map(|path| Some((path.display().to_string(), digest(path)?)));
+    provenance.inputs = digested.collect();
+    provenance
 }

@@ -52,9 +52,11 @@ pub(super) fn framing(
     (eye, target, up): Placement,
 ) -> miette::Result<Camera> {
     let Some([low, high]) = mesh.bounds() else {
-        return Err(
-            Problem::usage("the mesh has no triangles", "name an OBJ or PLY file with at least one face").into()
-        );
+        return Err(Problem::usage(
+            "the mesh has no triangles",
+            "name an OBJ, PLY or glTF file with at least one face",
+        )
+        .into());
     };
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let target = target.unwrap_or(middle);
@@ -84,7 +86,7 @@ pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ or PLY file, whose text would take more memory than there is.
+/// Refuses a mesh, a Wavefront OBJ, PLY or glTF file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
     require_file(path, 12, "name a smaller mesh")
 }

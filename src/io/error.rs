@@ -77,10 +77,16 @@ pub enum ModelError {
     /// An element of a PLY's binary data is not what the header says.
     #[error("{place}: {element} {index} (counted from 0): expected {expected}, found {found}")]
     Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: &'static str },
+    /// A part of a glTF file is not what belongs there. Parts are counted from 0, as the format does.
+    #[error("{place}: {part}: expected {expected}, found {found}")]
+    Part { place: FilePlace, part: String, expected: Cow<'static, str>, found: String },
+    /// A buffer beside a glTF file cannot be read.
+    #[error("{place}: buffers[{buffer}]: cannot read {}; put it beside the model", path.display())]
+    Buffer { place: FilePlace, buffer: usize, path: PathBuf, source: io::Error },
     /// A material library gives a name twice.
     #[error("{0}: expected each material once, found a second `newmtl {1}`; rename one of the two")]
     SecondMaterial(FilePlace, String),
-    /// A material's figures do not go together. The place is its `newmtl`.
+    /// A material's figures do not go together. In an MTL file the place is its `newmtl`.
     #[error("{place}: material {name}: expected {expected}, found {found}")]
     Material { place: FilePlace, name: String, expected: &'static str, found: String },
     /// A material library cannot be read.

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod error;
+pub mod gltf;
 mod lines;
 pub mod model;
 mod number;
@@ -14,14 +15,15 @@ pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
 pub use error::{FilePlace, ModelError, ReadError};
-pub use model::load_mesh;
+pub use gltf::parse_gltf;
+pub use model::{load_mesh, load_scene};
 pub use number::{NumberError, parse_f32, to_f32};
 pub use obj::{load_obj, parse_obj, write_obj};
 pub use picture::{PictureFileError, load_picture};
 pub use ply::{load_ply, parse_ply};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};
-pub use scene_obj::{load_scene, parse_mtl, parse_scene, write_mtl, write_scene};
+pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -15,8 +15,8 @@
 //! intensity = [10.0, 10.0, 9.0]
 //! ```
 //!
-//! The mesh is an OBJ beside the scene file, read by [`super::scene_obj`]. An OBJ alone is a scene without views and
-//! point lights.
+//! The mesh is an OBJ, PLY or glTF file beside the scene file, read by [`super::load_scene`]. A model alone is a scene
+//! without views and point lights.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -25,9 +25,10 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use super::error::ModelError;
+use super::model::load_scene;
 use super::number::Single;
 use super::read_limited;
-use super::scene_obj::{load_scene, write_mtl, write_scene};
+use super::scene_obj::{write_mtl, write_scene};
 use crate::scene::{CameraError, PointLight, Scene, View};
 
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
@@ -96,9 +97,13 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
     numbers.map(|number| number.0)
 }
 
-/// Reads a scene: a scene file, or an OBJ (by the name's ending).
+/// Endings of models.
+const MODELS: [&str; 4] = ["obj", "ply", "gltf", "glb"];
+
+/// Reads a scene: a model by the name's ending, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj")) {
+    let is = |known: &&str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
+    if MODELS.iter().any(is) {
         return Ok(load_scene(path)?);
     }
     let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;

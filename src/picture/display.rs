@@ -2,10 +2,17 @@
 
 /// The byte of a linear value, clipped to [0, 1]; NaN becomes black.
 pub fn encode(value: f64) -> u8 {
-    let linear = if value > 0.0 { value.min(1.0) } else { 0.0 };
-    let curved =
-        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * crate::elementary::pow(linear, 1.0 / 2.4) - 0.055 };
-    (curved * 255.0 + 0.5) as u8
+    (curve(clip(value)) * 255.0 + 0.5) as u8
+}
+
+/// A linear value as a screen can show it: within [0, 1]; NaN becomes black.
+pub fn clip(value: f64) -> f64 {
+    if value > 0.0 { value.min(1.0) } else { 0.0 }
+}
+
+/// The value of the curve, in [0, 1], at a linear value in [0, 1].
+pub fn curve(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * crate::elementary::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
 /// The linear value that the curve takes to `value`, both in [0, 1].

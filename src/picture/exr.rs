@@ -11,12 +11,21 @@ use exr::prelude::{
 use super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 use super::error::{PictureError, PictureFormat};
 use super::limits::require_size;
+use super::notes::PictureNotes;
 
 /// A picture as an EXR file with its channels by their names. Losslessly packed; the same picture gives the same bytes.
 ///
 /// # Errors
 /// [`PictureError::Encode`] if it has no channels, or a name cannot be written.
 pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
+    exr_with_notes(picture, &PictureNotes::default())
+}
+
+/// The same with notes as attributes; characters beyond Latin-1 are escaped.
+///
+/// # Errors
+/// As [`exr`].
+pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>, PictureError> {
     let refused = |reason: String| PictureError::Encode { format: PictureFormat::Exr, reason };
     let channel = |channel: &PictureChannel| {
         let name = Text::new_or_none(&channel.name)
@@ -33,7 +42,12 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
     }
     let layer = Layer::new(
         (picture.width() as usize, picture.height() as usize),
-        LayerAttributes::default(),
+        LayerAttributes {
+            software_name: text(&notes.software),
+            comments: text(&notes.comments),
+            world_to_camera: notes.world_to_camera,
+            ..LayerAttributes::default()
+        },
         // Run-length packing is lossless for every type of sample.
         Encoding::FAST_LOSSLESS,
         AnyChannels::sort(list),
@@ -42,6 +56,12 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
     let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut file);
     written.map_err(|error| refused(error.to_string()))?;
     Ok(file.into_inner())
+}
+
+/// Text that the format can hold; `None` if it is empty.
+fn text(text: &str) -> Option<Text> {
+    let escaped = |c: char| if u8::try_from(c).is_ok() { c.to_string() } else { c.escape_unicode().to_string() };
+    Text::new_or_none(text.chars().map(escaped).collect::<String>()).filter(|_| !text.is_empty())
 }
 
 /// The first layer of an EXR file, in its largest resolution. Halves become singles.
@@ -97,6 +117,24 @@ mod tests {
         assert_eq!(bits(back.floats("t").expect("floats").1), bits(&t));
         let ids = back.channels().iter().find(|channel| channel.name == "id").expect("ids");
         assert_eq!(ids.samples, Samples::Uint(id));
+    }
+
+    #[test]
+    fn notes_stand_in_the_file() {
+        let picture = Picture::rgb(2, 1, &[[0.5; 3]; 2]);
+        let world_to_camera = Some(std::array::from_fn(|i| i as f32));
+        let notes =
+            PictureNotes { software: "crossbar".into(), comments: "caf\u{e9} \u{2192}".into(), world_to_camera };
+        let file = exr_with_notes(&picture, &notes).expect("a file");
+        let header = &MetaData::read_from_buffered(file.as_slice(), true).expect("our own EXR").headers[0];
+        let own = &header.own_attributes;
+        assert_eq!(own.software_name.as_ref().map(ToString::to_string).as_deref(), Some("crossbar"));
+        assert_eq!(own.comments.as_ref().map(ToString::to_string).as_deref(), Some("caf\u{e9} \\u{2192}"));
+        assert_eq!(own.world_to_camera, world_to_camera);
+        assert_eq!(
+            Picture::decode(&file).expect("our own EXR"),
+            Picture::decode(&exr(&picture).expect("a file")).expect("EXR")
+        );
     }
 
     #[test]

@@ -11,13 +11,16 @@ mod error;
 mod exr;
 mod hdr;
 mod limits;
+pub mod metrics;
+mod notes;
 mod png;
 mod read;
 
 pub use self::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 pub use self::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError, PictureFormat};
-pub use self::exr::exr;
+pub use self::exr::{exr, exr_with_notes};
 pub use self::hdr::hdr;
 pub use self::limits::limits;
-pub use self::png::{buffer, png, rgb8};
+pub use self::notes::PictureNotes;
+pub use self::png::{buffer, png, png_with_notes, rgb8};
 pub use image::{Rgb, RgbImage, Rgba};

@@ -6,6 +6,7 @@ use std::ops::Deref;
 use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType, Rgb, RgbImage};
 
 use super::error::{PictureError, PictureFormat};
+use super::notes::PictureNotes;
 
 /// An image from its samples, pixel by pixel, rows from the top.
 ///
@@ -50,6 +51,32 @@ where
     Ok(file.into_inner())
 }
 
+/// An image as a PNG file with notes in it, as international text.
+///
+/// # Errors
+/// [`PictureError::Encode`] if it has no pixels.
+pub fn png_with_notes(image: &RgbImage, notes: &PictureNotes) -> Result<Vec<u8>, PictureError> {
+    let mut file = Vec::new();
+    let refused =
+        |error: ::png::EncodingError| PictureError::Encode { format: PictureFormat::Png, reason: error.to_string() };
+    let mut encoder = ::png::Encoder::new(&mut file, image.width(), image.height());
+    encoder.set_color(::png::ColorType::Rgb);
+    encoder.set_depth(::png::BitDepth::Eight);
+    // As in files without notes.
+    encoder.set_compression(::png::Compression::Fast);
+    encoder.set_filter(::png::Filter::Adaptive);
+    for (keyword, text) in [("Software", &notes.software), ("Comment", &notes.comments)] {
+        if !text.is_empty() {
+            // The format ends text with a zero.
+            encoder.add_itxt_chunk(keyword.to_owned(), text.replace('\0', "")).map_err(refused)?;
+        }
+    }
+    let mut writer = encoder.write_header().map_err(refused)?;
+    writer.write_image_data(image.as_raw()).map_err(refused)?;
+    writer.finish().map_err(refused)?;
+    Ok(file)
+}
+
 #[cfg(test)]
 mod tests {
     use image::Rgba;
@@ -69,6 +96,24 @@ mod tests {
         let pixels = [[1, 2, 3], [250, 251, 252]];
         let file = png(&rgb8(2, 1, pixels)).expect("two pixels");
         assert_eq!(image::load_from_memory(&file).expect("our own PNG").into_rgb8().into_raw(), pixels.as_flattened());
+    }
+
+    #[test]
+    fn notes_stand_in_the_file_and_change_no_pixel() {
+        let image = rgb8(2, 1, [[1, 2, 3], [250, 251, 252]]);
+        let notes = PictureNotes {
+            software: "crossbar".into(),
+            comments: "caf\u{e9}\0 --out x".into(),
+            ..PictureNotes::default()
+        };
+        let file = png_with_notes(&image, &notes).expect("two pixels");
+        assert_eq!(image::load_from_memory(&file).expect("our own PNG").into_rgb8(), image);
+        let reader = ::png::Decoder::new(Cursor::new(&file)).read_info().expect("our own PNG");
+        let text: Vec<String> = reader.info().utf8_text.iter().map(|chunk| chunk.get_text().expect("text")).collect();
+        assert_eq!(text, ["crossbar", "caf\u{e9} --out x"]);
+        let without = png_with_notes(&image, &PictureNotes::default()).expect("two pixels");
+        assert_eq!(without, png(&image).expect("two pixels"), "no notes, no difference");
+        assert!(png_with_notes(&RgbImage::new(0, 0), &notes).is_err());
     }
 
     #[test]

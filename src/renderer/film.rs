@@ -8,7 +8,7 @@ use super::settings::{Lens, RenderError, Settings};
 use super::wave::{Dice, PathRay, Shade, follow};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
-use crate::picture::{self, ChannelUnit, PictureError, RgbImage, Samples};
+use crate::picture::{self, RgbImage};
 use crate::scene::Camera;
 
 /// Linear radiance of each pixel, rows from the top, with what was first hit through its middle.
@@ -32,20 +32,6 @@ pub struct RenderedPicture {
 }
 
 impl RenderedPicture {
-    /// Color in single precision, and of what is first hit `t` (infinite for nothing) and `triangle` (`u32::MAX` for
-    /// nothing).
-    ///
-    /// # Errors
-    /// If the picture has no pixels.
-    pub fn layers(&self) -> Result<picture::Picture, PictureError> {
-        let color: Vec<[f32; 3]> = self.color.iter().map(|color| color.map(|c| c as f32)).collect();
-        let t = self.first.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t)).collect();
-        let triangles = self.first.iter().map(|hit| hit.map_or(u32::MAX, |hit| hit.triangle)).collect();
-        picture::Picture::rgb(self.width, self.height, &color)
-            .with("t", ChannelUnit::RayLength, Samples::Float(t))?
-            .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))
-    }
-
     /// What a screen shows: color times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
     pub fn display(&self, exposure: f64) -> RgbImage {
         let byte = |channel: f64| picture::display::encode(channel * exposure);

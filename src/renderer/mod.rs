@@ -18,6 +18,7 @@ pub mod eye;
 mod film;
 pub mod form_factor;
 pub mod fresnel;
+mod layers;
 mod lights;
 mod lobes;
 pub mod path;
@@ -33,4 +34,5 @@ pub mod whitted;
 
 pub use counting::{RayCounts, RayKind, RenderProgress, WatchProgress};
 pub use film::RenderedPicture;
+pub use layers::layers;
 pub use settings::{Lens, RenderError, Settings};

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use serde_json::{Map, Value, json};
 
-use super::{Chart, Provenance, ReportError, Table};
-use crate::picture::{Picture, RgbImage, exr};
+use super::{Chart, Provenance, Table};
+use crate::picture::{Picture, RgbImage};
 
 /// A file of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -112,7 +112,9 @@ pub struct Findings {
     pub(super) tables: Vec<FoundTable>,
     pub(super) charts: Vec<NamedChart>,
     pub(super) pictures: Vec<NamedPicture>,
+    pub(super) layers: Vec<(String, Picture)>,
     pub(super) files: Vec<NamedFile>,
+    pub(super) world_to_camera: Option<[f32; 16]>,
     fields: Map<String, Value>,
     printed: Vec<String>,
     verdict: Verdict,
@@ -176,12 +178,13 @@ impl Findings {
     }
 
     /// A picture as numbers, written to `NAME.exr`.
-    ///
-    /// # Errors
-    /// If it cannot be encoded.
-    pub fn keep_layers(&mut self, name: &str, picture: &Picture) -> Result<(), ReportError> {
-        self.keep_file(format!("{name}.exr"), exr(picture)?);
-        Ok(())
+    pub fn keep_layers(&mut self, name: impl Into<String>, picture: Picture) {
+        self.layers.push((name.into(), picture));
+    }
+
+    /// The camera of all pictures, for the files of numbers: see [`crate::picture::PictureNotes`].
+    pub const fn taken_from(&mut self, world_to_camera: [f32; 16]) {
+        self.world_to_camera = Some(world_to_camera);
     }
 
     /// A file of its own.

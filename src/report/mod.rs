@@ -6,6 +6,7 @@
 
 mod chart;
 mod excerpt;
+pub mod false_color;
 mod findings;
 mod page;
 mod provenance;
@@ -18,7 +19,7 @@ mod write;
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, NamedChart, NamedFile, NamedPicture, Verdict};
-pub use provenance::Provenance;
+pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
 pub use table::{Cell, Table};
 

@@ -1,6 +1,11 @@
 //! Where a result comes from.
 
+use std::io::{self, Read};
+
 use serde::Serialize;
+use sha2::{Digest as _, Sha256};
+
+use crate::picture::PictureNotes;
 
 /// Everything that it takes to make a result again. No clock and no machine name: the same run writes the same bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -15,6 +20,8 @@ pub struct Provenance {
     pub switches: Vec<(String, String)>,
     /// The seed of random choices, where any were made.
     pub seed: Option<u64>,
+    /// The files that were named on the command line, each with the SHA-256 of its contents.
+    pub inputs: Vec<(String, String)>,
 }
 
 impl Provenance {
@@ -26,19 +33,62 @@ impl Provenance {
             profiles: Vec::new(),
             switches: Vec::new(),
             seed: None,
+            inputs: Vec::new(),
         }
+    }
+
+    /// The provenance as a picture's file says it.
+    pub fn notes(&self) -> PictureNotes {
+        let rows = self.rows().into_iter().filter(|(name, _)| *name != "version");
+        let lines: Vec<String> = rows.map(|(name, value)| format!("{name}: {value}")).collect();
+        let software = format!("crossbar {}", self.version);
+        PictureNotes { software, comments: lines.join("\n"), ..PictureNotes::default() }
     }
 
     /// The block as rows of name and value.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let switches: Vec<String> = self.switches.iter().map(|(name, value)| format!("{name}={value}")).collect();
         let or = |text: String, none: &str| if text.is_empty() { none.to_owned() } else { text };
-        vec![
+        let mut rows = vec![
             ("version", self.version.clone()),
             ("command", self.command.clone()),
             ("profile", or(self.profiles.join(", "), "none")),
             ("switches", or(switches.join(", "), "all at their defaults")),
             ("seed", self.seed.map_or_else(|| "none: nothing is random".to_owned(), |s| s.to_string())),
-        ]
+        ];
+        rows.extend(self.inputs.iter().map(|(path, digest)| ("input", format!("{path}, SHA-256 {digest}"))));
+        rows
+    }
+}
+
+/// The SHA-256 of everything that a reader gives, in hexadecimal.
+///
+/// # Errors
+/// Those of the reader.
+pub fn sha256(mut contents: impl Read) -> io::Result<String> {
+    let (mut digest, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match contents.read(&mut buffer)? {
+            0 => break,
+            read => digest.update(&buffer[..read]),
+        }
+    }
+    Ok(digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The examples of FIPS 180-2.
+    #[test]
+    fn digests_that_are_known() {
+        let known = [
+            ("", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"),
+            ("abc", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"),
+        ];
+        for (text, digest) in known {
+            assert_eq!(sha256(text.as_bytes()).expect("bytes"), digest);
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The one writer of findings: tables, pictures, charts, document and page as files.
 
-use super::findings::{Findings, FoundTable, NamedFile};
+use super::findings::{Findings, FoundTable, NamedFile, NamedPicture};
 use super::{Provenance, ReportError, page};
-use crate::picture::png;
+use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
 impl Findings {
     /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
@@ -11,10 +11,15 @@ impl Findings {
     /// # Errors
     /// If an encoder refuses.
     pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
-        let pngs = self.pictures.iter().map(|found| png(&found.image)).collect::<Result<Vec<_>, _>>()?;
+        let notes = PictureNotes { world_to_camera: self.world_to_camera, ..provenance.notes() };
+        let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);
+        let pngs = self.pictures.iter().map(encoded).collect::<Result<Vec<_>, _>>()?;
         let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
         let page = page::html(self, &pngs, &drawings, provenance);
         let mut files = std::mem::take(&mut self.files);
+        for (name, picture) in std::mem::take(&mut self.layers) {
+            files.push((format!("{name}.exr"), exr_with_notes(&picture, &notes)?));
+        }
         for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
             if let Some(name) = csv {
                 files.push((format!("{name}.csv"), table.csv()?.into_bytes()));

@@ -151,6 +151,17 @@ impl Camera {
         self.up
     }
 
+    /// The matrix that takes points of the scene, as row vectors, to those seen from the camera: x to the right, y up,
+    /// z along the view.
+    pub fn world_to_camera(&self) -> [f32; 16] {
+        let [right, up] = [self.right, self.up].map(|axis| unit(axis).unwrap_or(axis));
+        let (axes, eye) = ([right, up, self.forward], wide(self.eye));
+        let row = |component: usize| axes.map(|axis| axis[component] as f32);
+        let [moved_x, moved_y, moved_z] = axes.map(|axis| -axis.dot(eye) as f32);
+        let ([a, b, c], [d, e, f], [g, h, i]) = (row(0), row(1), row(2));
+        [a, b, c, 0.0, d, e, f, 0.0, g, h, i, 0.0, moved_x, moved_y, moved_z, 1.0]
+    }
+
     fn exact_direction(&self, x: u32, y: u32) -> DVec3 {
         self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
@@ -177,6 +188,17 @@ mod tests {
         assert_eq!(camera.rays().len(), 8);
         assert_eq!(camera.rays()[5], camera.ray(1, 1));
         assert_abs_diff_eq!(wide(camera.unit_direction(2, 0)).length(), 1.0, epsilon = 1e-6);
+    }
+
+    #[test]
+    fn a_point_is_where_the_camera_sees_it() {
+        let camera = Camera::new([1.0, 2.0, 3.0], [1.0, 5.0, 3.0], [0.0, 0.0, 1.0], 0.5, 4, 2).expect("a camera");
+        let matrix = camera.world_to_camera();
+        let seen = |[x, y, z]: [f32; 3]| {
+            [0, 1, 2].map(|k| x * matrix[k] + y * matrix[4 + k] + z * matrix[8 + k] + matrix[12 + k])
+        };
+        assert_eq!(seen([1.0, 2.0, 3.0]), [0.0; 3]);
+        assert_eq!(seen([3.0, 6.0, 3.5]), [2.0, 0.5, 4.0], "right, up, along the view");
     }
 
     #[test]

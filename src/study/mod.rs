@@ -4,6 +4,7 @@
 
 pub mod configuration;
 pub mod leaky_teapot;
+pub mod picture_difference;
 pub mod radiosity;
 pub mod reproduce;
 pub mod shade;

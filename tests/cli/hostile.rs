@@ -33,6 +33,10 @@ const COMMANDS: &[(&str, &str)] = &[
          --right-switch --step-budget --pixel",
     ),
     ("devices nowhere", "--probe"),
+    (
+        "diff nowhere.png nowhere.exr",
+        "--channel --exposure --ppd --scale --max-rmse --max-error --max-flip --min-ssim --out",
+    ),
     ("intersect --mesh nowhere.obj", "--mesh --rays --sides --device --executor --adapter --caster --out"),
     (
         "leaky-teapot --device nowhere",

@@ -7,6 +7,7 @@ mod check;
 mod commands;
 mod compare;
 mod devices;
+mod diff;
 mod examples;
 mod help;
 mod hostile;

@@ -4,6 +4,8 @@
 use std::fs;
 use std::path::Path;
 
+use crossbar::picture::{RgbImage, png};
+
 use crate::{crossbar_in, start};
 
 /// Commands whose work is large, each with an input that it finds in [`inputs`].
@@ -21,6 +23,7 @@ const LARGE: &[&[&str]] = &[
     &["run", "large.toml"],
     &["compare", "large.toml"],
     &["timeline", "large.toml", "--device", "r300"],
+    &["diff", "large.png", "large.png"],
     &["intersect", "--mesh", "square.obj", "--rays", "many.csv", "--out", "h.csv"],
     &["intersect", "--mesh", "large.obj", "--rays", "few.csv", "--out", "h.csv"],
 ];
@@ -44,6 +47,10 @@ fn inputs() -> tempfile::TempDir {
     put("medium.toml", medium.as_bytes());
     let faces: String = (1..99_999).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
     put("medium.obj", format!("{}{faces}", "v 0.125 0.25 0.5\n".repeat(100_001)).as_bytes());
+    let picture = |side: u32| png(&RgbImage::new(side, side)).expect("a file");
+    put("small.png", &picture(64));
+    put("medium.png", &picture(512));
+    put("large.png", &picture(2048));
     put("large.obj", &b"v 0.0000000 0.0000000 0.0000000\n".repeat(500_000));
     folder
 }
@@ -153,6 +160,7 @@ fn what_is_said_is_what_is_taken() {
             "800",
         ),
         sized("run SIZE.toml --executor batch", "small", "medium"),
+        sized("diff SIZE.png SIZE.png --out maps", "small", "medium"),
         sized("intersect --mesh square.obj --rays SIZE.csv --out h.csv", "few", "many"),
         sized("intersect --mesh SIZE.obj --rays few.csv --out h.csv", "square", "medium"),
     ];

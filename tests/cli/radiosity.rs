@@ -31,7 +31,11 @@ fn what_it_says_and_writes() {
     written.sort();
     insta::assert_snapshot!("radiosity_files", written.join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/radiosity/index.html")).expect("a page");
-    assert_eq!(page.matches("<img").count(), 6 * 2 + 6 + 2, "two pictures a way, one relit, two frames");
+    assert_eq!(
+        page.matches("<img").count(),
+        6 * 2 + 6 + 4 + 2,
+        "two pictures a way, one relit, one error on a card, two frames"
+    );
 }
 
 /// A second run with fewer pictures leaves none of the first one's, and all that is the user's.

@@ -10,6 +10,7 @@ mod engine;
 mod engine_devices;
 mod engine_modes;
 mod geometry;
+mod gltf;
 mod ground_truth;
 mod light;
 mod logs;

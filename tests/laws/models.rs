@@ -128,5 +128,5 @@ fn every_bad_model_is_refused() {
         assert!(load_mesh(&path).is_err(), "{}", path.display());
         seen += 1;
     }
-    assert_eq!(seen, 6);
+    assert_eq!(seen, 7);
 }

@@ -25,14 +25,14 @@ Examples:
 
 Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, with --sweep \
 sweep.csv and sweep.svg, pictures of every method \
-(NAME-flat.png, NAME-smooth.png) and of --frames; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
+(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --frames; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
 chrome://tracing. docs/papers/radiosity.md explains all of it.";
 
 /// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: see `crossbar scene`
+    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), or a scene of the project: see `crossbar scene`
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 

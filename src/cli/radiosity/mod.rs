@@ -18,8 +18,12 @@ impl StudyArgs for Args {
     type Study = Parameters;
     const COMMAND: &'static str = "radiosity";
 
-    fn folder(&self) -> &Path {
-        &self.out
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        scene_name::named_file(&self.scene)
     }
 
     /// What the matrices of so many patches take, and the pictures of every method.

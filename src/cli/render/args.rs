@@ -15,23 +15,24 @@ use crate::renderer::Lens;
 const EXAMPLES: &str = "\
 Examples:
   crossbar render docs/examples/teapot.obj --out out/teapot
-      picture.png (shaded) and layers.exr (t and triangle of each pixel), framed by itself, in exact arithmetic
+      picture.png (shaded), layers.exr (depth and triangle of each pixel), framed by itself, in exact arithmetic;
+      index.html shows the picture and says how it was made
   crossbar render docs/examples/teapot.obj --device r200 --size 256x256 --eye 0,-10,4 --target 0,0,1 --out out/leaky
       the same on a Radeon 8500
   crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out out/room
-      a scene of the project by path tracing: also colour in layers.exr
+      a scene of the project by path tracing: also colour, normals and albedo in layers.exr
   crossbar render teapot-room --caster engine --device r300 --executor batch
       after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
 
-/// Make a picture of a mesh or a scene: picture.png, and t and triangle of each pixel
+/// Make a picture of a mesh or a scene: picture.png, and depth and triangle of each pixel
 ///
-/// An OBJ or PLY file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from a
-/// scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
+/// An OBJ, PLY or glTF file is shown by its eye rays, as exact arithmetic or a card finds them. A scene by name or from
+/// a scene file, or anything with `--renderer`, is lit: first hits come from the host's octree or from the Ray Engine.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ or PLY file, a scene file (.toml), or a scene of the project: cornell-box, office, office-floor,
-    /// teapot-room, white-box
+    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), or a scene of the project: cornell-box, office,
+    /// office-floor, teapot-room, white-box
     #[arg(value_name = "SCENE")]
     pub(super) scene: PathBuf,
 
@@ -57,7 +58,7 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) gpu: GpuArgs,
 
-    /// Folder for picture.png and layers.exr
+    /// Folder for picture.png, layers.exr and index.html
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     pub(super) out: PathBuf,
 
@@ -82,6 +83,19 @@ pub(super) enum Renderer {
     Path,
     /// All light, by photon maps and final gather
     Photon,
+}
+
+impl Renderer {
+    /// What a picture by it is called.
+    pub(super) const fn title(self) -> &'static str {
+        match self {
+            Self::Eye => "Eye rays with a lamp at the eye",
+            Self::Whitted => "Ray tracing after Whitted",
+            Self::Distributed => "Distributed ray tracing",
+            Self::Path => "Path tracing",
+            Self::Photon => "Photon mapping",
+        }
+    }
 }
 
 #[derive(Debug, clap::Args)]

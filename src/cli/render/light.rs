@@ -8,23 +8,25 @@ use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::args::{Args, Renderer, SMALLER};
+use super::page::page;
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, view};
+use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
-use crate::picture::{exr, png};
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
-use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, path, whitted};
-use crate::report::Verdict;
+use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
+use crate::report::{FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
-pub(super) fn run(args: &Args, asked: &LitScene, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
+    let device =
+        (caster == CasterArg::Engine).then(|| args.device.clone().unwrap_or_else(|| view::DEFAULT_DEVICE.to_owned()));
     let caster = caster.choose(args.device.as_deref(), args.executor, &args.gpu)?;
     let camera = camera(args, &asked.scene)?;
     require_memory(args, renderer, &asked.scene)?;
@@ -33,16 +35,30 @@ pub(super) fn run(args: &Args, asked: &LitScene, out: &mut Out) -> miette::Resul
     let mut caster = caster.build(asked.scene.mesh(), Sides::from(args.sides))?;
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
-    let shown = picture.display(args.light.exposure);
-    let files = [("picture.png".to_owned(), png(&shown)?), ("layers.exr".to_owned(), exr(&picture.layers()?)?)];
-    view::write_folder(folder, &files)?;
+    let numbers = layers(&picture, &asked.scene, &camera)?;
+    let caption = format!("{}, times {}, with the sRGB curve", renderer.title(), args.light.exposure);
+    let mut findings = page(args, &camera, picture.display(args.light.exposure), numbers, &caption);
+    findings.table(FoundTable::from(rays(&picture)).field("rays"));
+    let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
+    provenance.seed = Some(args.light.seed);
+    provenance.profiles.extend(device);
+    view::write_folder(folder, &findings.take_files(&provenance)?)?;
     tell(args, &picture, engine.as_ref(), out)?;
     Ok(Verdict::Done)
 }
 
+/// The rays that were cast, kind by kind.
+fn rays(picture: &RenderedPicture) -> Table {
+    let mut table = Table::of("Rays", "kind rays");
+    for (kind, count) in picture.counts.kinds().into_iter().filter(|kind| kind.1 > 0) {
+        table.push([kind.into(), count.into()]);
+    }
+    table
+}
+
 /// What the picture, its files and the photons take.
 fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
-    const PER_PIXEL: u64 = 250;
+    const PER_PIXEL: u64 = 400;
     const PER_PHOTON: u64 = 450;
     let photons = match renderer {
         Renderer::Photon => {

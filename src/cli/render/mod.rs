@@ -1,7 +1,8 @@
-//! `crossbar render`: an OBJ or PLY by eye rays on a card, and scenes by the host renderers.
+//! `crossbar render`: an OBJ, PLY or glTF file by eye rays on a card, and scenes by the host renderers.
 
 mod args;
 mod light;
+mod page;
 mod scene;
 
 use miette::IntoDiagnostic as _;
@@ -9,26 +10,27 @@ use refsim::device::Profile;
 
 use super::executor::Decider;
 use super::size::Size;
-use super::{Out, Problem, memory, view};
+use super::{Out, Problem, memory, scene_name, study, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
 use crate::io::load_mesh;
-use crate::picture::{ChannelUnit, Picture, Samples, exr, png};
+use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::Verdict;
+use crate::report::{Provenance, Verdict};
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
 use args::SMALLER;
+use page::page;
 
 pub(super) use args::Args;
 
 /// Bytes per pixel of a picture by eye rays: rays, hits, layers and the files of them.
-const PER_PIXEL: u64 = 160;
+const PER_PIXEL: u64 = 200;
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(asked) = scene::lit(args)? {
-        return light::run(args, &asked, out);
+        return light::run(args, &asked, command_line, out);
     }
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     view::require_mesh(&args.scene)?;
@@ -38,11 +40,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let need = memory::of_pixels(width, height, PER_PIXEL, 0);
     memory::require(format_args!("a picture of {} pixels", args.size), need, SMALLER)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let sides = Sides::from(args.sides);
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
         None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), sides),
         Some(kind) => {
+            provenance.profiles.push(profile.name.clone());
             let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, sides)?;
             answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()
         }
@@ -51,14 +55,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let picture = TeapotShader::new(&mesh).picture(&rays, &triangles);
     let t = hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.1)).collect();
     let ids = triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
-    let layers = Picture::new(width, height).with("t", ChannelUnit::RayLength, Samples::Float(t))?.with(
+    let layers = Picture::new(width, height).with("Z", ChannelUnit::RayLength, Samples::Float(t))?.with(
         "triangle",
         ChannelUnit::Id,
         Samples::Uint(ids),
     )?;
-    let files = [("picture.png".to_owned(), png(&picture)?), ("layers.exr".to_owned(), exr(&layers)?)];
-    view::write_folder(folder, &files)?;
     let found = hits.iter().flatten().count();
+    let mut findings = page(args, &camera, picture, layers, "shaded by a lamp at the eye");
+    findings.paragraph(format!("{found} of {} pixels hit.", hits.len()));
+    view::write_folder(folder, &findings.take_files(&provenance)?)?;
     if out.json() {
         out.document(&serde_json::json!({ "pixels": hits.len(), "hits": found, "out": args.out }))?;
     } else {

@@ -135,7 +135,7 @@ impl SceneReader {
 }
 
 /// The scene of a mesh that names no material, with the normals of its vertices.
-pub(super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
+pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
     let normals = mesh.normals().map_or_else(Vec::new, |normals| {
         let corner = |&index: &u32| of_length_one(normals[index as usize]);
         let flat_where_unknown = |fan: [[f32; 3]; 3]| if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan };

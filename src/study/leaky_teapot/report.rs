@@ -124,9 +124,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
             found.keep_picture(format!("{}-map", same.configuration.label), same.map.clone());
         }
     }
-    found.keep_layers("exact", &layers(parameters, outcome.exact_t, outcome.exact_triangle)?)?;
+    found.keep_layers("exact", layers(parameters, outcome.exact_t, outcome.exact_triangle)?);
     for row in outcome.rows {
-        found.keep_layers(&row.configuration.label, &layers(parameters, row.t, row.triangle)?)?;
+        found.keep_layers(&row.configuration.label, layers(parameters, row.t, row.triangle)?);
     }
     found.paragraph(format!(
         "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {} eye rays and {} triangles, in \

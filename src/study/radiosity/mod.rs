@@ -79,6 +79,9 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     });
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
+    if let Some(truth) = &truth {
+        studio.compare_with(truth)?;
+    }
     let (mut rows, ways) = (Vec::new(), solved.len() as u64);
     for one in solved {
         progress(&format!("drawing: {}", one.way.label(&parameters.profile)), rows.len() as u64, ways);

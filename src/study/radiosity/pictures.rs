@@ -7,7 +7,8 @@ use refsim::texture::TexelFormat;
 use super::solve::Solved;
 use super::time::CardFacts;
 use super::{Parameters, RadiosityError, SolveMethod, time};
-use crate::picture::RgbImage;
+use crate::picture::metrics::relative_luminance_differences;
+use crate::picture::{Picture, RgbImage};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
 
@@ -20,7 +21,7 @@ const OPTIONS: DisplayOptions =
     DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
 
 /// Pictures of a solution.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pictures {
     /// Each patch in its radiosity.
     pub flat: RgbImage,
@@ -28,6 +29,9 @@ pub struct Pictures {
     pub smooth: RgbImage,
     /// After the changes, interpolated.
     pub relit: Option<RgbImage>,
+    /// Of a solution on the card, the luminance of each patch minus that of the direct solution, as a share of the
+    /// latter, per pixel.
+    pub error: Option<Vec<f64>>,
 }
 
 /// The room after some iterations on the card.
@@ -59,19 +63,26 @@ pub(super) struct PictureRenderer<'a> {
     exposure: f64,
     machine: Machine,
     display: Display,
+    /// The direct solution, each patch in its radiosity.
+    truth: Option<Picture>,
 }
 
 impl<'a> PictureRenderer<'a> {
     pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, RadiosityError> {
         let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
-        Ok(Self { patches, parameters, exposure, machine, display })
+        Ok(Self { patches, parameters, exposure, machine, display, truth: None })
     }
 
-    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, RadiosityError> {
+    /// From now on, solutions on a card are compared with this one.
+    pub(super) fn compare_with(&mut self, truth: &[[f64; 3]]) -> Result<(), RadiosityError> {
+        self.truth = Some(self.flat(truth)?);
+        Ok(())
+    }
+
+    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Picture, RadiosityError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
-        let picture = self.display.flat(&mut self.machine, texture, self.exposure)?;
-        Ok(picture.display(1.0)?)
+        Ok(self.display.flat(&mut self.machine, texture, self.exposure)?)
     }
 
     fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, RadiosityError> {
@@ -88,15 +99,15 @@ impl<'a> PictureRenderer<'a> {
     ) -> Result<(Pictures, Option<CardFacts>), RadiosityError> {
         let relit = solved.relit.as_ref().map(|relit| self.smooth(&relit.radiosity)).transpose()?;
         let Some(card) = &mut solved.card else {
-            let (flat, smooth) = (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?);
-            return Ok((Pictures { flat, smooth, relit }, None));
+            let (flat, smooth) = (self.flat(&solved.radiosity)?.display(1.0)?, self.smooth(&solved.radiosity)?);
+            return Ok((Pictures { flat, smooth, relit, error: None }, None));
         };
         let (flat, smooth) = match card.radiosity_textures()[..] {
             [all] => {
                 let display = Display::new(card.machine_mut(), self.patches, &self.parameters.camera, OPTIONS)?;
                 let flat = display.flat(card.machine_mut(), all, self.exposure)?;
                 let smooth = display.smooth(card.machine_mut(), all, self.exposure)?;
-                (flat.display(1.0)?, smooth.display(1.0)?)
+                (flat, smooth.display(1.0)?)
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
@@ -104,14 +115,15 @@ impl<'a> PictureRenderer<'a> {
             SolveMethod::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
             SolveMethod::Host(_) => None,
         };
-        Ok((Pictures { flat, smooth, relit }, facts))
+        let error = self.truth.as_ref().map(|truth| relative_luminance_differences(truth, &flat)).transpose()?;
+        Ok((Pictures { flat: flat.display(1.0)?, smooth, relit, error }, facts))
     }
 
     /// The room after the iterations that were kept.
     pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, RadiosityError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {
-            Ok(IterationPicture { iteration: *iteration, flat: self.flat(radiosity)? })
+            Ok(IterationPicture { iteration: *iteration, flat: self.flat(radiosity)?.display(1.0)? })
         };
         first.kept.iter().map(frame).collect()
     }

@@ -5,7 +5,9 @@ use refsim::timing::{Level, Model, TimingError};
 
 use super::tables::{Tables, digits, tables};
 use super::{IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
-use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table};
+use crate::report::{
+    Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table, false_color,
+};
 use crate::study::timeline_trace::trace;
 
 pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, RadiosityError> {
@@ -23,6 +25,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     ));
     let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
+    let errors = errors(parameters, &outcome);
     let (mut pictures, mut relit_pictures) = (Vec::new(), Vec::new());
     for row in outcome.rows {
         let (label, drawn) = (row.label, row.pictures);
@@ -37,6 +40,11 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     found.table(FoundTable::from(room).field("room"));
     found.heading("The room");
     found.pictures(pictures);
+    if !errors.is_empty() {
+        found.heading("Darker and brighter than the direct solution");
+        found.pictures(errors);
+        found.paragraph(ERRORS);
+    }
     if !frames.is_empty() {
         found.heading("Iteration by iteration");
         found.pictures(frames);
@@ -63,6 +71,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     Ok(found)
 }
 
+const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures, which the bar below each \
+    shows. docs/studies/radiosity.md says why half precision darkens a room.";
+
 const ENDS: &str = "An iteration in finitely many bits that never meets its tolerance comes back to a state that it was in before, and goes \
     round from there on. States are compared bit for bit; the period is the smallest.";
 
@@ -71,6 +82,24 @@ const ON_THE_CARD: &str = "Operations are counted as the paper does: two an elem
 
 const SWEEP: &str = "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
     predicted_mean is what follows to first order from rounding every term of a sum to the sum's own step.";
+
+/// Each solution on the card against the direct one, in false colors of one scale.
+fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
+    let errors = || outcome.rows.iter().filter_map(|row| Some((row.label.as_str(), row.pictures.error.as_ref()?)));
+    let finite = errors().flat_map(|(_, error)| error).filter(|error| error.is_finite());
+    let scale = finite.fold(0.0, |most: f64, error| most.max(error.abs()));
+    if scale == 0.0 {
+        return Vec::new();
+    }
+    let ends = digits(100.0 * scale, 2).text();
+    let scale = ends.parse::<f64>().map_or(scale, |ends| ends / 100.0);
+    let picture = |(label, error): (&str, &Vec<f64>)| {
+        let caption = format!("{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter)");
+        let image = false_color::signed(parameters.camera.width(), error, scale);
+        NamedPicture::new(format!("{label}-error"), image, caption)
+    };
+    errors().map(picture).collect()
+}
 
 /// The room after some iterations, as a picture.
 fn frame(frame: IterationPicture) -> NamedPicture {

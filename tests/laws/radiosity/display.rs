@@ -105,6 +105,24 @@ fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
     }
 }
 
+/// The ceiling has corners where the walls have none, at their common side. Such a side is drawn with these corners in
+/// it; drawn as one line, it would leave two black pixels at 192 x 192.
+#[test]
+fn a_closed_room_shows_a_patch_in_every_pixel() {
+    for blocks in [false, true] {
+        let scene = rooms::cornell(CornellBox { blocks, open: false });
+        let patches = Patches::new(&scene, Subdivision::AtMost(1000)).expect("patches");
+        for size in [[192, 192], [256, 256], [101, 67]] {
+            let camera = scene.views[0].camera(size[0], size[1]).expect("a camera");
+            let mut machine = card("nv35");
+            let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
+            let ids = display.ids(&mut machine).expect("ids");
+            let cracks: Vec<usize> = (0..ids.len()).filter(|&pixel| ids[pixel].is_none()).collect();
+            assert_eq!(cracks, [0_usize; 0], "blocks: {blocks}, {size:?}");
+        }
+    }
+}
+
 #[test]
 fn a_smooth_picture_is_what_the_host_interpolates() {
     let scene = rooms::furnace(0.5);

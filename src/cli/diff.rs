@@ -1,0 +1,144 @@
+//! `crossbar diff`: how far two pictures are from each other.
+
+use std::path::{Path, PathBuf};
+
+use super::memory::{self, MemoryNeed};
+use super::number;
+use super::study::{self, StudyArgs};
+use super::{Out, Problem};
+use crate::io::load_picture;
+use crate::picture::metrics::{DEFAULT_PPD, MAX_PPD, MIN_PPD};
+use crate::report::Verdict;
+use crate::study::picture_difference::{DifferenceBounds, PictureDifference, PictureInput};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar diff docs/examples/exact.png docs/examples/leaky.png       # exit code 1
+      each channel's root mean square and largest difference and where that is, SSIM, FLIP
+  crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --out out/changes      # exit code 1
+      what brightened and what darkened, in false colours; the differences as numbers in difference.exr
+  crossbar diff docs/examples/smooth.exr docs/examples/rough.exr --channel R --exposure 2 --max-flip 0.5
+      a check: is FLIP at most 0.5 in the mean, twice as bright as the files say?
+
+Channels are compared as the files have them; where one picture is encoded for a screen (PNG) and \
+the other linear (EXR, HDR), the former is decoded. NaN equals NaN. SSIM and FLIP compare what a \
+screen shows of both pictures.
+Written to --out: index.html (self-contained), difference.png, flip.png, first.png, second.png, \
+difference.exr, channels.csv, study.json. docs/diff.md says what each figure means.
+
+Exit codes: 0 the pictures are equal, or within all bounds that are given; 1 they are not; 2 they cannot be compared.";
+
+/// Compare two pictures (PNG, EXR, HDR): in numbers, and as people see them
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// The first picture
+    #[arg(value_name = "A")]
+    first: PathBuf,
+
+    /// The second picture; differences are this one minus the first
+    #[arg(value_name = "B")]
+    second: PathBuf,
+
+    /// Compare only this channel; may be given several times [default: all, which both pictures must have]
+    #[arg(long, value_name = "NAME")]
+    channel: Vec<String>,
+
+    /// For SSIM, FLIP and the pictures: what linear light is multiplied by before a screen shows it; 1 is white
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
+    exposure: f64,
+
+    /// For FLIP: pixels per degree that the observer sees, 1 to 1000 [default: 67.02, from 0.7 m in front of a screen
+    /// 0.7 m wide with 3840 pixels across]
+    #[arg(long, value_name = "N", value_parser = ppd)]
+    ppd: Option<f64>,
+
+    /// The difference at the ends of the false colors [default: what one in a hundred of the pixels that differ
+    /// exceeds]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    scale: Option<f64>,
+
+    /// The most that any channel's root mean square difference may be
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    max_rmse: Option<f64>,
+
+    /// The most that any sample may differ by
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    max_error: Option<f64>,
+
+    /// The most that FLIP may be in the mean
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    max_flip: Option<f64>,
+
+    /// The least that SSIM may be
+    #[arg(long, value_name = "X", value_parser = number::finite)]
+    min_ssim: Option<f64>,
+
+    /// Write maps, page and tables to this folder [default: write nothing]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn ppd(text: &str) -> Result<f64, String> {
+    let number = number::finite(text)?;
+    let fits = (MIN_PPD..=MAX_PPD).contains(&number);
+    if fits { Ok(number) } else { Err(format!("expected {MIN_PPD} to {MAX_PPD} pixels per degree, found `{text}`")) }
+}
+
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    out.outlive_reader();
+    study::run(args, command_line, out)
+}
+
+impl StudyArgs for Args {
+    type Study = PictureDifference;
+
+    const COMMAND: &'static str = "diff";
+
+    fn folder(&self) -> Option<&Path> {
+        self.out.as_deref()
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        vec![&self.first, &self.second]
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        // Their sizes stand in the files.
+        Ok(None)
+    }
+
+    fn study(&self) -> miette::Result<PictureDifference> {
+        let read = |path: &Path| -> miette::Result<PictureInput> {
+            Ok(PictureInput { name: path.display().to_string(), picture: load_picture(path)? })
+        };
+        let pictures = [read(&self.first)?, read(&self.second)?];
+        require_memory(&pictures)?;
+        let bounds =
+            DifferenceBounds { rmse: self.max_rmse, maximum: self.max_error, flip: self.max_flip, ssim: self.min_ssim };
+        let ppd = self.ppd.unwrap_or(DEFAULT_PPD);
+        let (exposure, scale) = (self.exposure, self.scale);
+        Ok(PictureDifference {
+            pictures,
+            channels: self.channel.clone(),
+            exposure,
+            ppd,
+            scale,
+            bounds,
+            maps: self.out.is_some(),
+        })
+    }
+}
+
+/// What comparing takes, beyond the pictures that are there already.
+fn require_memory(pictures: &[PictureInput; 2]) -> Result<(), Problem> {
+    /// Colors, what the eye makes of them, and the maps.
+    const PER_PIXEL: u64 = 400;
+    const PER_SAMPLE: u64 = 16;
+    let picture = &pictures[0].picture;
+    let (width, height) = (picture.width(), picture.height());
+    let per_pixel = PER_PIXEL + PER_SAMPLE * picture.channels().len() as u64;
+    let need = memory::of_pixels(width, height, per_pixel, 0);
+    let what = format_args!("comparing pictures of {width}x{height} pixels");
+    Ok(memory::require(what, need, "compare smaller pictures")?)
+}

@@ -1,0 +1,63 @@
+//! What is read of glTF's materials: the base color as a diffuse reflectance, and what is emitted.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use gltf::Document;
+
+use super::super::error::ModelError;
+use crate::scene::Material;
+
+/// What a primitive is made of that names no material.
+const DEFAULT: &str = "default";
+/// Its reflectance.
+const GREY: f32 = 0.5;
+
+/// The materials of a file, by their places in it.
+pub(super) struct Materials {
+    pub(super) list: Vec<Material>,
+    grey: Option<u32>,
+}
+
+impl Materials {
+    /// Reads them. Their names are those of the file, without white space, each once.
+    pub(super) fn of(document: &Document, name: &Path) -> Result<Self, ModelError> {
+        let (mut list, mut names) = (Vec::new(), BTreeSet::from([DEFAULT.to_owned()]));
+        for (index, material) in document.materials().enumerate() {
+            let mut plain: String = material.name().unwrap_or_default().to_owned();
+            plain = plain.replace(|c: char| c.is_whitespace() || c.is_control() || matches!(c, '#' | '\\'), "_");
+            if plain.is_empty() || !names.insert(plain.clone()) {
+                plain = format!("{plain}_{index}");
+                names.insert(plain.clone());
+            }
+            let wrong = |expected: &'static str, [r, g, b]: [f32; 3]| ModelError::Material {
+                place: name.into(),
+                name: plain.chars().take(80).collect(),
+                expected,
+                found: format!("{r} {g} {b}"),
+            };
+            let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor();
+            if [r, g, b].iter().any(|channel| !(0.0..=1.0).contains(channel)) {
+                return Err(wrong("a base color within [0, 1]", [r, g, b]));
+            }
+            let strength = material.emissive_strength().unwrap_or(1.0);
+            let emission = material.emissive_factor().map(|channel| channel * strength);
+            if emission.iter().any(|channel| !(0.0..=f32::MAX).contains(channel)) {
+                return Err(wrong("a finite emission of at least 0", emission));
+            }
+            list.push(Material { emission, ..Material::diffuse(plain, [r, g, b]) });
+        }
+        Ok(Self { list, grey: None })
+    }
+
+    /// The place of a primitive's material.
+    pub(super) fn place(&mut self, material: Option<usize>) -> u32 {
+        match material {
+            Some(index) => index as u32,
+            None => *self.grey.get_or_insert_with(|| {
+                self.list.push(Material::diffuse(DEFAULT, [GREY; 3]));
+                self.list.len() as u32 - 1
+            }),
+        }
+    }
+}

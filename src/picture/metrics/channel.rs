@@ -1,0 +1,244 @@
+//! Differences of samples, channel by channel.
+
+use super::super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
+use super::super::display;
+
+/// Two pictures that have no samples to compare.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MismatchError {
+    /// The sizes differ.
+    #[error("expected two pictures of one size, found {}x{} and {}x{}", left[0], left[1], right[0], right[1])]
+    #[diagnostic(code(crossbar::picture::mismatch))]
+    Size { left: [u32; 2], right: [u32; 2] },
+    /// One picture has a channel that the other has not.
+    #[error("expected the same channels in both pictures, found {left} and {right}")]
+    #[diagnostic(code(crossbar::picture::mismatch), help("name those that both have with `--channel`"))]
+    Channels { left: String, right: String },
+    /// A channel that was asked for is in neither or only one.
+    #[error("expected a channel `{name}` in both pictures, found {left} and {right}")]
+    #[diagnostic(code(crossbar::picture::mismatch))]
+    NoChannel { name: String, left: String, right: String },
+    /// A channel holds floats here and whole numbers there.
+    #[error("expected samples of one type in channel `{name}`, found floats and whole numbers")]
+    #[diagnostic(code(crossbar::picture::mismatch))]
+    Type { name: String },
+}
+
+/// Where two channels differ most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstSample {
+    /// Pixels from the left.
+    pub x: u32,
+    /// Pixels from the top.
+    pub y: u32,
+    /// The sample of the first picture.
+    pub left: f64,
+    /// The sample of the second.
+    pub right: f64,
+}
+
+/// How two channels of a name differ. NaN equals NaN here, and both zeros are equal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelDifference {
+    /// The name.
+    pub name: String,
+    /// Whether the samples are whole numbers: ids, of which only equality counts.
+    pub whole: bool,
+    /// Samples that differ.
+    pub differing: u64,
+    /// NaN samples of each picture.
+    pub nan: [u64; 2],
+    /// Samples that differ and of which at least one is not finite.
+    pub not_finite: u64,
+    /// Root of the mean squared difference, over samples that are finite in both.
+    pub rmse: f64,
+    /// Mean of second minus first, over the same samples.
+    pub mean: f64,
+    /// The largest absolute difference; infinite if one of two differing samples is not finite.
+    pub maximum: f64,
+    /// Where that is, the first such place from the top; `None` if the channels are equal.
+    pub worst: Option<WorstSample>,
+}
+
+/// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. Where
+/// one side is encoded for a screen and the other linear, the former is decoded.
+///
+/// # Errors
+/// [`MismatchError`] if the pictures have no samples to compare.
+pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, MismatchError> {
+    let pairs = pairs(left, right, names)?;
+    Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
+}
+
+/// Second minus first, sample by sample: of floats the difference, of whole numbers 1 where they differ, else 0.
+///
+/// # Errors
+/// [`MismatchError`], as [`channels`].
+pub fn signed_differences(
+    left: &Picture,
+    right: &Picture,
+    names: &[String],
+) -> Result<Vec<(String, Vec<f32>)>, MismatchError> {
+    let signed = |pair: ChannelPair<'_>| {
+        let of = |[a, b]: [f64; 2]| match pair.whole() {
+            true => f32::from(u8::from(a != b)),
+            false if equal([a, b]) => 0.0,
+            false => (b - a) as f32,
+        };
+        (pair.left.name.clone(), (0..pair.left.samples.len()).map(|i| of(pair.samples(i))).collect())
+    };
+    Ok(pairs(left, right, names)?.into_iter().map(signed).collect())
+}
+
+/// Channels of one name.
+#[derive(Clone, Copy)]
+struct ChannelPair<'a> {
+    left: &'a PictureChannel,
+    right: &'a PictureChannel,
+}
+
+impl ChannelPair<'_> {
+    fn whole(&self) -> bool {
+        matches!(self.left.samples, Samples::Uint(_))
+    }
+
+    fn samples(&self, index: usize) -> [f64; 2] {
+        let mixed = self.left.unit != self.right.unit;
+        [self.left, self.right].map(|channel| match &channel.samples {
+            Samples::Float(samples) if mixed && channel.unit == ChannelUnit::Srgb => {
+                display::decode(f64::from(samples[index]))
+            }
+            Samples::Float(samples) => f64::from(samples[index]),
+            Samples::Uint(samples) => f64::from(samples[index]),
+        })
+    }
+}
+
+fn equal([a, b]: [f64; 2]) -> bool {
+    a == b || (a.is_nan() && b.is_nan())
+}
+
+fn pairs<'a>(left: &'a Picture, right: &'a Picture, names: &[String]) -> Result<Vec<ChannelPair<'a>>, MismatchError> {
+    let [here, there] = [left, right].map(|picture| [picture.width(), picture.height()]);
+    if here != there {
+        return Err(MismatchError::Size { left: here, right: there });
+    }
+    let list = |picture: &Picture| {
+        picture.channels().iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let find = |picture: &'a Picture, name: &str| picture.channels().iter().find(|channel| channel.name == name);
+    let asked: Vec<&str> = match names {
+        [] if left.channels().len() != right.channels().len() => {
+            return Err(MismatchError::Channels { left: list(left), right: list(right) });
+        }
+        [] => left.channels().iter().map(|channel| channel.name.as_str()).collect(),
+        names => names.iter().map(String::as_str).collect(),
+    };
+    let pair = |name: &str| match (find(left, name), find(right, name)) {
+        (Some(left), Some(right))
+            if matches!(left.samples, Samples::Uint(_)) != matches!(right.samples, Samples::Uint(_)) =>
+        {
+            Err(MismatchError::Type { name: name.to_owned() })
+        }
+        (Some(left), Some(right)) => Ok(ChannelPair { left, right }),
+        _ if names.is_empty() => Err(MismatchError::Channels { left: list(left), right: list(right) }),
+        _ => Err(MismatchError::NoChannel { name: name.to_owned(), left: list(left), right: list(right) }),
+    };
+    asked.into_iter().map(pair).collect()
+}
+
+fn difference(pair: ChannelPair<'_>, width: u32) -> ChannelDifference {
+    let mut found = ChannelDifference {
+        name: pair.left.name.clone(),
+        whole: pair.whole(),
+        differing: 0,
+        nan: [0; 2],
+        not_finite: 0,
+        rmse: 0.0,
+        mean: 0.0,
+        maximum: 0.0,
+        worst: None,
+    };
+    let (mut sum, mut squares, mut counted) = (0.0, 0.0, 0_u64);
+    for index in 0..pair.left.samples.len() {
+        let [a, b] = pair.samples(index);
+        found.nan[0] += u64::from(a.is_nan());
+        found.nan[1] += u64::from(b.is_nan());
+        let finite = a.is_finite() && b.is_finite();
+        if finite {
+            counted += 1;
+            sum += b - a;
+            squares += (b - a) * (b - a);
+        }
+        if equal([a, b]) {
+            continue;
+        }
+        found.differing += 1;
+        found.not_finite += u64::from(!finite);
+        let off = match (finite, found.whole) {
+            (false, _) => f64::INFINITY,
+            (true, true) => 1.0,
+            (true, false) => (b - a).abs(),
+        };
+        if off > found.maximum {
+            let (x, y) = ((index % width as usize) as u32, (index / width as usize) as u32);
+            (found.maximum, found.worst) = (off, Some(WorstSample { x, y, left: a, right: b }));
+        }
+    }
+    if counted > 0 {
+        (found.mean, found.rmse) = (sum / counted as f64, (squares / counted as f64).sqrt());
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn floats(name: &str, samples: &[f32]) -> Picture {
+        let samples = Samples::Float(samples.to_vec());
+        Picture::new(2, 2).with(name, ChannelUnit::Unknown, samples).expect("four samples")
+    }
+
+    #[test]
+    fn figures_of_a_difference_that_is_known() {
+        let (left, right) = (floats("Y", &[0.0, 1.0, 2.0, 3.0]), floats("Y", &[-0.0, 1.5, 2.0, 1.0]));
+        let [found] = &channels(&left, &right, &[]).expect("one channel")[..] else { panic!("one channel") };
+        assert_eq!((found.differing, found.maximum, found.mean), (2, 2.0, -0.375));
+        assert_eq!(found.rmse, (4.25_f64 / 4.0).sqrt());
+        assert_eq!(found.worst, Some(WorstSample { x: 1, y: 1, left: 3.0, right: 1.0 }));
+    }
+
+    #[test]
+    fn nan_equals_nan_and_differs_from_all_else() {
+        let nan = f32::NAN;
+        let (left, right) =
+            (floats("t", &[nan, nan, 1.0, f32::INFINITY]), floats("t", &[nan, 1.0, 1.0, f32::INFINITY]));
+        let found = &channels(&left, &right, &[]).expect("one channel")[0];
+        assert_eq!((found.differing, found.nan, found.not_finite), (1, [2, 1], 1));
+        assert_eq!((found.maximum, found.rmse), (f64::INFINITY, 0.0));
+        assert_eq!(found.worst.map(|worst| (worst.x, worst.y)), Some((1, 0)));
+        assert_eq!(channels(&left, &left, &[]).expect("one channel")[0].differing, 0);
+    }
+
+    #[test]
+    fn channels_go_by_name_and_have_to_be_the_same() {
+        let rgb = Picture::rgb(2, 2, &[[0.5; 3]; 4]);
+        let other = floats("Y", &[0.5; 4]);
+        assert!(matches!(channels(&rgb, &other, &[]), Err(MismatchError::Channels { .. })));
+        assert!(matches!(channels(&rgb, &rgb, &["Z".to_owned()]), Err(MismatchError::NoChannel { .. })));
+        assert!(matches!(channels(&rgb, &Picture::rgb(2, 1, &[]), &[]), Err(MismatchError::Size { .. })));
+        let ids = Picture::new(2, 2).with("Y", ChannelUnit::Id, Samples::Uint(vec![1; 4])).expect("four samples");
+        assert_eq!(channels(&ids, &other, &[]), Err(MismatchError::Type { name: "Y".to_owned() }));
+        assert_eq!(channels(&rgb, &rgb, &["G".to_owned()]).expect("G").len(), 1);
+    }
+
+    #[test]
+    fn what_is_encoded_for_a_screen_is_decoded_against_linear_light() {
+        let encoded = Picture::new(2, 2).with("Y", ChannelUnit::Srgb, Samples::Float(vec![1.0; 4])).expect("samples");
+        let linear = Picture::new(2, 2).with("Y", ChannelUnit::Linear, Samples::Float(vec![1.0; 4])).expect("samples");
+        assert_eq!(channels(&encoded, &linear, &[]).expect("Y")[0].differing, 0);
+    }
+}

@@ -1,0 +1,76 @@
+//! Spaces of color: linear sRGB, XYZ, the opponent space YCxCz, CIELAB.
+
+use crate::elementary::cbrt;
+
+/// Linear sRGB (IEC 61966-2-1: primaries of Rec. 709, white D65) to CIE XYZ.
+const TO_XYZ: [[f64; 3]; 3] = [
+    [506_752.0 / 1_228_815.0, 87_881.0 / 245_763.0, 12_673.0 / 70_218.0],
+    [87_098.0 / 409_605.0, 175_762.0 / 245_763.0, 12_673.0 / 175_545.0],
+    [7_918.0 / 409_605.0, 87_881.0 / 737_289.0, 1_001_167.0 / 1_053_270.0],
+];
+/// Its inverse.
+const FROM_XYZ: [[f64; 3]; 3] = [
+    [12_831.0 / 3_959.0, -329.0 / 214.0, -1_974.0 / 3_959.0],
+    [-851_781.0 / 878_810.0, 1_648_619.0 / 878_810.0, 36_519.0 / 878_810.0],
+    [705.0 / 12_673.0, -2_585.0 / 12_673.0, 705.0 / 667.0],
+];
+/// D65 by its chromaticities (0.3127, 0.3290).
+const WHITE: [f64; 3] = [0.3127 / 0.329, 1.0, 0.3583 / 0.329];
+
+fn product(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])
+}
+
+/// XYZ with white at (1, 1, 1).
+fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
+    let xyz = product(&TO_XYZ, linear);
+    [0, 1, 2].map(|i| xyz[i] / WHITE[i])
+}
+
+/// Linear sRGB to YCxCz: lightness, red against green, yellow against blue.
+pub(super) fn to_opponents(linear: [f64; 3]) -> [f64; 3] {
+    let [x, y, z] = relative_xyz(linear);
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+/// YCxCz to linear sRGB.
+pub(super) fn from_opponents([lightness, cx, cz]: [f64; 3]) -> [f64; 3] {
+    let y = (lightness + 16.0) / 116.0;
+    let relative = [y + cx / 500.0, y, y - cz / 200.0];
+    product(&FROM_XYZ, [0, 1, 2].map(|i| relative[i] * WHITE[i]))
+}
+
+/// Linear sRGB to CIELAB with the chroma of dark colors reduced (the Hunt effect).
+pub(super) fn to_hunt_lab(linear: [f64; 3]) -> [f64; 3] {
+    const KNEE: f64 = 6.0 / 29.0;
+    let root = |t: f64| if t > KNEE * KNEE * KNEE { cbrt(t) } else { t / (3.0 * KNEE * KNEE) + 4.0 / 29.0 };
+    let [x, y, z] = relative_xyz(linear).map(root);
+    let lightness = 116.0 * y - 16.0;
+    let chroma = 0.01 * lightness;
+    [lightness, chroma * 500.0 * (x - y), chroma * 200.0 * (y - z)]
+}
+
+/// The distance HyAB: lightness and chroma apart, for differences that are large.
+pub(super) fn hyab(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [l, x, y] = [0, 1, 2].map(|i| a[i] - b[i]);
+    l.abs() + (x * x + y * y).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn white_is_white_and_colors_come_back() {
+        let near = |a: [f64; 3], b: [f64; 3]| (0..3).all(|i| (a[i] - b[i]).abs() < 1e-9);
+        assert!(near(to_opponents([1.0; 3]), [100.0, 0.0, 0.0]));
+        assert!(near(to_hunt_lab([1.0; 3]), [100.0, 0.0, 0.0]));
+        assert!(near(to_hunt_lab([0.0; 3]), [0.0; 3]));
+        for color in [[0.1, 0.7, 0.3], [1.0, 0.0, 0.0], [0.0, 0.2, 0.9]] {
+            assert!(near(from_opponents(to_opponents(color)), color));
+        }
+        // Red of sRGB in CIELAB, as the literature has it: 53.24, 80.09, 67.20; the Hunt effect takes 0.5324 of it.
+        let [l, a, b] = to_hunt_lab([1.0, 0.0, 0.0]);
+        assert!((l - 53.24).abs() < 0.01 && (a - 0.5324 * 80.09).abs() < 0.02 && (b - 0.5324 * 67.20).abs() < 0.02);
+    }
+}

@@ -1,0 +1,19 @@
+//! How far two pictures are from each other: channel by channel in numbers, and as people see it.
+//!
+//! [`channels`] compares samples. [`ssim`] and [`flip`] compare what a screen shows of both ([`ScreenPicture`]): SSIM
+//! the structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP what an observer notices who flips
+//! between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the same
+//! bits.
+
+mod channel;
+mod filter;
+mod flip;
+mod luminance;
+mod screen;
+mod ssim;
+
+pub use channel::{ChannelDifference, MismatchError, WorstSample, channels, signed_differences};
+pub use flip::{DEFAULT_PPD, FlipMap, MAX_PPD, MIN_PPD, flip};
+pub use luminance::{luminance_differences, relative_luminance_differences};
+pub use screen::ScreenPicture;
+pub use ssim::{WINDOW, ssim};

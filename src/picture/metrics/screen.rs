@@ -1,0 +1,32 @@
+//! What a screen shows of a picture, in double precision.
+
+use super::super::channels::Picture;
+use super::super::display::{clip, curve};
+use super::super::error::PictureError;
+use super::luminance::WEIGHTS;
+
+/// Linear red, green and blue within [0, 1], rows from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScreenPicture {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) linear: Vec<[f64; 3]>,
+}
+
+impl ScreenPicture {
+    /// Linear light times `exposure`; what is brighter than 1 is clipped, NaN is black.
+    ///
+    /// # Errors
+    /// [`PictureError::NoColor`] if the picture has neither `R`, `G` and `B` nor `Y`.
+    pub fn new(picture: &Picture, exposure: f64) -> Result<Self, PictureError> {
+        let shown = |pixel: [f32; 3]| pixel.map(|channel| clip(f64::from(channel) * exposure));
+        let linear = picture.linear()?.into_iter().map(shown).collect();
+        Ok(Self { width: picture.width() as usize, height: picture.height() as usize, linear })
+    }
+
+    /// Rec. 709's weighted sum of the values that a screen is sent, through the sRGB curve.
+    pub fn luma(&self) -> Vec<f64> {
+        let luma = |pixel: &[f64; 3]| [0, 1, 2].iter().map(|&c| WEIGHTS[c] * curve(pixel[c])).sum();
+        self.linear.iter().map(luma).collect()
+    }
+}

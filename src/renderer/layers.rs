@@ -1,0 +1,49 @@
+//! A picture's numbers by the channel names that viewers of EXR files group.
+
+use super::film::RenderedPicture;
+use super::surfel::Surfel;
+use crate::geom::vector::narrow;
+use crate::picture::{ChannelUnit, Picture, PictureError, Samples};
+use crate::scene::{Camera, Color, Material, Scene, Surface};
+use crate::tracer::offset::SINGLE;
+
+/// Color in single precision (`R`, `G`, `B`), and of what the ray through the middle of each pixel meets first: depth
+/// along the view (`Z`, infinite for nothing), the normal that it is shaded with (`N.X`, `N.Y`, `N.Z`), what it
+/// reflects or lets pass in all (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for nothing).
+///
+/// # Errors
+/// If the picture has no pixels, or more or less than the camera.
+pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Result<Picture, PictureError> {
+    let color: Vec<[f32; 3]> = picture.color.iter().map(|color| color.map(|c| c as f32)).collect();
+    let surface = |(ray, hit)| Surfel::new(scene, SINGLE, &ray, hit?);
+    let seen = camera.rays().into_iter().zip(picture.first.iter().copied()).map(surface);
+    let of = |surfel: Surfel<'_>| (narrow(surfel.shading), albedo(surfel.material));
+    let (normals, albedos): (Vec<[f32; 3]>, Vec<Color>) = seen.map(|surfel| surfel.map(of).unwrap_or_default()).unzip();
+    let depth = picture.first.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t)).collect();
+    let triangles = picture.first.iter().map(|hit| hit.map_or(u32::MAX, |hit| hit.triangle)).collect();
+    let layers = Picture::rgb(picture.width, picture.height, &color)
+        .with("Z", ChannelUnit::RayLength, Samples::Float(depth))?
+        .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))?;
+    let layers = with_vectors(layers, ["N.X", "N.Y", "N.Z"], ChannelUnit::Unknown, &normals)?;
+    with_vectors(layers, ["albedo.R", "albedo.G", "albedo.B"], ChannelUnit::Linear, &albedos)
+}
+
+fn with_vectors(
+    picture: Picture,
+    names: [&str; 3],
+    unit: ChannelUnit,
+    vectors: &[[f32; 3]],
+) -> Result<Picture, PictureError> {
+    names.into_iter().enumerate().try_fold(picture, |picture, (component, name)| {
+        picture.with(name, unit, Samples::Float(vectors.iter().map(|vector| vector[component]).collect()))
+    })
+}
+
+fn albedo(material: &Material) -> Color {
+    match material.surface {
+        Surface::Diffuse { albedo } => albedo,
+        Surface::Glossy { albedo, specular, .. } => [0, 1, 2].map(|c| albedo[c] + specular[c]),
+        Surface::Mirror { reflectance } => reflectance,
+        Surface::Glass { transmittance, .. } => transmittance,
+    }
+}

@@ -1,0 +1,55 @@
+//! Numbers as colors that people with any color vision can tell apart, with a bar that shows the scale.
+
+use colorous::{Gradient, MAGMA, RED_BLUE};
+
+use crate::picture::{RgbImage, rgb8};
+
+/// Where there is no number.
+const NOT_FINITE: [u8; 3] = [0, 0, 0];
+
+/// Signed numbers, rows from the top: from blue at `-scale` or below over white at 0 to red at `scale` or above; black
+/// where they are not finite. Below the picture a bar runs from `-scale` on the left to `scale` on the right.
+pub fn signed(width: u32, values: &[f64], scale: f64) -> RgbImage {
+    with_bar(width, values, RED_BLUE, |value| 0.5 - 0.5 * value / scale)
+}
+
+/// Numbers of [0, 1], rows from the top: from black over purple and orange to a pale yellow. Below the picture a bar
+/// runs from 0 on the left to 1 on the right.
+pub fn magnitude(width: u32, values: &[f64]) -> RgbImage {
+    with_bar(width, values, MAGMA, |value| value)
+}
+
+fn with_bar(width: u32, values: &[f64], gradient: Gradient, place: impl Fn(f64) -> f64) -> RgbImage {
+    let color = |at: f64| gradient.eval_continuous(at.clamp(0.0, 1.0)).as_array();
+    let rows = values.len() as u32 / width.max(1);
+    let bar = (rows / 24).max(2);
+    let pixel = |value: &f64| if value.is_finite() { color(place(*value)) } else { NOT_FINITE };
+    // The right end of a signed scale is the left end of its gradient.
+    let [left, right] = [place(0.0).min(1.0), place(1.0)];
+    let rises = right > left;
+    let along = move |x: u32| (f64::from(x) + 0.5) / f64::from(width);
+    let bar = (0..bar * width).map(|at| along(at % width)).map(move |t| color(if rises { t } else { 1.0 - t }));
+    let gap = std::iter::repeat_n([255; 3], width as usize);
+    rgb8(width, rows + 1 + bar.len() as u32 / width.max(1), values.iter().map(pixel).chain(gap).chain(bar))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rgb(image: &RgbImage, x: u32, y: u32) -> [u8; 3] {
+        image.get_pixel(x, y).0
+    }
+
+    #[test]
+    fn darker_is_blue_brighter_red_and_the_bar_runs_the_same_way() {
+        let image = signed(4, &[-2.0, 0.0, 2.0, f64::NAN], 2.0);
+        let [[r0, _, b0], white, [r1, _, b1], none] = [0, 1, 2, 3].map(|x| rgb(&image, x, 0));
+        assert!(b0 > r0 && r1 > b1 && white.iter().all(|&channel| channel > 225) && none == NOT_FINITE);
+        let [[r0, _, b0], [r1, _, b1]] = [0, 3].map(|x| rgb(&image, x, 2));
+        assert!(b0 > r0 && r1 > b1, "the bar");
+        let image = magnitude(2, &[0.0, 1.0]);
+        let sum = |color: [u8; 3]| color.map(u32::from).iter().sum::<u32>();
+        assert!(sum(rgb(&image, 0, 0)) < sum(rgb(&image, 1, 0)) && sum(rgb(&image, 0, 2)) < sum(rgb(&image, 1, 2)));
+    }
+}

@@ -1,0 +1,22 @@
+//! How far two pictures are from each other: in numbers, and as people see it.
+
+mod compare;
+mod report;
+
+use crate::report::{Findings, Provenance};
+use crate::study::{ProgressFn, Study};
+
+pub use compare::{DifferenceBounds, DifferenceError, PictureDifference, PictureInput};
+
+impl Study for PictureDifference {
+    type Error = DifferenceError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, DifferenceError> {
+        let outcome = self.compare(progress)?;
+        report::findings(self, outcome)
+    }
+
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        provenance
+    }
+}

@@ -1,0 +1,154 @@
+//! The tables, maps and page of a comparison of pictures.
+
+use serde_json::json;
+
+use super::compare::{DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
+use crate::picture::metrics::ChannelDifference;
+use crate::picture::{ChannelUnit, Picture, Samples};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table, Verdict, false_color};
+
+const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
+    largest. SSIM compares the structure of the luma in windows of 11 x 11 pixels: 1 where the pictures are equal.";
+
+pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, DifferenceError> {
+    let [first, second] = &asked.pictures;
+    let mut found = Findings::new("Two pictures");
+    let held = asked.holds(&outcome);
+    found.conclude(Verdict::held(held));
+    found.paragraph(format!(
+        "{} against {}, {} x {} pixels. Differences are second minus first.",
+        first.name,
+        second.name,
+        first.picture.width(),
+        first.picture.height()
+    ));
+    found.field("equal", outcome.channels.iter().all(|channel| channel.differing == 0).into());
+    found.field("held", held.into());
+    found.table(FoundTable::from(table(&outcome.channels)).csv("channels").field("channels"));
+    if let Some(seen) = &outcome.seen {
+        tell(&mut found, asked, seen);
+    }
+    if asked.maps {
+        maps(&mut found, asked, &outcome)?;
+    }
+    Ok(found)
+}
+
+fn table(channels: &[ChannelDifference]) -> Table {
+    let columns = "channel differing not_finite nan_first nan_second rmse mean maximum x y first second";
+    let mut table = Table::of("Samples, channel by channel", columns);
+    for channel in channels {
+        let number = |value: f64| if channel.whole { Cell::Empty } else { digits(value) };
+        let worst = channel.worst;
+        table.push([
+            channel.name.as_str().into(),
+            channel.differing.into(),
+            channel.not_finite.into(),
+            channel.nan[0].into(),
+            channel.nan[1].into(),
+            number(channel.rmse),
+            number(channel.mean),
+            number(channel.maximum),
+            worst.map(|worst| worst.x).into(),
+            worst.map(|worst| worst.y).into(),
+            worst.map(|worst| digits(worst.left)).unwrap_or(Cell::Empty),
+            worst.map(|worst| digits(worst.right)).unwrap_or(Cell::Empty),
+        ]);
+    }
+    table
+}
+
+/// SSIM and FLIP, in words and for machines.
+fn tell(found: &mut Findings, asked: &PictureDifference, seen: &SeenDifference) {
+    let (flip, ppd) = (&seen.flip, digits(asked.ppd).text());
+    let [mean, maximum] = [flip.mean, flip.maximum].map(|value| digits(value).text());
+    let similarity = seen.ssim.map_or("none: smaller than a window of 11x11".to_owned(), |ssim| digits(ssim).text());
+    let line = format!("SSIM {similarity}; FLIP mean {mean}, largest {maximum}, at {ppd} pixels per degree");
+    found.print(line.clone());
+    found.paragraph(format!("{line}. {FLIP}"));
+    found.field("ssim", json!(seen.ssim));
+    found.field("flip", json!({ "mean": flip.mean, "maximum": flip.maximum, "ppd": asked.ppd }));
+    found.field("exposure", json!(asked.exposure));
+}
+
+/// False colors, and all differences as numbers.
+fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), DifferenceError> {
+    let [first, second] = &asked.pictures;
+    let (width, height) = (first.picture.width(), first.picture.height());
+    let mut pictures = Vec::new();
+    for (name, input) in [("first", first), ("second", second)] {
+        if let Ok(image) = input.picture.display(asked.exposure) {
+            pictures.push(NamedPicture::new(name, image, input.name.clone()));
+        }
+    }
+    let (what, values) = match &outcome.seen {
+        Some(seen) => ("luminance".to_owned(), seen.luminance.clone()),
+        None => worst_channel(outcome),
+    };
+    let scale = asked.scale.unwrap_or_else(|| usual_scale(&values));
+    let ends = digits(scale).text();
+    let caption = format!(
+        "{what}, second minus first: blue -{ends} or less, white 0, red +{ends} or more; black where not finite"
+    );
+    found.print(format!("difference.png: {caption}"));
+    found.field("scale", json!(scale));
+    pictures.push(NamedPicture::new("difference", false_color::signed(width, &values, scale), caption));
+    let mut layers = Picture::new(width, height);
+    for (name, samples) in &outcome.signed {
+        let samples = Samples::Float(samples.clone());
+        layers = layers.with(name, ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
+    }
+    if let Some(seen) = &outcome.seen {
+        let caption = "FLIP: black 0, pale yellow 1";
+        pictures.push(NamedPicture::new("flip", false_color::magnitude(width, &seen.flip.errors), caption));
+        let samples = Samples::Float(seen.flip.errors.iter().map(|&error| error as f32).collect());
+        layers = layers.with("FLIP", ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
+    }
+    found.heading("Pictures");
+    found.pictures(pictures);
+    found.keep_layers("difference", layers);
+    Ok(())
+}
+
+/// Of a hundred pixels that differ, one differs by more: a few bright ones do not make all others pale.
+fn usual_scale(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).filter(|x| x.is_finite() && *x > 0.0).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes.get((sizes.len() * 99).div_ceil(100).saturating_sub(1)).copied().unwrap_or(1.0)
+}
+
+/// The channel of floats that differs most, else the first.
+fn worst_channel(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
+    let mut place = 0;
+    for (at, channel) in outcome.channels.iter().enumerate() {
+        if channel.differing > outcome.channels[place].differing {
+            place = at;
+        }
+    }
+    let channel = outcome.signed.get(place);
+    channel.map_or_else(Default::default, |(name, values)| {
+        (format!("channel {name}"), values.iter().map(|&value| f64::from(value)).collect())
+    })
+}
+
+/// Rounded to six significant digits.
+fn digits(x: f64) -> Cell {
+    if x == 0.0 || !x.is_finite() {
+        return x.into();
+    }
+    format!("{x:.5e}").parse::<f64>().unwrap_or(x).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_scale_is_what_one_in_a_hundred_exceeds() {
+        let mut values: Vec<f64> = (1..=100).map(f64::from).collect();
+        values.extend([0.0, f64::NAN]);
+        assert_eq!(usual_scale(&values), 99.0);
+        assert_eq!(usual_scale(&[0.0, -0.5]), 0.5);
+        assert_eq!(usual_scale(&[0.0]), 1.0);
+    }
+}
