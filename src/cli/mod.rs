@@ -127,7 +127,7 @@ pub fn main() -> ExitCode {
     }
     memory::limit_to(cli.memory_limit);
     if let Err(problem) = memory::require_to_start() {
-        error::print(&problem.into(), cli.json, false);
+        error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }
     interrupt::clean_up_on_signals();
@@ -143,7 +143,7 @@ pub fn main() -> ExitCode {
         Err(report) => {
             // What was found before the error comes first.
             out.flush().ok();
-            error::print(&report, cli.json, cli.all_errors);
+            error::print(report, cli.json, cli.all_errors);
             ExitCode::from(BAD_INPUT)
         }
     }

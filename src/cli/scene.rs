@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::{Out, Problem, view};
 use crate::io::atomic::FileSet;
 use crate::io::scene_files;
+use crate::names::did_you_mean;
 use crate::report::{Table, Verdict};
 use crate::scene::{Scene, built};
 
@@ -60,7 +61,8 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
     let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
         let names: Vec<&str> = built::names().collect();
         let what = format!("expected the name of a scene, found `{name}`");
-        return Err(Problem::usage(what, format!("there are {}", names.join(", "))).into());
+        let meant = did_you_mean(name, names.iter().copied());
+        return Err(Problem::usage(what, format!("{meant}there are {}", names.join(", "))).into());
     };
     let mut written = Vec::new();
     if let Some(folder) = folder {
