@@ -126,6 +126,9 @@ pub fn main() -> ExitCode {
         rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
     }
     memory::limit_to(cli.memory_limit);
+    if cli.json {
+        progress::silence();
+    }
     if let Err(problem) = memory::require_to_start() {
         error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);

@@ -52,7 +52,7 @@ pub(super) fn run(args: &impl StudyArgs, command_line: &str, out: &mut Out) -> m
         out.line("")?;
     }
     for line in found.printed_lines() {
-        out.line(line)?;
+        out.sentence(line)?;
     }
     out.line(format_args!("pictures and tables: {}", args.folder().join("index.html").display()))?;
     Ok(found.verdict())

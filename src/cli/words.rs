@@ -2,6 +2,8 @@
 
 use refsim::{isa::Mask, machine::ExecutorKind, output::FragmentFate};
 
+use crate::report::digits::count;
+
 /// The word that `--executor` takes.
 pub(super) const fn executor(kind: ExecutorKind) -> &'static str {
     match kind {
@@ -21,6 +23,11 @@ pub(super) const fn fate(fate: FragmentFate) -> &'static str {
         FragmentFate::Passed => "passes",
         FragmentFate::OutsideTile => "lies outside",
     }
+}
+
+/// A number of things, for a sentence: `177,694`.
+pub(super) fn counted(number: usize) -> String {
+    count(number as u64)
 }
 
 /// The components of a mask: `xz`.

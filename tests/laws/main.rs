@@ -25,5 +25,6 @@ mod radiosity;
 mod ranges;
 mod ray_tree;
 mod scene_files;
+mod tables;
 mod timing;
 mod tiny_scenes;

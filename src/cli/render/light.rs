@@ -10,6 +10,7 @@ use serde_json::json;
 use super::args::{Args, Renderer, SMALLER};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
+use crate::cli::words::counted;
 use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
@@ -18,6 +19,7 @@ use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, path, whitted};
 use crate::report::Verdict;
+use crate::report::digits::count;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
@@ -150,14 +152,16 @@ fn tell(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, o
         return Ok(());
     }
     let kinds: Vec<String> =
-        counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{n} {kind}")).collect();
-    out.line(format_args!("{} rays in {} bundles: {}", counts.rays(), counts.bundles, kinds.join(", ")))?;
+        counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{} {kind}", count(n))).collect();
+    let [rays, bundles] = [counts.rays(), counts.bundles].map(count);
+    out.sentence(format_args!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")))?;
     if let Some(engine) = engine {
-        out.line(format_args!("{}", caster::sentence(engine)))?;
+        out.sentence(caster::sentence(engine))?;
     }
     if picture.not_finite > 0 {
-        out.line(format_args!("{} samples were not finite and count as black", picture.not_finite))?;
+        out.line(format_args!("{} samples were not finite and count as black", count(picture.not_finite)))?;
     }
+    let [found, pixels] = [found, pixels].map(counted);
     out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
     Ok(())
 }
