@@ -35,7 +35,7 @@ pub fn shown(value: f64, quantity: Quantity) -> String {
         Quantity::Percent if value.abs() >= 1.0 => fixed(value, 1),
         Quantity::Percent => significant(value, 2),
         // What is whole is a count or was set so.
-        _ if value.fract() == 0.0 => significant(value, 1),
+        _ if value.fract() == 0.0 && value.abs() < 1e15 => fixed(value, 0),
         Quantity::Measured => significant(value, 4),
         Quantity::Ratio | Quantity::Error => significant(value, 3),
     };
