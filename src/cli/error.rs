@@ -80,7 +80,10 @@ fn suggested(report: Report) -> Report {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
         _ => return report,
     };
-    Suggestion { error }.into()
+    // What the error was wrapped in stays around it.
+    let (outer, inner) = (report.to_string(), error.to_string());
+    let suggestion = Report::from(Suggestion { error });
+    if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
 }
 
 /// Colours and box drawing on a terminal; plain text of fixed width anywhere else.

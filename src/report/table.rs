@@ -66,8 +66,8 @@ impl Table {
     }
 
     /// The table with one row in place of those that found the same as a row above: `first[i]` is the first row that
-    /// found what row i did. `called` names a row; `rows` and `same` are those of [`Folded`]. A table of another number of
-    /// rows, none for example, stays as it is.
+    /// found what row i did. `called` names a row; `rows` and `same` are those of [`Folded`]. A table of another number
+    /// of rows, none for example, stays as it is.
     #[must_use]
     pub fn folded(
         &self,

@@ -62,7 +62,7 @@ fn rows_of_the_same_bits_are_folded() {
     assert!(file("index.html").contains("switches: the same bits"));
     let document: serde_json::Value = serde_json::from_str(&file("study.json")).expect("JSON");
     let rows = document["rows"].as_array().expect("rows").len();
-    assert!(csv.lines().count() < rows / 2, "{rows} rows of\n{csv}");
+    assert!(csv.lines().count() + 10 < rows, "{rows} rows, folded to\n{csv}");
 }
 
 /// Off a terminal nothing depends on one: tables are 100 columns wide at most, progress has no control characters.
