@@ -45,8 +45,8 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table.push([
         outcome.patches.list().len().into(),
         wishes.from.to_string().into(),
-        sums.least.into(),
-        sums.most.into(),
+        Cell::decimals(sums.least, 7),
+        Cell::decimals(sums.most, 7),
         Cell::error(sums.escaping),
         outcome.patches.covered()[0].into(),
         sums.blind.into(),
