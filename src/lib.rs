@@ -60,6 +60,8 @@ pub mod geom;
 pub mod io;
 #[cfg(feature = "systems")]
 pub mod linalg;
+#[cfg(feature = "systems")]
+pub mod names;
 pub mod oracle;
 #[cfg(feature = "systems")]
 pub mod picture;

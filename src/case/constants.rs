@@ -13,6 +13,7 @@ use super::{
     binder::{Binder, register},
     value::{Constant, Number},
 };
+use crate::names::did_you_mean;
 
 /// Where a constant goes.
 enum Home {
@@ -86,9 +87,10 @@ impl Binder<'_> {
         };
         let declared: Vec<String> = program.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
         let message = format!("expected {examples} or a name that the program declares, found `{name}`");
+        let meant = did_you_mean(name, program.parameters.iter().map(|p| p.name.as_str()));
         let help = match &*declared {
             [] => "the program declares no names".to_owned(),
-            names => format!("the program declares {}", names.join(", ")),
+            names => format!("{meant}the program declares {}", names.join(", ")),
         };
         Err(self.place.wrong(span, message, help))
     }

@@ -1,13 +1,14 @@
 //! Which device a case runs on: what the case says, or something in its place.
 
 use refsim::{
-    device::Profile,
+    device::{DeviceError, Profile},
     isa::{Stage, Version},
     num::Format,
 };
 use toml::Spanned;
 
 use super::{CaseError, binder::Binder, schema::Case};
+use crate::names::did_you_mean;
 
 impl Binder<'_> {
     /// The device, the version that the pixel program must have, and the switches that were left out.
@@ -23,7 +24,7 @@ impl Binder<'_> {
                 continue;
             }
             profile.set_switch(name, value.get_ref()).map_err(|error| {
-                let help = format!("`crossbar devices {}` lists the switches", profile.name);
+                let help = format!("{}`crossbar devices {}` lists the switches", meant(&error), profile.name);
                 self.place.wrong(value.span(), error.to_string(), help)
             })?;
         }
@@ -76,13 +77,25 @@ impl Binder<'_> {
     }
 
     fn named(&self, device: &Spanned<String>) -> Result<Profile, CaseError> {
-        Profile::named(device.get_ref())
-            .map_err(|error| self.place.wrong(device.span(), error.to_string(), "`crossbar devices` lists the devices"))
+        Profile::named(device.get_ref()).map_err(|error| {
+            let help = format!("{}`crossbar devices` lists the devices", meant(&error));
+            self.place.wrong(device.span(), error.to_string(), help)
+        })
     }
 
     fn format(&self, format: &Spanned<String>) -> Result<Format, CaseError> {
         format.get_ref().parse().map_err(|error: refsim::num::FormatError| {
             self.place.wrong(format.span(), error.to_string(), "for example `s3.12`, `fp24` or `e5m10:rtz`")
         })
+    }
+}
+
+/// Which of its known names an error about a device was meant to find, as help; often nothing.
+pub(crate) fn meant(error: &DeviceError) -> String {
+    match error {
+        DeviceError::UnknownDevice { name: found, known: names }
+        | DeviceError::UnknownSwitch { name: found, allowed: names, .. }
+        | DeviceError::SwitchValue { value: found, allowed: names, .. } => did_you_mean(found, names.split(' ')),
+        _ => String::new(),
     }
 }

@@ -7,6 +7,7 @@ use miette::{Diagnostic, SourceSpan};
 use refsim::{device::DeviceError, machine::MachineError};
 
 use crate::{
+    names::did_you_mean_field,
     picture::PictureError,
     report::SourceText,
     shader::{ShaderError, ShaderWarning},
@@ -121,9 +122,10 @@ impl CaseText {
 
     /// The error of the TOML reader: its message is ours to pass on, its span too.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
+        let message = error.message().trim_end().replace('\n', ", ");
         CaseError::Schema {
-            message: error.message().trim_end().replace('\n', ", "),
-            help: "docs/cases.md describes what a case may say".to_owned(),
+            help: format!("{}docs/cases.md describes what a case may say", did_you_mean_field(&message)),
+            message,
             source_code: self.source.clone(),
             span: error.span().map(|span| self.clamp(span)),
         }

@@ -24,6 +24,7 @@ mod value;
 mod vertices;
 
 pub use binder::Overrides;
+pub(crate) use device::meant;
 pub use error::{CaseError, CaseWarning};
 pub use loaded::Loaded;
 pub use log::{log, log_observed};

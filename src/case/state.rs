@@ -7,6 +7,7 @@ use refsim::{
 use toml::Spanned;
 
 use super::{CaseError, binder::Binder, schema, value::Number};
+use crate::names::did_you_mean;
 
 /// 1.0 as an IEEE single.
 const ONE: u32 = 0x3f80_0000;
@@ -52,7 +53,9 @@ pub(super) fn texel_format(
     span: std::ops::Range<usize>,
 ) -> Result<TexelFormat, CaseError> {
     name.parse().map_err(|error: refsim::texture::TextureError| {
-        binder.place.wrong(span, error.to_string(), "`crossbar devices NAME` lists those that a device has")
+        let meant = did_you_mean(name, TexelFormat::ALL.iter().map(|format| format.name()));
+        let help = format!("{meant}`crossbar devices NAME` lists those that a device has");
+        binder.place.wrong(span, error.to_string(), help)
     })
 }
 

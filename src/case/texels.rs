@@ -19,6 +19,7 @@ use super::{
 };
 
 use crate::io::{picture::MAX_BYTES, read_limited};
+use crate::names::did_you_mean;
 
 /// The sampler, the image and how it is read.
 pub(super) fn bind(
@@ -234,7 +235,8 @@ fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMod
     let mode = |name: &String| {
         name.parse().map_err(|_| {
             let message = format!("expected wrap, mirror, clamp or border, found `{name}`");
-            binder.place.wrong(address.span(), message, "one for all axes, or a list with one an axis")
+            let meant = did_you_mean(name, ["wrap", "mirror", "clamp", "border"]);
+            binder.place.wrong(address.span(), message, format!("{meant}one for all axes, or a list with one an axis"))
         })
     };
     let modes = address.get_ref().0.iter().map(mode).collect::<Result<Vec<AddressMode>, _>>()?;

@@ -11,6 +11,7 @@ use super::{Problem, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::report::digits::{Quantity, count, shown};
 use crate::tracer::Caster;
 use crate::tracer::HostTracer;
 
@@ -102,11 +103,11 @@ impl<'a> OpenCaster<'a> {
 /// The engine's counts as a sentence.
 pub(super) fn sentence(engine: &EngineCounts) -> String {
     format!(
-        "engine: {:.1} % of rays met the card, in {} passes with {} tests; {} tests on the host",
-        100.0 * engine.share_on_card(),
-        engine.passes,
-        engine.pass_tests,
-        engine.host_tests
+        "engine: {} % of rays met the card, in {} passes with {} tests; {} tests on the host",
+        shown(100.0 * engine.share_on_card(), Quantity::Percent),
+        count(engine.passes),
+        count(engine.pass_tests),
+        count(engine.host_tests)
     )
 }
 

@@ -1,19 +1,23 @@
 //! How errors look on the terminal, in a log and to a machine.
 
 use std::ffi::OsString;
+use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
 
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
 
+use refsim::device::DeviceError;
+
 use super::memory::MemoryError;
 use super::shown::{MAX_SHOWN, ShownError};
+use crate::case::{CaseError, meant};
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
-/// Columns of an error that goes to a file or pipe, so that its text does not depend on a terminal.
-const PLAIN_WIDTH: usize = 100;
+/// Columns of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
+pub(super) const PLAIN_WIDTH: usize = 100;
 
 /// Standard output could not be written.
 #[derive(Debug, thiserror::Error, Diagnostic)]
@@ -55,6 +59,38 @@ impl Problem {
     }
 }
 
+/// An error about a device, with the name that was meant in its help.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+struct Suggestion {
+    #[from]
+    error: DeviceError,
+}
+
+impl Diagnostic for Suggestion {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.code()
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let help = self.error.help().map(|help| help.to_string()).unwrap_or_default();
+        let help = format!("{}{help}", meant(&self.error)).trim_end().to_owned();
+        (!help.is_empty()).then(|| Box::new(help) as Box<dyn fmt::Display>)
+    }
+}
+
+/// The report, with the name that was meant if it is about a device: the emulator only lists the names.
+fn suggested(report: Report) -> Report {
+    let error = match (report.downcast_ref::<DeviceError>(), report.downcast_ref::<CaseError>()) {
+        (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
+        _ => return report,
+    };
+    // What the error was wrapped in stays around it.
+    let (outer, inner) = (report.to_string(), error.to_string());
+    let suggestion = Report::from(Suggestion { error });
+    if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
+}
+
 /// Colours and box drawing on a terminal; plain text of fixed width anywhere else.
 fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     if terminal {
@@ -68,8 +104,8 @@ fn handler(terminal: bool) -> Box<dyn ReportHandler> {
 /// A diagnostic as text for a terminal or a log: of each list of errors the first few, or all.
 fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
     struct Rendered(ShownError, Box<dyn ReportHandler>);
-    impl std::fmt::Display for Rendered {
-        fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    impl fmt::Display for Rendered {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
             self.1.debug(&self.0, f)
         }
     }
@@ -88,8 +124,8 @@ pub(super) fn render_finding(finding: &dyn Diagnostic, all: bool) -> String {
 }
 
 /// Writes the error to standard error.
-pub(super) fn print(report: &Report, json: bool, all: bool) {
-    write_report("Error", report, json, all);
+pub(super) fn print(report: Report, json: bool, all: bool) {
+    write_report("Error", &suggested(report), json, all);
 }
 
 /// Writes a report to standard error: there is nowhere to complain if that fails.

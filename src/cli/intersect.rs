@@ -11,6 +11,7 @@ use serde_json::json;
 
 use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
+use super::words::counted;
 use super::{Out, Problem, Verdict, view};
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
@@ -172,8 +173,9 @@ fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
         return Ok(());
     }
     if let Some(engine) = &answer.engine {
-        out.line(format_args!("{}", caster::sentence(engine)))?;
+        out.sentence(caster::sentence(engine))?;
     }
+    let [found, rays] = [found, rays].map(counted);
     out.line(format_args!("{found} of {rays} rays hit; written to {}", args.out.display()))?;
     Ok(())
 }

@@ -136,8 +136,11 @@ pub fn main() -> ExitCode {
         rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
     }
     memory::limit_to(cli.memory_limit);
+    if cli.json {
+        progress::silence();
+    }
     if let Err(problem) = memory::require_to_start() {
-        error::print(&problem.into(), cli.json, false);
+        error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }
     interrupt::clean_up_on_signals(cli.json);
@@ -153,7 +156,7 @@ pub fn main() -> ExitCode {
         Err(report) => {
             // What was found before the error comes first.
             out.flush().ok();
-            error::print(&report, cli.json, cli.all_errors);
+            error::print(report, cli.json, cli.all_errors);
             ExitCode::from(BAD_INPUT)
         }
     }

@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use super::{OutputError, error};
 use crate::report::Table;
-use crate::report::visible::{visible, visible_json};
+use crate::report::layout::wrapped;
+use crate::report::visible::{visible, visible_json, visible_line};
 
 /// Where a command writes what it found.
 #[derive(Debug)]
@@ -32,9 +33,12 @@ impl Out {
         self.json
     }
 
-    /// Columns of the terminal that this goes to, if it goes to one.
-    fn columns(&self) -> Option<u16> {
-        terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0)
+    /// Columns of text: what the variable `COLUMNS` says, else those of the terminal, else [`error::PLAIN_WIDTH`].
+    fn width() -> usize {
+        let said =
+            std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).filter(|columns| *columns > 0);
+        let terminal = || terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
+        said.or_else(terminal).unwrap_or(error::PLAIN_WIDTH)
     }
 
     /// From here on a closed pipe does not end the command: it runs to its verdict.
@@ -50,13 +54,21 @@ impl Out {
         Ok(writeln!(self, "{}", visible(&text.to_string()))?)
     }
 
-    /// Writes a table without its title, as wide as the terminal if it goes to one.
+    /// Writes a sentence on lines of the terminal's width.
+    ///
+    /// # Errors
+    /// If standard output cannot be written.
+    pub fn sentence(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
+        self.line(wrapped(&visible_line(&text.to_string()), Self::width(), "  ").join("\n"))
+    }
+
+    /// Writes a table without its title, no wider than the terminal, and which rows were folded in it.
     ///
     /// # Errors
     /// If standard output cannot be written.
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
-        let text = self.columns().map_or_else(|| table.text(), |columns| table.text_within(columns));
-        self.line(text)
+        self.line(table.text_within(Self::width()))?;
+        table.notes().into_iter().try_for_each(|note| self.sentence(note))
     }
 
     /// Writes a table under its title.
@@ -64,7 +76,7 @@ impl Out {
     /// # Errors
     /// If standard output cannot be written.
     pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
-        self.line(table.title())?;
+        self.sentence(table.title())?;
         self.table(table)
     }
 

@@ -76,7 +76,7 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
     if out.json() {
         out.document(&table.json())?;
     } else {
-        out.line(table.text())?;
+        out.table(&table)?;
     }
     Ok(Verdict::Done)
 }

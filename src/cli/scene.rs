@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
+use super::words::counted;
 use super::{Out, Problem, view};
 use crate::io::atomic::FileSet;
 use crate::io::scene_files;
+use crate::names::did_you_mean;
 use crate::report::{Table, Verdict};
 use crate::scene::{Scene, built};
 
@@ -60,7 +62,8 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
     let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
         let names: Vec<&str> = built::names().collect();
         let what = format!("expected the name of a scene, found `{name}`");
-        return Err(Problem::usage(what, format!("there are {}", names.join(", "))).into());
+        let meant = did_you_mean(name, names.iter().copied());
+        return Err(Problem::usage(what, format!("{meant}there are {}", names.join(", "))).into());
     };
     let mut written = Vec::new();
     if let Some(folder) = folder {
@@ -73,10 +76,10 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
         return Ok(out.document(&row)?);
     }
     out.line(format_args!("{name}: {what}"))?;
-    let [vertices, triangles] = [scene.mesh().positions().len(), scene.mesh().len()];
+    let [vertices, triangles] = [scene.mesh().positions().len(), scene.mesh().len()].map(counted);
     out.line(format_args!("triangles     {triangles}, on {vertices} vertices"))?;
     out.line(format_args!("materials     {}: {}", scene.materials().len(), materials(&scene)))?;
-    out.line(format_args!("emitters      {} triangles", scene.emitters().len()))?;
+    out.line(format_args!("emitters      {} triangles", counted(scene.emitters().len())))?;
     out.line(format_args!("point lights  {}", scene.point_lights.len()))?;
     out.line(format_args!("views         {}: {}", scene.views.len(), views(&scene)))?;
     for file in written {

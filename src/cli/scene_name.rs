@@ -8,6 +8,7 @@ use super::size::Size;
 use super::{Problem, number, view};
 use crate::geom::Mesh;
 use crate::io::scene_file::load;
+use crate::names::did_you_mean;
 use crate::scene::{Camera, Scene, built};
 
 /// A scene of the project, if the path is its name; `None` for a file.
@@ -19,7 +20,8 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     // A word without a dot or a folder is a name, not a file.
     if !path.exists() && path.components().count() == 1 && !name.contains('.') {
         let names: Vec<&str> = built::names().collect();
-        let help = format!("the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
+        let meant = did_you_mean(name, names.iter().copied());
+        let help = format!("{meant}the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
         return Err(Problem::usage(format!("there is no scene `{name}`"), help));
     }
     Ok(None)
@@ -97,7 +99,7 @@ fn no_view(scene: &Scene, name: &str) -> Problem {
     let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
     let help = match names.is_empty() {
         true => "it has none: use `--eye` and `--target`".to_owned(),
-        false => format!("its views are {}", names.join(", ")),
+        false => format!("{}its views are {}", did_you_mean(name, names.iter().copied()), names.join(", ")),
     };
     Problem::usage(format!("the scene has no view `{name}`"), help)
 }

@@ -61,7 +61,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
         out.line("")?;
     }
     for line in found.printed_lines() {
-        out.line(line)?;
+        out.sentence(line)?;
     }
     if let Some(folder) = args.folder() {
         out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;

@@ -2,6 +2,8 @@
 
 use refsim::{isa::Mask, output::FragmentFate};
 
+use crate::report::digits::count;
+
 /// What became of a fragment.
 pub(super) const fn fate(fate: FragmentFate) -> &'static str {
     match fate {
@@ -11,6 +13,11 @@ pub(super) const fn fate(fate: FragmentFate) -> &'static str {
         FragmentFate::Passed => "passes",
         FragmentFate::OutsideTile => "lies outside",
     }
+}
+
+/// A number of things, for a sentence: `177,694`.
+pub(super) fn counted(number: usize) -> String {
+    count(number as u64)
 }
 
 /// The components of a mask: `xz`.

@@ -18,9 +18,11 @@ use crate::scene::SceneError;
 pub enum ReadError {
     /// The file cannot be opened or read.
     #[error("cannot read the {what} {}", path.display())]
+    #[diagnostic(code(crossbar::file::unreadable), help("check the path, and that you may read the file"))]
     Unreadable { what: &'static str, path: PathBuf, source: io::Error },
     /// The file is longer than what is read.
     #[error("{}: expected a {what} of at most {limit} bytes, found more", path.display())]
+    #[diagnostic(code(crossbar::file::too_long), help("name a smaller file"))]
     TooLong { what: &'static str, path: PathBuf, limit: u64 },
 }
 
@@ -70,38 +72,52 @@ pub enum ModelError {
     Read(#[from] ReadError),
     /// A line, or the whole file, is not what belongs there.
     #[error("{place}: expected {expected}, found {found}")]
+    #[diagnostic(
+        code(crossbar::model::syntax),
+        help("models are Wavefront OBJ or PLY files: is the file one, and whole?")
+    )]
     Syntax { place: FilePlace, expected: Cow<'static, str>, found: String },
     /// A face of an OBJ names a vertex, a texture coordinate or a normal that the file does not have.
     #[error("{place}: {what} {index}, expected 1 to {count} (or -1 to -{count})")]
+    #[diagnostic(
+        code(crossbar::model::index),
+        help("faces count from 1, or from -1 backwards: is a part of the file missing?")
+    )]
     IndexOutOfRange { place: FilePlace, what: &'static str, index: i64, count: usize },
     /// An element of a PLY's binary data is not what the header says.
     #[error("{place}: {element} {index} (counted from 0): expected {expected}, found {found}")]
-    Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: &'static str },
+    #[diagnostic(code(crossbar::model::element), help("is the file whole, and written as its header says?"))]
+    Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: Cow<'static, str> },
     /// A part of a glTF file is not what belongs there. Parts are counted from 0, as the format does.
     #[error("{place}: {part}: expected {expected}, found {found}")]
+    #[diagnostic(code(crossbar::model::part), help("docs/scenes.md says what of glTF is read"))]
     Part { place: FilePlace, part: String, expected: Cow<'static, str>, found: String },
     /// A buffer beside a glTF file cannot be read.
-    #[error("{place}: buffers[{buffer}]: cannot read {}; put it beside the model", path.display())]
+    #[error("{place}: buffers[{buffer}]: cannot read {}", path.display())]
+    #[diagnostic(code(crossbar::model::buffer), help("put it beside the model"))]
     Buffer { place: FilePlace, buffer: usize, path: PathBuf, source: io::Error },
     /// A material library gives a name twice.
-    #[error("{0}: expected each material once, found a second `newmtl {1}`; rename one of the two")]
+    #[error("{0}: expected each material once, found a second `newmtl {1}`")]
+    #[diagnostic(code(crossbar::model::second_material), help("rename one of the two"))]
     SecondMaterial(FilePlace, String),
     /// A material's figures do not go together. In an MTL file the place is its `newmtl`.
     #[error("{place}: material {name}: expected {expected}, found {found}")]
+    #[diagnostic(code(crossbar::model::material), help("docs/scenes.md says which figures a material may have"))]
     Material { place: FilePlace, name: String, expected: &'static str, found: String },
     /// A material library cannot be read.
-    #[error(
-        "{place}: cannot read the material library {}; put it beside the model, or take the line out",
-        library.display()
-    )]
+    #[error("{place}: cannot read the material library {}", library.display())]
+    #[diagnostic(code(crossbar::model::library), help("put it beside the model, or take the line out"))]
     Library { place: FilePlace, library: PathBuf, source: io::Error },
     /// tobj refuses what our pass has accepted.
     #[error("{0}: {1}")]
+    #[diagnostic(code(crossbar::model::loader), help("is the file a whole Wavefront OBJ?"))]
     Loader(FilePlace, tobj::LoadError),
     /// The parts do not make a mesh.
     #[error("{0}: {1}")]
+    #[diagnostic(code(crossbar::model::mesh), help("mend the model in the program that wrote it"))]
     Mesh(FilePlace, MeshError),
     /// The parts do not make a scene.
     #[error("{0}: {1}")]
+    #[diagnostic(code(crossbar::model::scene), help("mend the model in the program that wrote it"))]
     Scene(FilePlace, SceneError),
 }

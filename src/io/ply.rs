@@ -49,14 +49,24 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     if !has("face", &INDICES) {
         return Err(missing(name, "an element `face` with a list `vertex_indices` or `vertex_index`"));
     }
+    let vertices = header.elements.get("vertex").map_or(0, |element| element.count);
     let mut mesh = MeshReader::default();
     let mut data = Data { name, encoding: header.encoding, line: lines, rest: data };
     for element in header.elements.values() {
         for index in 0..element.count {
             let (record, at) = data.next(element, index)?;
             match element.name.as_str() {
-                "vertex" => mesh.vertices.push(record.numbers),
-                "face" => mesh.face(&record.indices).map_err(|found| at.error("three corners or more", found))?,
+                "vertex" => match record.numbers[..3].iter().find(|coordinate| !coordinate.is_finite()) {
+                    Some(odd) => return Err(at.error("finite coordinates", odd.to_string())),
+                    None => mesh.vertices.push(record.numbers),
+                },
+                "face" => {
+                    if let Some(beyond) = record.indices.iter().find(|index| **index as usize >= vertices) {
+                        let expected = format!("corners below {vertices}, the number of vertices");
+                        return Err(at.error(expected, beyond.to_string()));
+                    }
+                    mesh.face(&record.indices).map_err(|found| at.error("three corners or more", found))?;
+                }
                 _ => {}
             }
         }
@@ -128,11 +138,14 @@ struct ElementPlace<'a> {
 }
 
 impl ElementPlace<'_> {
-    fn error(self, expected: impl Into<Cow<'static, str>>, found: &'static str) -> ModelError {
+    fn error(self, expected: impl Into<Cow<'static, str>>, found: impl Into<Cow<'static, str>>) -> ModelError {
         let (expected, place) = (expected.into(), self.name.into());
         match self.line {
             Some((line, found)) => ModelError::Syntax { place: FilePlace::line(self.name, line), expected, found },
-            None => ModelError::Element { place, element: visible(self.element), index: self.index, expected, found },
+            None => {
+                let (element, found) = (visible(self.element), found.into());
+                ModelError::Element { place, element, index: self.index, expected, found }
+            }
         }
     }
 }
@@ -308,7 +321,7 @@ mod tests {
             "m.ply:11: expected a `vertex` of `x y z`, found the end of the file"
         );
         let beyond = message(&format!("{HEADER}0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"));
-        assert_eq!(beyond, "m.ply: triangle 0 uses vertex 3, expected an index below 3 (counted from 0)");
+        assert_eq!(beyond, "m.ply:13: expected corners below 3, the number of vertices, found `3 0 1 3`");
         let missing = Path::new("/no/such/file.ply");
         assert_eq!(load_ply(missing).unwrap_err().to_string(), "cannot read the model /no/such/file.ply");
     }

@@ -29,6 +29,7 @@ use super::model::load_scene;
 use super::number::Single;
 use super::read_limited;
 use super::scene_obj::{write_mtl, write_scene};
+use crate::names::did_you_mean_field;
 use crate::scene::{CameraError, PointLight, Scene, View};
 
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
@@ -41,24 +42,36 @@ const LONGEST: u64 = 1 << 20;
 pub enum SceneFileError {
     /// The file cannot be opened or read.
     #[error("cannot read the scene {}", path.display())]
+    #[diagnostic(
+        code(crossbar::scene::unreadable),
+        help("check the path; `crossbar scene` lists the scenes that need no file")
+    )]
     Read { path: PathBuf, source: io::Error },
     /// The file is longer than 1 MiB, or not UTF-8.
     #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
+    #[diagnostic(code(crossbar::scene::text), help("a scene file is TOML that names its mesh: docs/scenes.md"))]
     NoText { path: PathBuf },
     /// The file is no TOML, or does not say what a scene file says.
     #[error("{}:{line}: {message}", path.display())]
+    #[diagnostic(
+        code(crossbar::scene::toml),
+        help("{}docs/scenes.md describes what a scene file may say", did_you_mean_field(message))
+    )]
     Toml { path: PathBuf, line: usize, message: String },
     /// A view makes no picture.
     #[error("{}: view {view:?}: {reason}", path.display())]
+    #[diagnostic(code(crossbar::scene::view), help("a view needs an eye apart from its target, and another way up"))]
     View { path: PathBuf, view: String, reason: CameraError },
     /// Two views of one name.
     #[error("{}: expected views of different names, found {view:?} twice", path.display())]
+    #[diagnostic(code(crossbar::scene::same_name), help("rename one of the two"))]
     SameName { path: PathBuf, view: String },
     /// A light's figures are not finite, or its intensity is negative.
     #[error(
         "{}: point light {light} (counted from 1): expected a finite position, and an intensity of at least 0",
         path.display()
     )]
+    #[diagnostic(code(crossbar::scene::light), help("docs/scenes.md describes point lights"))]
     Light { path: PathBuf, light: usize },
     /// Something about the mesh or its materials.
     #[error(transparent)]

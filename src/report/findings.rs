@@ -42,6 +42,8 @@ pub(super) enum Passage {
 #[derive(Clone, Debug)]
 pub struct FoundTable {
     pub(super) table: Table,
+    /// The table for the document, where it has more rows.
+    whole: Option<Table>,
     pub(super) csv: Option<&'static str>,
     field: Option<&'static str>,
     printed: bool,
@@ -50,7 +52,7 @@ pub struct FoundTable {
 impl From<Table> for FoundTable {
     /// A table that is printed by the command, and written nowhere.
     fn from(table: Table) -> Self {
-        Self { table, csv: None, field: None, printed: true }
+        Self { table, whole: None, csv: None, field: None, printed: true }
     }
 }
 
@@ -65,6 +67,19 @@ impl FoundTable {
     #[must_use]
     pub fn field(self, name: &'static str) -> Self {
         Self { field: Some(name), ..self }
+    }
+
+    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) everywhere but in the
+    /// document, which keeps all.
+    #[must_use]
+    pub fn folded(
+        self,
+        first: &[usize],
+        called: impl Fn(usize) -> String,
+        what: ([&'static str; 2], &'static str),
+    ) -> Self {
+        let table = self.table.folded(first, called, what);
+        Self { whole: Some(self.table), table, ..self }
     }
 
     /// Does not print the table.
@@ -136,11 +151,12 @@ impl Findings {
         self.text.push(Passage::Paragraph(text.into()));
     }
 
-    /// Appends a table to the page, if it has rows.
+    /// Appends a table to the page, if it has rows, and which rows were folded in it.
     pub fn table(&mut self, table: impl Into<FoundTable>) {
         let table = table.into();
         if !table.table.rows().is_empty() {
             self.text.push(Passage::Table(self.tables.len()));
+            table.table.notes().into_iter().for_each(|note| self.paragraph(note));
         }
         self.tables.push(table);
     }
@@ -228,7 +244,7 @@ impl Findings {
         document.insert("provenance".to_owned(), json!(provenance));
         for found in &self.tables {
             if let Some(name) = found.field {
-                document.insert(name.to_owned(), found.table.json());
+                document.insert(name.to_owned(), found.whole.as_ref().unwrap_or(&found.table).json());
             }
         }
         Value::Object(document)

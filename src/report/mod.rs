@@ -4,10 +4,14 @@
 //! HTML file with everything inside it), CSV, a JSON document, SVG, PNG, EXR. Everything here makes bytes: who calls it
 //! writes them, whole files at a time, through `io::atomic`.
 
+mod cell;
 mod chart;
+pub mod digits;
 mod excerpt;
 pub mod false_color;
 mod findings;
+mod fold;
+pub mod layout;
 mod page;
 mod provenance;
 mod source_text;
@@ -16,12 +20,14 @@ pub mod trace;
 pub mod visible;
 mod write;
 
+pub use self::cell::{Cell, Figure};
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, NamedChart, NamedFile, NamedPicture, Verdict};
+pub use self::fold::Folded;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
-pub use table::{Cell, Table};
+pub use table::Table;
 
 use crate::picture::PictureError;
 

@@ -1,83 +1,12 @@
 //! Tables.
 
-use comfy_table::{CellAlignment, ContentArrangement, presets};
-use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use super::ReportError;
+use super::cell::Cell;
+use super::fold::{self, Folded};
+use super::layout::{Column, within};
 use super::visible::visible_line;
-
-/// One entry of a table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Cell {
-    /// Words.
-    Text(String),
-    /// A number of things.
-    Count(u64),
-    /// A whole number with a sign.
-    Int(i64),
-    /// A measured or computed number; written with enough digits to read back to the same bits.
-    Real(f64),
-    /// Yes or no.
-    Flag(bool),
-    /// Nothing to say.
-    Empty,
-}
-
-impl Cell {
-    /// The entry as a reader sees it; empty for [`Cell::Empty`].
-    pub fn text(&self) -> String {
-        match self {
-            Self::Text(text) => text.clone(),
-            Self::Count(count) => count.to_string(),
-            Self::Int(int) => int.to_string(),
-            Self::Real(real) => real_text(*real),
-            Self::Flag(true) => "yes".to_owned(),
-            Self::Flag(false) => "no".to_owned(),
-            Self::Empty => String::new(),
-        }
-    }
-
-    /// Whether the entry is set flush right.
-    pub const fn is_number(&self) -> bool {
-        matches!(self, Self::Count(_) | Self::Int(_) | Self::Real(_))
-    }
-}
-
-/// The shortest text that reads back to the same number: plain near one, with an exponent far from it.
-fn real_text(real: f64) -> String {
-    let magnitude = real.abs();
-    if real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&magnitude) {
-        format!("{real}")
-    } else {
-        format!("{real:e}")
-    }
-}
-
-macro_rules! cell_from {
-    ($($from:ty => $variant:ident),* $(,)?) => {
-        $(impl From<$from> for Cell {
-            fn from(value: $from) -> Self {
-                Self::$variant(value.into())
-            }
-        })*
-    };
-}
-cell_from!(&str => Text, String => Text, u8 => Count, u16 => Count, u32 => Count, u64 => Count, i32 => Int, i64 => Int,
-    f32 => Real, f64 => Real, bool => Flag);
-
-impl From<usize> for Cell {
-    fn from(value: usize) -> Self {
-        Self::Count(value as u64)
-    }
-}
-
-impl<T: Into<Self>> From<Option<T>> for Cell {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Empty, Into::into)
-    }
-}
 
 /// Rows under headings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -121,26 +50,50 @@ impl Table {
         &self.rows
     }
 
-    /// The table for a log or another program, without the title: one line per row, columns as wide as they need to be.
-    pub fn text(&self) -> String {
-        self.laid_out(comfy_table::Table::new().set_content_arrangement(ContentArrangement::Disabled))
+    /// The headings as people read them: words in place of names of fields.
+    pub fn shown_headings(&self) -> Vec<String> {
+        self.headings.iter().map(|heading| visible_line(&heading.replace('_', " ")).trim().to_owned()).collect()
     }
 
-    /// The table for a terminal of so many columns, without the title: long entries go over several lines.
-    pub fn text_within(&self, columns: u16) -> String {
-        let mut table = comfy_table::Table::new();
-        self.laid_out(table.set_content_arrangement(ContentArrangement::Dynamic).set_width(columns))
+    /// The table for people, without the title, in lines of at most `width` columns (of at least
+    /// [`super::layout::MIN_WIDTH`]): words and numbers stay whole.
+    pub fn text_within(&self, width: usize) -> String {
+        let column = |(i, heading): (usize, String)| {
+            let cell = |row: &Vec<Cell>| (visible_line(&row[i].text()).into_owned(), row[i].is_number());
+            Column::new(heading, self.rows.iter().map(cell).collect())
+        };
+        within(&self.shown_headings().into_iter().enumerate().map(column).collect::<Vec<_>>(), width)
     }
 
-    fn laid_out(&self, table: &mut comfy_table::Table) -> String {
-        table.load_style(presets::ASCII_MARKDOWN).set_header(&self.headings);
-        for row in &self.rows {
-            table.add_row(row.iter().map(|cell| {
-                let alignment = if cell.is_number() { CellAlignment::Right } else { CellAlignment::Left };
-                comfy_table::Cell::new(visible_line(&cell.text())).set_alignment(alignment)
-            }));
+    /// The table with one row in place of those that found the same as a row above: `first[i]` is the first row that
+    /// found what row i did. `called` names a row; `rows` and `same` are those of [`Folded`]. A table of another number
+    /// of rows, none for example, stays as it is.
+    #[must_use]
+    pub fn folded(
+        &self,
+        first: &[usize],
+        called: impl Fn(usize) -> String,
+        (rows, same): ([&'static str; 2], &'static str),
+    ) -> Self {
+        if first.len() != self.rows.len() {
+            return self.clone();
         }
-        table.trim_fmt()
+        let mut table = Self { rows: Vec::new(), ..self.clone() };
+        for (row, others) in fold::groups(first) {
+            table.rows.push(self.rows[row].clone());
+            if !others.is_empty() {
+                let names = others.into_iter().map(&called).collect();
+                let folded = Folded { before: "", rows, same, first: called(row), names };
+                table.push([Cell::Folded(folded)]);
+            }
+        }
+        table
+    }
+
+    /// A sentence for each row that stands for others: which they are.
+    pub fn notes(&self) -> Vec<String> {
+        let folded = |cell: &Cell| if let Cell::Folded(folded) = cell { Some(folded.note()) } else { None };
+        self.rows.iter().flatten().filter_map(folded).collect()
     }
 
     /// The table as CSV with a line of headings.
@@ -152,26 +105,24 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.headings).map_err(fail)?;
         for row in &self.rows {
-            writer.write_record(row.iter().map(Cell::text)).map_err(fail)?;
+            writer.write_record(row.iter().map(Cell::machine_text)).map_err(fail)?;
         }
         let bytes = writer.into_inner().map_err(|error| ReportError::encode("CSV")(&error))?;
         String::from_utf8(bytes).map_err(|error| ReportError::encode("CSV")(&error))
     }
 
-    /// The rows as a JSON array of objects. JSON has no infinity and no NaN: they are written as text.
+    /// The rows as a JSON array of objects; `marked` lists the columns whose numbers have a mark, where any has.
     pub fn json(&self) -> Value {
         let row = |row: &Vec<Cell>| {
-            let fields = self.headings.iter().zip(row);
-            Value::Object(fields.map(|(name, cell)| (name.clone(), json_cell(cell))).collect::<Map<_, _>>())
+            let fields = || self.headings.iter().zip(row);
+            let mut object: Map<_, _> = fields().map(|(name, cell)| (name.clone(), cell.json())).collect();
+            let marked: Vec<_> = fields().filter(|(_, cell)| cell.mark().is_some()).map(|(name, _)| name).collect();
+            if !marked.is_empty() {
+                object.insert("marked".to_owned(), json!(marked));
+            }
+            Value::Object(object)
         };
         Value::Array(self.rows.iter().map(row).collect())
-    }
-}
-
-fn json_cell(cell: &Cell) -> Value {
-    match cell {
-        Cell::Real(real) if !real.is_finite() => Value::String(cell.text()),
-        _ => serde_json::to_value(cell).unwrap_or(Value::Null),
     }
 }
 
@@ -207,9 +158,24 @@ mod tests {
     }
 
     #[test]
-    fn far_numbers_get_an_exponent() {
-        assert_eq!(Cell::Real(1.5e-7).text(), "1.5e-7");
-        assert_eq!(Cell::Real(0.0).text(), "0");
-        assert_eq!(Cell::Real(1024.5).text(), "1024.5");
+    fn a_fold_keeps_the_first_row_and_names_the_others() {
+        let mut table = Table::of("t", "row leaks");
+        for (name, leaks) in [("a", 3_u32), ("b", 3), ("c", 4), ("d", 3)] {
+            table.push([name.into(), leaks.into()]);
+        }
+        let name = |row: usize| ["a", "b", "c", "d"][row].to_owned();
+        let folded = table.folded(&[0, 0, 2, 0], name, (["row", "rows"], "the same bits"));
+        assert_eq!(folded.csv().expect("text"), "row,leaks\na,3\n\"2 rows: the same bits: b, d\",\nc,4\n");
+        assert_eq!(folded.rows()[1][0].text(), "2 rows: the same bits");
+        assert_eq!(folded.notes(), ["The same bits as a: b, d"]);
+        assert_eq!(table.folded(&[0, 1, 2, 3], name, (["row", "rows"], "the same bits")), table);
+    }
+
+    #[test]
+    fn marks_are_named_in_json_and_stand_behind_numbers() {
+        let mut table = Table::of("t", "what ours");
+        table.push(["a".into(), Cell::percent(23.456).marked("*")]);
+        assert_eq!(table.rows()[0][1].text(), "23.5 *");
+        assert_eq!(table.json().to_string(), r#"[{"marked":["ours"],"ours":23.456,"what":"a"}]"#);
     }
 }

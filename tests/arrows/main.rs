@@ -40,23 +40,25 @@ const CROSSBAR: Law = (
     &[
         ("linalg", &[]),
         ("elementary", &[]),
+        ("names", &[]),
         ("picture", &["elementary"]),
         ("geom", &[]),
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
-        ("io", &["picture", "geom", "scene", "linalg"]),
+        ("io", &["names", "picture", "geom", "scene", "linalg"]),
         ("card", &[]),
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
         ("oracle", &["geom", "compare"]),
-        ("case", &["picture", "io", "geom", "scene", "report", "shader", "compare"]),
+        ("case", &["names", "picture", "io", "geom", "scene", "report", "shader", "compare"]),
         ("radiosity", &["card", "tracer", "elementary", "picture", "geom", "scene", "linalg", "io"]),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
         (
             "study",
             &[
+                "names",
                 "ray_engine",
                 "radiosity",
                 "renderer",
@@ -74,6 +76,7 @@ const CROSSBAR: Law = (
         (
             "cli",
             &[
+                "names",
                 "study",
                 "ray_engine",
                 "radiosity",

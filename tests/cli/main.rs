@@ -19,6 +19,7 @@ mod render;
 mod reproduce;
 mod scene;
 mod shown;
+mod tables;
 mod timeline;
 mod trace_format;
 mod tracing;

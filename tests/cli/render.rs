@@ -12,6 +12,13 @@ fn render(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
 /// A square, seen head on by the default camera well enough.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
 
+/// A scene file with a slip in the name of a field.
+const FIELD: &str = "mesh = \"square.obj\"\n[[point_ligth]]\nposition = [0, 0, 1]\nintensity = [1, 1, 1]\n";
+
+/// A model whose face names a vertex that is not there.
+const BROKEN: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+                      element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n";
+
 #[test]
 fn every_renderer_makes_the_same_picture_twice() {
     for renderer in ["eye", "whitted", "distributed", "path", "photon"] {
@@ -45,7 +52,7 @@ fn what_it_says() {
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 10] = [
+    let cases: [(&str, &[&str]); 14] = [
         ("unknown_scene", &["teapot-rooms"]),
         ("unknown_view", &["cornell-box", "--view", "behind"]),
         ("view_and_eye", &["cornell-box", "--view", "front", "--eye", "0,0,0"]),
@@ -56,10 +63,16 @@ fn bad_input() {
         ("engine_in_exact_arithmetic", &["cornell-box", "--caster", "engine", "--executor", "exact"]),
         ("no_lights", &["square.obj", "--renderer", "path"]),
         ("missing_file", &["square2.obj", "--renderer", "eye"]),
+        ("missing_file_on_a_card", &["square2.obj"]),
+        ("missing_scene_file", &["room.toml"]),
+        ("scene_file_field", &["field.toml"]),
+        ("broken_ply", &["broken.ply"]),
     ];
     for (name, arguments) in cases {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        std::fs::write(folder.path().join("square.obj"), SQUARE).expect("written");
+        for (file, text) in [("square.obj", SQUARE), ("field.toml", FIELD), ("broken.ply", BROKEN)] {
+            std::fs::write(folder.path().join(file), text).expect("written");
+        }
         let mut all = vec!["render"];
         all.extend(arguments);
         let ran = crossbar_in(folder.path(), &all, "");

@@ -13,6 +13,8 @@ fn an_unknown_entry_is_refused_before_anything_is_written() {
     let ran = crossbar_in(folder.path(), &["reproduce", "table-9"], "");
     assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 0);
     insta::assert_snapshot!(ran.transcript());
+    let slip = crossbar_in(folder.path(), &["reproduce", "figure7"], "");
+    assert!(slip.stderr.contains("did you mean `figure-7`?"), "{}", slip.stderr);
 }
 
 /// The figures themselves: whoever changes the model sees here what it does to them.

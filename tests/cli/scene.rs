@@ -8,6 +8,7 @@ fn all_scenes_and_one() {
     insta::assert_snapshot!("scene_office", crossbar(&["scene", "office"], "").transcript());
     insta::assert_snapshot!("scene_json", crossbar(&["scene", "cornell-box", "--json"], "").transcript());
     insta::assert_snapshot!("scene_unknown", crossbar(&["scene", "kitchen"], "").transcript());
+    insta::assert_snapshot!("scene_slip", crossbar(&["scene", "teapot_room"], "").transcript());
 }
 
 #[test]

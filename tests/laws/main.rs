@@ -26,5 +26,6 @@ mod radiosity;
 mod ranges;
 mod ray_tree;
 mod scene_files;
+mod tables;
 mod timing;
 mod tiny_scenes;

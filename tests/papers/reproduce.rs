@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use approx::abs_diff_eq;
-use crossbar::report::{Series, Table};
-use crossbar::study::reproduce::report::{held, tables, tally_line};
+use crossbar::report::{Cell, Series, Table};
+use crossbar::study::reproduce::report::{held, notes, tables, tally_line};
 use crossbar::study::reproduce::{
     Bound, ENTRIES, EntryFindings, Method, Origin, PaperRow, Prose, Reproduced, RowVerdict, Standing, choose, number,
     reproduce,
@@ -94,6 +94,42 @@ fn explanations_reach_what_they_explain() {
     assert_eq!(explained.len(), all().filter(|row| row.verdict() == RowVerdict::Explained).count());
 }
 
+/// Differences are shares of what the paper has, in rows and wherever else a table has them.
+#[test]
+fn differences_are_against_the_paper() {
+    for row in all() {
+        let (ours, paper) = (row.ours, row.target.value);
+        assert_eq!(row.difference(), (ours - paper) / paper, "{}", row.what);
+    }
+    let [predicted, calibrated] = tables(&FOUND);
+    let column = |table: &Table, name: &str| table.headings().iter().position(|heading| heading == name);
+    for table in [predicted, calibrated] {
+        let place = column(&table, "difference_%").expect("a column");
+        for shown in table.rows() {
+            let row = all().find(|row| row.what == shown[0].text() && row.target.place == shown[1].text());
+            let row = row.expect("its row");
+            let twins = all().filter(|other| (&other.what, other.target.place) == (&row.what, row.target.place));
+            let differences: Vec<_> = twins.map(|row| Cell::decimals(100.0 * row.difference(), 1)).collect();
+            assert!(differences.contains(&shown[place]), "{}: {}", row.what, shown[place].text());
+        }
+    }
+}
+
+/// A reason stands once, with all its rows; what is explained is counted, and not as reproduced.
+#[test]
+fn every_explanation_is_said_once() {
+    let notes = notes(&FOUND);
+    let mut reasons: Vec<String> = notes.rows().iter().map(|row| row[1].text() + &row[2].text()).collect();
+    let said = reasons.len();
+    reasons.sort();
+    reasons.dedup();
+    assert_eq!(reasons.len(), said);
+    let explained = all().filter(|row| row.verdict() == RowVerdict::Explained).count();
+    let rows = notes.rows().iter().filter(|row| row[1].text() == "explained").map(|row| row[3].text());
+    assert_eq!(rows.flat_map(|rows| rows.split("; ").map(str::to_owned).collect::<Vec<_>>()).count(), explained);
+    assert!(tally_line(&FOUND).contains(&format!("outside their bounds, {explained} of them explained")));
+}
+
 /// The three experiments: what another reading of the rays on the card, another octree of the host alone and other
 /// costs of commands give.
 #[test]
@@ -117,7 +153,7 @@ fn the_number_of_patches_is_swept() {
     let (jacobi, seidel) = (at("reads_141"), at("reads_190"));
     let both = sizes.rows().iter().filter(|row| [jacobi, seidel].iter().all(|i| row[*i].text() == "yes"));
     let both: Vec<String> = both.map(|row| row[0].text()).collect();
-    assert_eq!(both, ["1540", "1541", "1542", "1543"]);
+    assert_eq!(both, ["1,540", "1,541", "1,542", "1,543"]);
     assert!(sizes.rows().len() > both.len(), "and others that do not");
 }
 
@@ -228,7 +264,7 @@ fn markdown(table: &Table) -> String {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let rule = row(table.headings().iter().map(|_| "---".to_owned()).collect());
     let body = table.rows().iter().map(|cells| row(cells.iter().map(|cell| cell.text()).collect()));
-    [row(table.headings().to_vec()), rule].into_iter().chain(body).collect()
+    [row(table.shown_headings()), rule].into_iter().chain(body).collect()
 }
 
 /// Where figures are missed, calibrated ones among them: `Table 1 (2 of 6)`.
@@ -260,15 +296,15 @@ fn said(name: &str) -> String {
     let table = match words[..] {
         ["tally"] => {
             let count = |verdict| all().filter(|row| row.verdict() == verdict).count();
-            let judged = all().filter(|row| !matches!(row.standing, Standing::Calibrated { .. })).count();
+            let judged = || all().filter(|row| !matches!(row.standing, Standing::Calibrated { .. }));
             return format!(
-                "of {judged} figures predicted or counted {} are reproduced within their bounds, {} explained and {} missed",
+                "of {} figures predicted or counted {} are reproduced within their bounds; {} are explained and {} missed, \
+                 outside them; {} too vague to judge",
+                judged().count(),
                 count(RowVerdict::Reproduced),
                 count(RowVerdict::Explained),
-                all()
-                    .filter(|row| row.verdict() == RowVerdict::Missed
-                        && !matches!(row.standing, Standing::Calibrated { .. }))
-                    .count(),
+                judged().filter(|row| row.verdict() == RowVerdict::Missed).count(),
+                count(RowVerdict::TooVague),
             );
         }
         ["missed"] => return missed_by_place(),

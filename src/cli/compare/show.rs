@@ -36,7 +36,7 @@ struct Quote {
 }
 
 fn ulps_cell(values: &Compared) -> Cell {
-    values.ulps.map_or_else(|| "none".into(), Cell::Real)
+    values.ulps.map_or_else(|| "none".into(), Cell::from)
 }
 
 fn pass_text(pass: &FragmentPass) -> String {
@@ -74,7 +74,7 @@ fn surfaces_table(surfaces: &[SurfaceDifference]) -> Table {
         if let Some(largest) = &surface.largest {
             let [x, y] = largest.pixel;
             let v = &largest.values;
-            row.extend([Cell::Real(largest.difference), format!("{x}, {y}").into(), v.name.as_str().into()]);
+            row.extend([largest.difference.into(), format!("{x}, {y}").into(), v.name.as_str().into()]);
             row.extend([v.left.as_str().into(), v.right.as_str().into(), ulps_cell(v)]);
         }
         table.push(row);
@@ -112,14 +112,14 @@ impl ShownComparison<'_> {
         }
         let comparison = self.comparison;
         out.line("")?;
-        out.line(surfaces_table(&comparison.surfaces).text())?;
+        out.table(&surfaces_table(&comparison.surfaces))?;
         if !comparison.counts.is_empty() {
             out.line("")?;
             let mut table = Table::new("Counts", &["count", "left", "right"]);
             for count in &comparison.counts {
                 table.push([count.count.into(), count.left.into(), count.right.into()]);
             }
-            out.line(table.text())?;
+            out.table(&table)?;
         }
         out.line("")?;
         out.line(self.verdict())?;
@@ -182,7 +182,7 @@ impl ShownComparison<'_> {
         }
         if !difference.values.is_empty() {
             out.line("")?;
-            out.line(values_table(&difference.values).text())?;
+            out.table(&values_table(&difference.values))?;
         }
         if !difference.operands.is_empty() {
             let differs = difference.operands.iter().any(|operand| operand.differs);
@@ -192,7 +192,7 @@ impl ShownComparison<'_> {
             } else {
                 "what it read, the same on both sides (before swizzle and modifiers):"
             })?;
-            out.line(operands_table(&difference.operands).text())?;
+            out.table(&operands_table(&difference.operands))?;
         }
         Ok(())
     }

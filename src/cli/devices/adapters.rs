@@ -22,7 +22,7 @@ pub(super) fn list(out: &mut Out) -> miette::Result<()> {
             adapter.kind.to_string().into(),
             adapter.backend.into(),
             adapter.driver.into(),
-            adapter.largest_buffer.to_string().into(),
+            adapter.largest_buffer.into(),
         ]);
     }
     out.table(&table)?;
@@ -47,10 +47,10 @@ pub(super) fn probe(name: &str, out: &mut Out) -> miette::Result<Verdict> {
             table.push([
                 operation.name.into(),
                 class.into(),
-                tally.tried.to_string().into(),
-                tally.different.to_string().into(),
-                tally.outside.to_string().into(),
-                tally.worst_ulps.to_string().into(),
+                tally.tried.into(),
+                tally.different.into(),
+                tally.outside.into(),
+                tally.worst_ulps.into(),
                 first(tally).into(),
             ]);
         }

@@ -124,7 +124,8 @@ fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
     let mut figures = Table::new("Figures", &["figure", "value", "unit", "confidence", "source"]);
     for row in profile.figures() {
         let confidence = row.confidence.to_string();
-        figures.push([row.key, row.value, row.unit, confidence, row.source].map(Cell::from));
+        let value = row.value.parse::<u64>().map_or_else(|_| row.value.into(), Cell::Count);
+        figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
     out.table(&figures)?;
     if profile.switches().is_empty() {

@@ -11,12 +11,14 @@ use super::args::{Args, Renderer, SMALLER};
 use super::page::page;
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
+use crate::cli::words::counted;
 use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
+use crate::report::digits::count;
 use crate::report::{FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
@@ -166,14 +168,16 @@ fn tell(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, o
         return Ok(());
     }
     let kinds: Vec<String> =
-        counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{n} {kind}")).collect();
-    out.line(format_args!("{} rays in {} bundles: {}", counts.rays(), counts.bundles, kinds.join(", ")))?;
+        counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{} {kind}", count(n))).collect();
+    let [rays, bundles] = [counts.rays(), counts.bundles].map(count);
+    out.sentence(format_args!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")))?;
     if let Some(engine) = engine {
-        out.line(format_args!("{}", caster::sentence(engine)))?;
+        out.sentence(caster::sentence(engine))?;
     }
     if picture.not_finite > 0 {
-        out.line(format_args!("{} samples were not finite and count as black", picture.not_finite))?;
+        out.line(format_args!("{} samples were not finite and count as black", count(picture.not_finite)))?;
     }
+    let [found, pixels] = [found, pixels].map(counted);
     out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
     Ok(())
 }

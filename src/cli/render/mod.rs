@@ -10,6 +10,7 @@ use refsim::device::Profile;
 
 use super::executor::Decider;
 use super::size::Size;
+use super::words::counted;
 use super::{Out, Problem, memory, scene_name, study, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
@@ -67,7 +68,8 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     if out.json() {
         out.document(&serde_json::json!({ "pixels": hits.len(), "hits": found, "out": args.out }))?;
     } else {
-        out.line(format_args!("{found} of {} pixels hit; written to {}", hits.len(), args.out.display()))?;
+        let [found, pixels] = [found, hits.len()].map(counted);
+        out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
     }
     Ok(Verdict::Done)
 }

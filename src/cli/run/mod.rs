@@ -125,12 +125,12 @@ fn print(setup: &Setup, outcome: &CaseOutcome, written: &[PathBuf], out: &mut Ou
         out.line(format_args!("wrote {}", path.display()))?;
     }
     out.line("")?;
-    out.line(counts(outcome).text())?;
+    out.table(&counts(outcome))?;
     if outcome.probes.is_empty() {
         return Ok(());
     }
     out.line("")?;
-    out.line(probes(&outcome.probes).text())?;
+    out.table(&probes(&outcome.probes))?;
     let passed = outcome.probes.iter().filter(|result| result.passed).count();
     out.line(format_args!("{passed} passed, {} failed", outcome.probes.len() - passed))?;
     Ok(())

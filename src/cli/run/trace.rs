@@ -162,13 +162,13 @@ impl Traced<'_> {
                 index + 1
             ))?;
             out.line("")?;
-            out.line(self.inputs(fragment).text())?;
+            out.table(&self.inputs(fragment))?;
             out.line("")?;
-            out.line(self.steps(fragment).text())?;
+            out.table(&self.steps(fragment))?;
             out.line("")?;
             out.line(self.result(fragment))?;
             out.line("")?;
-            out.line(self.stored(fragment).text())?;
+            out.table(&self.stored(fragment))?;
         }
         Ok(())
     }

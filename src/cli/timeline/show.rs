@@ -40,8 +40,11 @@ pub(super) fn print(
         if args.sensitivity {
             out.line("")?;
             let table = guesses(one);
-            out.line(table.title())?;
-            out.line(if table.rows().is_empty() { "none".to_owned() } else { table.text() })?;
+            if table.rows().is_empty() {
+                out.line(format_args!("{}: none", table.title()))?;
+            } else {
+                out.titled_table(&table)?;
+            }
         }
         if one.replay.uncosted > 0 {
             let operations = one.replay.uncosted;
@@ -58,15 +61,14 @@ pub(super) fn print(
     Ok(())
 }
 
-/// Exact: a microsecond has a million picoseconds, and a double many digits.
+/// Microseconds.
 fn us(time: Picoseconds) -> Cell {
-    Cell::Real(time.0 as f64 / 1e6)
+    Cell::measured(time.0 as f64 / 1e6)
 }
 
-/// In per cent, to the nearest tenth.
+/// In per cent.
 fn percent(part: i128, whole: Picoseconds) -> Cell {
-    let whole = i128::from(whole.0.max(1));
-    Cell::Real(((part * 2000 + whole * part.signum()) / (2 * whole)) as f64 / 10.0)
+    Cell::percent(100.0 * part as f64 / whole.0.max(1) as f64)
 }
 
 /// A part of a total.

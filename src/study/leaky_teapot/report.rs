@@ -20,13 +20,12 @@ fn head(row: &TeapotRow) -> [Cell; 4] {
 fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
     let mut rows = Table::of(
         "Eye rays against exact first hits",
-        "row device format switch hits leaks false_hits wrong_triangle wrong_not_adjacent largest_t_error \
-         pixels_differing",
+        "row hits leaks false_hits wrong_triangle wrong_not_adjacent largest_t_error pixels_differing device format \
+         switch",
     );
     let mut edges = Table::of(
         "Rays aimed at shared edges and vertices: leaks where the surface is whole",
-        "row device format switch edge_rays edge_leaks edge_leak_percent vertex_rays vertex_leaks \
-         vertex_leak_percent",
+        "row edge_rays edge_leaks edge_leak_percent vertex_rays vertex_leaks vertex_leak_percent device format switch",
     );
     for row in &outcome.rows {
         let t = &row.tally;
@@ -36,10 +35,11 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
             t.false_hits.into(),
             t.wrong_triangle.into(),
             (t.wrong_triangle - t.wrong_adjacent).into(),
-            rounded(t.largest_t_error, 1e6).into(),
+            Cell::error(t.largest_t_error),
             row.pixels_differing.into(),
         ];
-        rows.push(head(row).into_iter().chain(counts));
+        let [label, device, format, switch] = head(row);
+        rows.push([label].into_iter().chain(counts).chain([device, format, switch]));
         if parameters.rays_per_edge == 0 {
             continue;
         }
@@ -47,19 +47,32 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
         let shares: [Cell; 6] = [
             e.surface.into(),
             e.leaks.into(),
-            rounded(100.0 * e.leak_share(), 1e3).into(),
+            Cell::percent(100.0 * e.leak_share()),
             v.surface.into(),
             v.leaks.into(),
-            rounded(100.0 * v.leak_share(), 1e3).into(),
+            Cell::percent(100.0 * v.leak_share()),
         ];
-        edges.push(head(row).into_iter().chain(shares));
+        let [label, device, format, switch] = head(row);
+        edges.push([label].into_iter().chain(shares).chain([device, format, switch]));
     }
     [rows, edges]
 }
 
-/// `x` in steps of `1 / steps`, for people.
-fn rounded(x: f64, steps: f64) -> f64 {
-    (x * steps).round() / steps
+/// For each row the first that has the same hits to the bit, and the same counts of aimed rays.
+fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
+    let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+    let alike = |a: &TeapotRow, b: &TeapotRow| {
+        (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
+    };
+    let rows = &outcome.rows;
+    let first = |(i, row): (usize, &TeapotRow)| rows[..i].iter().position(|other| alike(other, row)).unwrap_or(i);
+    rows.iter().enumerate().map(first).collect()
+}
+
+/// What a row is called among others like it: by its switch, if one was turned.
+fn called(row: &TeapotRow) -> String {
+    let switch = row.configuration.switch.as_ref().map(|(name, value)| format!("{name}={value}"));
+    switch.unwrap_or_else(|| row.configuration.label.clone())
 }
 
 /// A row, and the rows after it with the same hits to the bit.
@@ -87,14 +100,7 @@ fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
 impl Group<'_> {
     /// `, and the same bits with a, b and c`
     fn others(&self) -> String {
-        let names: Vec<String> = self
-            .same
-            .iter()
-            .map(|row| match &row.configuration.switch {
-                Some((name, value)) => format!("{name}={value}"),
-                None => row.configuration.label.clone(),
-            })
-            .collect();
+        let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
         if names.is_empty() { String::new() } else { format!(". The same bits with {}", names.join(", ")) }
     }
 }
@@ -109,6 +115,11 @@ fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<P
 pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Result<Findings, ReportError> {
     let mut found = Findings::new("The leaky teapot");
     let [rows, edges] = tables(parameters, &outcome);
+    let (first, names): (Vec<usize>, Vec<String>) = (first_alike(&outcome), outcome.rows.iter().map(called).collect());
+    let switched = outcome.rows.iter().any(|row| row.configuration.switch.is_some());
+    let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
+    let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
+    let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
     // One picture and one map of each group stand on the page.
     let mut pictures = vec![NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic")];
     let mut maps = Vec::new();
@@ -147,7 +158,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         "largest_t_error is in multiples of the ray's direction. A pixel differs if its shaded colour does. r200 rows: the \
          card as its profile has it, then each open question of the hardware answered otherwise, one at a time.",
     );
-    found.table(FoundTable::from(rows).csv("rows").field("rows"));
+    found.table(rows.csv("rows").field("rows"));
     if parameters.rays_per_edge > 0 {
         found.heading("Aimed at the seams");
         found.paragraph(
@@ -156,6 +167,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
              every shared edge, and at every vertex; counted are those that truly hit.",
         );
     }
-    found.table(FoundTable::from(edges).csv("edges").field("edges"));
+    found.table(edges.csv("edges").field("edges"));
     Ok(found)
 }

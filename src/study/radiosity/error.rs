@@ -7,6 +7,7 @@ use refsim::timing::TimingError;
 use refsim::timing::replay::ReplayError;
 use thiserror::Error;
 
+use crate::names::did_you_mean;
 use crate::picture::PictureError;
 use crate::radiosity::on_card::CardError;
 use crate::radiosity::rate::RateError;
@@ -37,7 +38,7 @@ pub enum RadiosityError {
     Dark,
     /// A material that is to change is not there.
     #[error("the scene has no material `{name}`")]
-    #[diagnostic(code(radiosity::material), help("its materials are {}", known.join(", ")))]
+    #[diagnostic(code(radiosity::material), help("{}its materials are {}", did_you_mean(name, known.iter().map(String::as_str)), known.join(", ")))]
     NoMaterial { name: String, known: Vec<String> },
     /// A solver of the host.
     #[error(transparent)]

@@ -3,7 +3,7 @@
 use refsim::timing::replay::{Options, replay};
 use refsim::timing::{Level, Model, TimingError};
 
-use super::tables::{Tables, digits, tables};
+use super::tables::{Tables, tables};
 use super::{IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
 use crate::report::{
     Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table, false_color,
@@ -21,7 +21,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
          solvers of the host. Pictures are drawn by the emulated {} from its radiosity texture, times {}, with the sRGB curve.",
         outcome.patches.list().len(),
         parameters.profile.title,
-        digits(outcome.exposure, 3).text(),
+        Cell::ratio(outcome.exposure).text(),
     ));
     let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
@@ -121,7 +121,7 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
         let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
         let areas: [Cell; 2] = [patch.area().into(), outcome.patches.open_area(i).into()];
         let parts: [Cell; 2] = [patch.face.into(), patch.material.into()];
-        let found = outcome.rows.iter().flat_map(|row| row.radiosity[i].map(Cell::Real));
+        let found = outcome.rows.iter().flat_map(|row| row.radiosity[i].map(Cell::from));
         table.push(places.into_iter().chain(areas).chain(parts).chain(found));
     }
     table

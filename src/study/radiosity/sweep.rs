@@ -112,19 +112,3 @@ fn bias(
 fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
     a.iter().flatten().map(|x| x.to_bits()).eq(b.iter().flatten().map(|x| x.to_bits()))
 }
-
-impl SweepRow {
-    /// The settings of the switches, in words.
-    pub fn settings(&self) -> String {
-        let count = self.switches.len();
-        let plural = if count == 1 { "" } else { "es" };
-        match (self.as_it_is, &self.switches[..]) {
-            (true, []) => "as it is".to_owned(),
-            (true, _) => format!("as it is; {count} switch{plural}: the same bits"),
-            (false, turned) => {
-                let names: Vec<String> = turned.iter().map(|(name, value)| format!("{name}={value}")).collect();
-                names.join(", ")
-            }
-        }
-    }
-}

@@ -1,7 +1,7 @@
 //! The tables of the study.
 
-use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
-use crate::report::{Cell, Table};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason, SweepRow};
+use crate::report::{Cell, Folded, Table};
 
 /// The tables of a study.
 pub(super) struct Tables {
@@ -31,15 +31,6 @@ pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tab
     }
 }
 
-/// Rounded to `count` significant digits.
-pub(super) fn digits(x: f64, count: usize) -> Cell {
-    if x == 0.0 || !x.is_finite() {
-        return x.into();
-    }
-    // The shortest decimal of the rounded value.
-    format!("{x:.*e}", count.saturating_sub(1)).parse::<f64>().unwrap_or(x).into()
-}
-
 fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches \
          reciprocity_error enforced";
@@ -54,12 +45,12 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table.push([
         outcome.patches.list().len().into(),
         wishes.from.to_string().into(),
-        digits(sums.least, 7),
-        digits(sums.most, 7),
-        digits(sums.escaping, 3),
+        Cell::decimals(sums.least, 7),
+        Cell::decimals(sums.most, 7),
+        Cell::error(sums.escaping),
         outcome.patches.covered()[0].into(),
         sums.blind.into(),
-        digits(outcome.reciprocity_error, 3),
+        Cell::error(outcome.reciprocity_error),
         enforced.into(),
     ]);
     table
@@ -72,13 +63,13 @@ fn ways(outcome: &RadiosityOutcome) -> Table {
         columns,
     );
     for row in &outcome.rows {
-        let off = |of: fn(SolutionError) -> f64| row.off.map_or(Cell::Empty, |off| digits(of(off), 3));
+        let off = |of: fn(SolutionError) -> f64| row.off.map_or(Cell::Empty, |off| Cell::error(of(off)));
         table.push([
             row.label.as_str().into(),
             if row.way == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
             row.stopped.to_string().into(),
-            digits(row.residual, 3),
-            digits(row.energy_balance_error, 3),
+            Cell::error(row.residual),
+            Cell::error(row.energy_balance_error),
             off(|off| off.largest),
             off(|off| off.relative),
             off(|off| off.bias),
@@ -109,7 +100,7 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
             cycle.map(|c| c.period).into(),
             cycle.map(|c| c.changing).into(),
             cycle.map(|_| values).into(),
-            cycle.map_or(Cell::Empty, |c| digits(100.0 * c.largest_change, 3)),
+            cycle.map_or(Cell::Empty, |c| Cell::percent(100.0 * c.largest_change)),
         ]);
     }
     table
@@ -124,15 +115,31 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
         table.push([
             row.patches.into(),
             row.way.as_str().into(),
-            row.settings().into(),
+            settings(row),
             row.iterations.into(),
             row.stopped.to_string().into(),
-            digits(row.off.largest, 3),
-            digits(row.off.bias, 3),
-            row.predicted.map_or(Cell::Empty, |bias| digits(bias, 3)),
+            Cell::error(row.off.largest),
+            Cell::error(row.off.bias),
+            row.predicted.map_or(Cell::Empty, Cell::error),
         ]);
     }
     table
+}
+
+/// The settings of the switches with which the same bits come out, in words.
+fn settings(row: &SweepRow) -> Cell {
+    let names = row.switches.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>();
+    match (row.as_it_is, &names[..]) {
+        (true, []) => "as it is".into(),
+        (true, _) => Cell::Folded(Folded {
+            before: "as it is; ",
+            rows: ["switch", "switches"],
+            same: "the same bits",
+            first: format!("{}, {} patches", row.way, row.patches),
+            names,
+        }),
+        (false, _) => names.join(", ").into(),
+    }
 }
 
 fn card(outcome: &RadiosityOutcome) -> Table {
@@ -145,17 +152,17 @@ fn card(outcome: &RadiosityOutcome) -> Table {
             facts.passes.into(),
             facts.block.into(),
             facts.instructions.into(),
-            digits(facts.matrix_bytes / 1e6, 4),
+            Cell::measured(facts.matrix_bytes / 1e6),
         ];
         let time = facts.time.map_or_else(
             || [const { Cell::Empty }; 5],
             |time| {
                 [
-                    digits(time.seconds * 1e6, 4),
-                    digits(1.0 / time.seconds, 3),
-                    digits(time.mflops, 3),
+                    Cell::measured(time.seconds * 1e6),
+                    Cell::measured(1.0 / time.seconds),
+                    Cell::measured(time.mflops),
                     time.bound_by.to_string().into(),
-                    digits(100.0 * time.bandwidth, 2),
+                    Cell::percent(100.0 * time.bandwidth),
                 ]
             },
         );
@@ -173,7 +180,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
         let count = |n: Option<usize>| n.map_or_else(|| Cell::from("not reached"), Cell::from);
         let saved = match (relit.from_last, relit.from_nothing) {
             (Some(last), Some(nothing)) if nothing > 0 => {
-                digits(100.0 * (nothing as f64 - last as f64) / nothing as f64, 3)
+                Cell::percent(100.0 * (nothing as f64 - last as f64) / nothing as f64)
             }
             _ => Cell::Empty,
         };

@@ -3,6 +3,7 @@
 use refsim::device::{DeviceError, Profile};
 use refsim::timing::TimingError;
 
+use crate::names::did_you_mean;
 use crate::ray_engine::EngineError;
 use crate::report::ReportError;
 
@@ -13,7 +14,10 @@ use crate::report::ReportError;
 pub enum ReproduceError {
     /// No such entry.
     #[error("expected the name of an entry ({known}), found `{found}`")]
-    #[diagnostic(code(reproduce::unknown), help("`crossbar reproduce --list` says what each is"))]
+    #[diagnostic(
+        code(reproduce::unknown),
+        help("{}`crossbar reproduce --list` says what each is", did_you_mean(found, known.split(", ")))
+    )]
     Unknown { found: String, known: String },
     /// A profile lacks a figure that the paper's cost equation needs.
     #[error("device `{device}` has no figure `{figure}`, which this entry needs")]

@@ -3,7 +3,7 @@
 use super::equation_11::{GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
 use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline};
 use crate::ray_engine::model::CostRates;
-use crate::report::{Chart, Series, Table};
+use crate::report::{Cell, Chart, Series, Table};
 
 /// The cards of the figure, with their names in it.
 const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
@@ -27,12 +27,12 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
             let card = rates(device)?;
             let pipeline = pipeline_rates(device)?;
             for triangles in TRIANGLES {
-                let of = |rates: &CostRates| rounded(rates.tests_per_s(f64::from(triangles), gamma) / MEGA);
-                tests.push([device.into(), gamma.into(), triangles.into(), of(&card).into(), of(&pipeline).into()]);
+                let of = |rates: &CostRates| Cell::measured(rates.tests_per_s(f64::from(triangles), gamma) / MEGA);
+                tests.push([device.into(), gamma.into(), triangles.into(), of(&card), of(&pipeline)]);
             }
             let least = HOSTS.map(|host| card.least_triangles(host, gamma).into());
             limits.push(
-                [device.into(), gamma.into(), rounded(card.half_rate_triangles(gamma)).into()].into_iter().chain(least),
+                [device.into(), gamma.into(), Cell::measured(card.half_rate_triangles(gamma))].into_iter().chain(least),
             );
             lines.push(line(format!("{title}, equation 11"), &card, gamma));
             lines.push(line(format!("{title}, pipeline model"), &pipeline, gamma));
@@ -59,10 +59,6 @@ fn pipeline_rates(device: &str) -> Result<CostRates, ReproduceError> {
         fill_pixels_per_s: pipeline::dual_textured(device)?.pixels_per_s(),
         readback_bytes_per_s: pipeline::results_per_s(device, 1.0)?,
     })
-}
-
-fn rounded(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0
 }
 
 fn line(label: String, card: &CostRates, gamma: f64) -> Series {

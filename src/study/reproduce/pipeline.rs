@@ -85,7 +85,7 @@ pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
         let drawn = dual_textured(device)?;
         let clocks = model(device)?.clocks(&drawn.record);
         let pixels = drawn.record.counts.fragments.generated as f64;
-        let each = |total: u64| -> Cell { ((total as f64 / pixels * 1000.0).round() / 1000.0).into() };
+        let each = |total: u64| Cell::measured(total as f64 / pixels);
         table.push([
             device.into(),
             each(clocks.traffic.textures),

@@ -2,17 +2,11 @@
 
 use std::fmt;
 
-/// A number with `decimals` digits after the point.
-pub fn number(value: f64, decimals: usize) -> String {
-    // Plus 0, so that nothing reads -0.
-    let scale = (0..decimals).fold(1.0, |scale: f64, _| scale * 10.0);
-    format!("{:.decimals$}", (value * scale).round() / scale + 0.0)
-}
+use crate::report::digits::{Quantity, shown};
 
-/// A value to whole parts of `steps` in one.
-pub(super) fn rounded(value: f64, steps: f64) -> f64 {
-    // Plus 0, so that nothing reads -0.
-    (value * steps).round() / steps + 0.0
+/// A number with `decimals` digits after the point.
+pub fn number(value: f64, decimals: u8) -> String {
+    shown(value, Quantity::Decimals(decimals))
 }
 
 /// A paragraph: a template, and the numbers that replace its `{}`.
@@ -71,6 +65,6 @@ mod tests {
 
     #[test]
     fn nothing_reads_minus_zero() {
-        assert_eq!((number(-0.04, 1), number(1540.0, 0)), ("0.0".to_owned(), "1540".to_owned()));
+        assert_eq!((number(-0.04, 1), number(1540.0, 0)), ("0.0".to_owned(), "1,540".to_owned()));
     }
 }

@@ -10,7 +10,7 @@ use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::Table;
+use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
 const DEVICE: &str = "r200";
@@ -70,7 +70,7 @@ fn kernels() -> Result<(Vec<PaperRow>, Table), ReproduceError> {
             "clocks".into(),
             clocks.arithmetic.0.into(),
             clocks.textures.0.into(),
-            ((rate * 10.0).round() / 10.0).into(),
+            Cell::measured(rate),
             drawn.cost.bottleneck.to_string().into(),
         ]);
         let standing = Standing::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };

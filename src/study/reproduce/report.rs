@@ -3,7 +3,6 @@
 use serde_json::json;
 use strum::VariantArray as _;
 
-use super::prose::rounded;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
@@ -29,8 +28,8 @@ fn rows(found: &Reproduced) -> Table {
             format!("{} {}", target.origin, target.origin.how()).trim().into(),
             target.unit.into(),
             target.value.into(),
-            rounded(row.ours, 1000.0).into(),
-            rounded(100.0 * row.difference(), 10.0).into(),
+            row.ours.into(),
+            Cell::percent(100.0 * row.difference()),
             row.standing.to_string().into(),
             row.standing.inputs().into(),
             row.bound.text().into(),
@@ -44,29 +43,27 @@ fn rows(found: &Reproduced) -> Table {
 }
 
 fn limits(row: &PaperRow) -> [Cell; 2] {
-    let limit = |value: Option<f64>| value.map(|value| rounded(value, 100.0)).into();
+    let limit = |value: Option<f64>| value.into();
     let interval = row.bound.interval(&row.target);
     [limit(interval.map(|[low, _]| low)), limit(interval.map(|[_, high]| high))]
 }
 
 const SHOWN: [&str; 10] =
-    ["what", "device", "method", "place", "unit", "paper", "ours", "difference_%", "bound", "verdict"];
+    ["what", "place", "unit", "paper", "ours", "difference_%", "verdict", "bound", "device", "method"];
 
 fn shown(row: &PaperRow) -> [Cell; 10] {
     let target = &row.target;
-    let steps = if row.ours.abs() < 1000.0 { 10.0 } else { 1.0 };
-    let steps = if row.ours.abs() < 10.0 { 100.0 } else { steps };
     [
         row.what.as_str().into(),
-        row.device.into(),
-        row.method.to_string().into(),
         target.place.into(),
         target.unit.into(),
-        target.text().into(),
-        rounded(row.ours, steps).into(),
-        rounded(100.0 * row.difference(), 10.0).into(),
-        row.bound.text().into(),
+        target.cell(),
+        target.beside(row.ours),
+        Cell::decimals(100.0 * row.difference(), 1),
         row.verdict().to_string().into(),
+        row.bound.text().into(),
+        row.device.into(),
+        row.method.to_string().into(),
     ]
 }
 
@@ -85,26 +82,33 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
 }
 
 /// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those
-/// outside their bounds.
-fn notes(found: &Reproduced) -> Table {
-    let mut table = Table::of("Origins, calibrations and explanations", "what place paper says of");
+/// outside their bounds: each reason once, with its rows.
+pub fn notes(found: &Reproduced) -> Table {
+    let mut notes: Vec<([String; 2], Vec<String>)> = Vec::new();
     for (_, row) in all(found) {
-        let mut note = |kind: &str, text: &str| {
-            if !text.is_empty() {
-                table.push([
-                    row.what.as_str().into(),
-                    row.target.place.into(),
-                    row.target.text().into(),
-                    kind.into(),
-                    text.into(),
-                ]);
+        let name = format!("{} ({})", row.what, row.target.place);
+        let mut note = |kind: &str, reason: String, row: String| {
+            let key = [kind.to_owned(), reason];
+            match notes.iter_mut().find(|(other, _)| *other == key) {
+                Some((_, rows)) if rows.contains(&row) => {}
+                Some((_, rows)) => rows.push(row),
+                None => notes.push((key, vec![row])),
             }
         };
-        note(&row.target.origin.to_string(), row.target.origin.how());
-        if calibrated(row) {
-            note(&row.standing.to_string(), row.standing.inputs());
+        if !row.target.origin.how().is_empty() {
+            note(&row.target.origin.to_string(), row.target.origin.how().to_owned(), name.clone());
         }
-        note("explained", &row.explanation().map(super::Explanation::text).unwrap_or_default());
+        if calibrated(row) {
+            note(&row.standing.to_string(), row.standing.inputs().to_owned(), name.clone());
+        }
+        if let Some(explanation) = row.explanation() {
+            let value = row.target.beside(explanation.value()).text();
+            note("explained", explanation.reason(), format!("{name}: {value} there"));
+        }
+    }
+    let mut table = Table::of("Origins, calibrations and explanations", "count kind reason figures");
+    for ([kind, reason], rows) in notes {
+        table.push([rows.len().into(), kind.into(), reason.into(), rows.join("; ").into()]);
     }
     table
 }
@@ -122,10 +126,22 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
-/// The tally in one line.
+/// The tally in one line: what is explained is no more reproduced than what is missed.
 pub fn tally_line(found: &Reproduced) -> String {
-    let part = |verdict: &RowVerdict| format!("{} {verdict}", count(found, *verdict));
-    RowVerdict::VARIANTS.iter().map(part).collect::<Vec<_>>().join(", ")
+    let [reproduced, calibrated, explained, missed, vague] = [
+        RowVerdict::Reproduced,
+        RowVerdict::Calibrated,
+        RowVerdict::Explained,
+        RowVerdict::Missed,
+        RowVerdict::TooVague,
+    ]
+    .map(|verdict| count(found, verdict));
+    format!(
+        "{} figures: {reproduced} reproduced; {} outside their bounds, {explained} of them explained and {missed} missed; \
+         {calibrated} calibrated, no evidence; {vague} too vague to judge",
+        all(found).count(),
+        explained + missed,
+    )
 }
 
 /// What would have to be known to say why rows are off: each question once, with the entry that asks first.
@@ -175,7 +191,7 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
         }));
     }
     all.field("entries", json!(entries));
-    all.print(format!("tally: {}", tally_line(found)));
+    all.print(tally_line(found));
     for (entry, question) in questions(found) {
         all.print(format!("open ({entry}): {question}"));
     }

@@ -5,8 +5,7 @@ use crate::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
 use crate::radiosity::{FormFactors, Patches, Subdivision, System};
-use crate::report::{Chart, Scale, Series, Table};
-use crate::study::reproduce::prose::rounded;
+use crate::report::{Cell, Chart, Scale, Series, Table};
 use crate::study::reproduce::{Bound, EntryChart, Method, PaperFigure, PaperRow, Prose, Setting, Standing, Sweep};
 
 /// Patches; the number hardly matters to how fast iterations converge.
@@ -39,13 +38,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         let (jacobi, seidel) = (jacobi?, seidel?);
         for share in RESIDUALS {
             let (j, g) = (needed(&jacobi, share), needed(&seidel, share));
-            table.push([
-                name.into(),
-                share.into(),
-                j.into(),
-                g.into(),
-                rounded(ratio(&jacobi, &seidel, share), 100.0).into(),
-            ]);
+            table.push([name.into(), share.into(), j.into(), g.into(), Cell::ratio(ratio(&jacobi, &seidel, share))]);
         }
         late.push(row(format!("{name}, late"), slope(&seidel) / slope(&jacobi)));
         if channel == 0 {

@@ -92,17 +92,16 @@ fn table(points: &[Point]) -> Table {
         "Milliseconds of an iteration, and nanoseconds an element",
         "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
     );
-    let rounded = |x: f64| Cell::Real((x * 1000.0).round() / 1000.0);
     for p in points {
         table.push([
             p.patches.into(),
-            rounded(p.rgb),
-            rounded(p.each(p.rgb)),
-            rounded(p.luminance),
-            rounded(p.each(p.luminance)),
-            rounded(p.host),
-            rounded(p.each(p.host)),
-            rounded(p.host / p.rgb),
+            Cell::measured(p.rgb),
+            Cell::measured(p.each(p.rgb)),
+            Cell::measured(p.luminance),
+            Cell::measured(p.each(p.luminance)),
+            Cell::measured(p.host),
+            Cell::measured(p.each(p.host)),
+            Cell::ratio(p.host / p.rgb),
         ]);
     }
     table

@@ -6,7 +6,6 @@ use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
 use crate::report::{Cell, Table};
-use crate::study::reproduce::prose::rounded;
 use crate::study::reproduce::{Bound, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 const PLACE: &str = "section 3.1";
@@ -57,7 +56,7 @@ fn profile_width() -> Result<f64, ReproduceError> {
 }
 
 fn rows(paper: &TimedIteration) -> Vec<PaperRow> {
-    let printed = |value: f64, decimals: usize, unit: &'static str| PaperFigure::printed(value, decimals, unit, PLACE);
+    let printed = |value: f64, decimals: u8, unit: &'static str| PaperFigure::printed(value, decimals, unit, PLACE);
     let calibrated = Standing::Calibrated { on: CHOSE_N };
     let predicted = Standing::Predicted { from: CHOSE_N };
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, PRINTED_CARD.0), model::mflops(PATCHES, PRINTED_HOST.0));
@@ -130,13 +129,13 @@ fn sizes() -> Result<Table, ReproduceError> {
         let timed = iteration(patches, Packing::Rgb, Storage::Fp32)?;
         let reads = |(rate, mflops): (f64, f64)| -> [Cell; 2] {
             let ours = model::mflops(patches, rate);
-            [rounded(ours, 10.0).into(), (ours.round() == mflops).into()]
+            [Cell::measured(ours), (ours.round() == mflops).into()]
         };
         let head: [Cell; 4] = [
             patches.into(),
             timed.passes.into(),
-            rounded(timed.per_s, 100.0).into(),
-            rounded(100.0 * (timed.per_s / PRINTED_CARD.0 - 1.0), 10.0).into(),
+            Cell::measured(timed.per_s),
+            Cell::percent(100.0 * (timed.per_s / PRINTED_CARD.0 - 1.0)),
         ];
         table.push(head.into_iter().chain(reads(PRINTED_CARD)).chain(reads(PRINTED_HOST)));
     }
@@ -150,7 +149,6 @@ fn costs() -> Result<Table, ReproduceError> {
         "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
          iterations_per_s bound_by",
     );
-    let rounded = |x: f64| Cell::Real((x * 10.0).round() / 10.0);
     for packing in [Packing::Rgb, Packing::Luminance] {
         for storage in [Storage::Fp32, Storage::Fp16] {
             let timed = iteration(PATCHES, packing, storage)?;
@@ -162,9 +160,9 @@ fn costs() -> Result<Table, ReproduceError> {
                 timed.textures.into(),
                 timed.arithmetic.into(),
                 timed.memory.into(),
-                rounded(100.0 * timed.filled),
-                rounded(100.0 * timed.bandwidth),
-                rounded(timed.per_s),
+                Cell::percent(100.0 * timed.filled),
+                Cell::percent(100.0 * timed.bandwidth),
+                Cell::measured(timed.per_s),
                 timed.bottleneck.to_string().into(),
             ]);
         }

@@ -60,7 +60,7 @@ impl Bound {
 mod tests {
     use super::*;
 
-    fn target(value: f64, decimals: usize) -> PaperFigure {
+    fn target(value: f64, decimals: u8) -> PaperFigure {
         PaperFigure::printed(value, decimals, "M/s", "section 6.1")
     }
 

@@ -29,15 +29,17 @@ impl Explanation {
         self.value
     }
 
-    /// In words.
-    pub fn text(&self) -> String {
+    /// What reaches the row, in words; the same for all rows that one setting explains.
+    pub fn reason(&self) -> String {
         let [held, all] = self.others;
         format!(
-            "{}: {} at {} = {}, where {held} of the {all} rows of the sweep lie within their bounds",
-            self.sweep,
-            number(self.value, if self.value < 1000.0 { 1 } else { 0 }),
-            self.parameter,
-            self.at,
+            "{}: at {} = {}, {held} of the {all} rows of the sweep lie within their bounds",
+            self.sweep, self.parameter, self.at,
         )
+    }
+
+    /// In words, with the row's value there.
+    pub fn text(&self) -> String {
+        format!("{}, this one with {}", self.reason(), number(self.value, u8::from(self.value < 1000.0)))
     }
 }

@@ -1,6 +1,6 @@
 //! A paper's figure and its origin.
 
-use crate::study::reproduce::prose::number;
+use crate::report::Cell;
 
 /// Where a figure comes from.
 #[derive(Clone, Debug, PartialEq, Eq, strum::Display)]
@@ -30,7 +30,7 @@ pub struct PaperFigure {
     /// The value, in units of `unit`.
     pub value: f64,
     /// Digits behind the point, as printed.
-    pub decimals: usize,
+    pub decimals: u8,
     /// The unit.
     pub unit: &'static str,
     /// Where it stands.
@@ -41,7 +41,7 @@ pub struct PaperFigure {
 
 impl PaperFigure {
     /// A figure that stands in the paper.
-    pub const fn printed(value: f64, decimals: usize, unit: &'static str, place: &'static str) -> Self {
+    pub const fn printed(value: f64, decimals: u8, unit: &'static str, place: &'static str) -> Self {
         Self { value, decimals, unit, place, origin: Origin::Printed }
     }
 
@@ -50,9 +50,24 @@ impl PaperFigure {
         (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
     }
 
+    /// The value as it is printed, marked with its origin where that is not print.
+    pub fn cell(&self) -> Cell {
+        let mark = match self.origin {
+            Origin::Printed => "",
+            Origin::Implied(_) => "(implied)",
+            Origin::Inferred(_) => "(inferred)",
+        };
+        Cell::decimals(self.value, self.decimals).marked(mark)
+    }
+
+    /// A value of ours beside it: one digit more, but for numbers of so many digits that nobody needs another.
+    pub fn beside(&self, ours: f64) -> Cell {
+        let more = u8::from(self.value.abs() < 1000.0);
+        Cell::decimals(ours, self.decimals.saturating_add(more))
+    }
+
     /// The value as it is printed, with its origin where that is not print.
     pub fn text(&self) -> String {
-        let value = number(self.value, self.decimals);
-        if self.origin == Origin::Printed { value } else { format!("{value} ({})", self.origin) }
+        self.cell().text()
     }
 }

@@ -2,7 +2,6 @@
 
 use super::{Explanation, PaperRow, Standing};
 use crate::report::{Cell, Table};
-use crate::study::reproduce::prose::rounded;
 
 /// One setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,18 +61,17 @@ impl Sweep {
             ["what", "place", "unit", "paper", "ours"].map(str::to_owned).into_iter().chain(settings).collect();
         let mut table = Table::new(format!("{title}; * within the bound"), &headings);
         for (i, row) in rows.iter().enumerate() {
-            let text = |value: f64| -> Cell {
-                let within = if row.admits(value) { " *" } else { "" };
-                format!("{}{within}", rounded(show(value), 10.0)).into()
-            };
+            let unit = unit.unwrap_or(row.target.unit);
+            let cell = |value: f64| if unit == "%" { Cell::percent(show(value)) } else { Cell::measured(show(value)) };
+            let judged = |value: f64| cell(value).marked(if row.admits(value) { "*" } else { "" });
             let head: [Cell; 5] = [
                 row.what.as_str().into(),
                 row.target.place.into(),
-                unit.unwrap_or(row.target.unit).into(),
-                rounded(show(row.target.value), 10.0).into(),
-                text(row.ours),
+                unit.into(),
+                cell(row.target.value),
+                judged(row.ours),
             ];
-            let value = |setting: &Setting| text(setting.values.get(i).copied().unwrap_or(f64::NAN));
+            let value = |setting: &Setting| judged(setting.values.get(i).copied().unwrap_or(f64::NAN));
             table.push(head.into_iter().chain(self.settings.iter().map(value)));
         }
         table

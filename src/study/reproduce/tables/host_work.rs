@@ -3,7 +3,6 @@
 use refsim::event::Event;
 use refsim::timing::host::{HostCounts, HostModel, HostOperation};
 
-use super::figure;
 use super::speed_ups::SpeedUpRun;
 use super::teapot::TeapotRoom;
 use crate::report::{Cell, Table};
@@ -21,7 +20,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
 }
 
 fn row(what: &str, host: &HostModel, counts: &HostCounts, rays: u64) -> Vec<Cell> {
-    let each = |seconds: f64| figure(1e6 * seconds / rays.max(1) as f64, 1000.0);
+    let each = |seconds: f64| Cell::measured(1e6 * seconds / rays.max(1) as f64);
     let kinds = HostOperation::ALL.iter().map(|kind| each(host.time_of(*kind, counts.of(*kind)).seconds()));
     std::iter::once(what.into()).chain(kinds).chain([each(host.time_of_all(counts).seconds())]).collect()
 }

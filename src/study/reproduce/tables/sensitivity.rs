@@ -7,10 +7,10 @@ use refsim::timing::queue::QueueFigures;
 
 use super::super::ReproduceError;
 use super::engine_run::{Commands, Run};
+use super::speed_up;
 use super::speed_ups::SpeedUpRun;
 use super::sweeps::rates;
 use super::workload::HostOnly;
-use super::{figure, speed_up};
 use crate::report::{Cell, Table};
 
 /// Guesses that are doubled: of the host's operations, and of the queue's commands.
@@ -56,5 +56,5 @@ fn speed_ups(
 
 fn push(table: &mut Table, guess: &str, found: &[f64]) {
     let head: Cell = guess.into();
-    table.push(std::iter::once(head).chain(found.iter().map(|value| figure(*value, 10.0))));
+    table.push(std::iter::once(head).chain(found.iter().map(|value| Cell::percent(*value))));
 }

@@ -7,7 +7,7 @@ use super::super::{Bound, Method, PaperFigure, PaperRow, ReproduceError, Standin
 use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::TIMES;
-use super::{HOST_ALONE, RATE, commands, figure, speed_up, sweeps};
+use super::{HOST_ALONE, RATE, commands, speed_up, sweeps};
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
 
@@ -131,22 +131,22 @@ pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Re
     for line in lines {
         let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);
         let (counts, rays) = (&line.run.counts, line.run.counts.rays as f64);
-        let of = |part: u64, whole: f64, steps: f64| -> Cell { figure(part as f64 / whole.max(1.0), steps) };
+        let of = |part: u64, whole: f64| Cell::ratio(part as f64 / whole.max(1.0));
         table.push([
             line.row.what.as_str().into(),
-            figure(line.row.target.value, 1.0),
-            figure(line.row.ours, 1.0),
-            figure(line.printed(), 10.0),
-            figure(line.ours(), 10.0),
-            figure(line.ours() - line.printed(), 10.0),
-            figure(free, 10.0),
-            figure(1000.0 * counts.passes as f64 / rays, 10.0),
-            of(counts.pass_rays, counts.passes as f64, 10.0),
-            of(counts.pass_tests, counts.pass_rays as f64, 10.0),
-            of(counts.traversal.cells, rays, 10.0),
-            of(counts.host_tests, rays, 10.0),
-            of(counts.pass_rays, rays, 100.0),
-            of(counts.forced_rays, rays, 100.0),
+            Cell::decimals(line.row.target.value, 0),
+            Cell::measured(line.row.ours),
+            Cell::percent(line.printed()),
+            Cell::percent(line.ours()),
+            Cell::percent(line.ours() - line.printed()),
+            Cell::percent(free),
+            Cell::ratio(1000.0 * counts.passes as f64 / rays),
+            of(counts.pass_rays, counts.passes as f64),
+            of(counts.pass_tests, counts.pass_rays as f64),
+            of(counts.traversal.cells, rays),
+            of(counts.host_tests, rays),
+            of(counts.pass_rays, rays),
+            of(counts.forced_rays, rays),
         ]);
     }
     Ok(table)

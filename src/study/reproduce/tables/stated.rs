@@ -4,10 +4,9 @@ use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 use refsim::timing::queue::QueueFigures;
 
 use super::super::Standing;
-use super::super::prose::{Prose, number, rounded};
+use super::super::prose::{Prose, number};
 use super::engine_run::Commands;
 use super::teapot::TeapotRoom;
-use crate::report::Cell;
 
 /// The printed figures that go into every predicted rate.
 pub(super) const RATE: Standing = Standing::Predicted {
@@ -40,8 +39,4 @@ pub(super) fn speed_up(rays_per_s: f64) -> f64 {
 /// How the tables' runs are timed: what commands cost is guessed, and the guesses are those of every timeline.
 pub(super) fn commands() -> Commands {
     Commands::Cost(QueueFigures::default())
-}
-
-pub(super) fn figure(value: f64, steps: f64) -> Cell {
-    rounded(value, steps).into()
 }

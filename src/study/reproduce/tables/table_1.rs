@@ -10,8 +10,8 @@ use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
 use super::workload::{Asks, Job, TIMES};
-use super::{HOST_ALONE, QUESTION, RATE, commands, figure, speed_up};
-use crate::report::{Chart, Series, Table};
+use super::{HOST_ALONE, QUESTION, RATE, commands, speed_up};
+use crate::report::{Cell, Chart, Series, Table};
 
 /// A line of both tables.
 struct PrintedScene {
@@ -186,9 +186,9 @@ fn table(ran: &[Ran]) -> Table {
             scene.polygons.into(),
             ran.triangles.into(),
             ran.run.counts.rays.into(),
-            figure(scene.rays_per_s, 1.0),
-            figure(ran.rays_per_s, 1.0),
-            figure(ran.alone_rays_per_s, 1.0),
+            Cell::decimals(scene.rays_per_s, 0),
+            Cell::measured(ran.rays_per_s),
+            Cell::measured(ran.alone_rays_per_s),
         ]);
     }
     table

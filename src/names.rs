@@ -1,0 +1,63 @@
+//! Which of some names was meant.
+
+/// Longer names are nobody's slip of the finger.
+const LONGEST: usize = 80;
+
+/// The name nearest to what was found, if it is near: at most one letter in three is wrong, missing, too many or
+/// swapped with the next. Case does not count. Of equally near names the first.
+pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let letters = found.chars().take(LONGEST + 1).count();
+    if letters > LONGEST {
+        return None;
+    }
+    let found = found.to_lowercase();
+    let distance = |name: &str| strsim::damerau_levenshtein(&found, &name.to_lowercase());
+    let near = names.into_iter().map(|name| (distance(name), name)).filter(|(far, _)| *far <= letters / 3);
+    near.min_by_key(|(far, _)| *far).map(|(_, name)| name)
+}
+
+/// ``did you mean `r200`? ``, to stand before other help; empty if no name is near.
+pub fn did_you_mean<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(found, names).map(|name| format!("did you mean `{name}`? ")).unwrap_or_default()
+}
+
+/// The same for serde's messages on unknown fields and variants, which quote what was found and then the known names.
+pub fn did_you_mean_field(message: &str) -> String {
+    if !message.starts_with("unknown ") {
+        return String::new();
+    }
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    quoted.next().map(|found| did_you_mean(found, quoted)).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CARDS: [&str; 5] = ["nv20", "r200", "nv25", "r300", "gt200"];
+
+    #[test]
+    fn a_slip_is_understood() {
+        for (found, meant) in
+            [("r2000", "r200"), ("R200", "r200"), ("nv2", "nv20"), ("tg200", "gt200"), ("r20", "r200")]
+        {
+            assert_eq!(nearest(found, CARDS), Some(meant), "{found}");
+        }
+    }
+
+    #[test]
+    fn what_is_far_from_all_names_means_none() {
+        for found in ["", "x", "radeon", "9800", "r2", &"r200".repeat(100_000)] {
+            assert_eq!(nearest(found, CARDS), None);
+        }
+        assert_eq!(did_you_mean("radeon", CARDS), "");
+    }
+
+    #[test]
+    fn fields_are_read_out_of_the_message() {
+        let said = did_you_mean_field("unknown field `fullscreen`, expected one of `primitive`, `full_screen`, `cull`");
+        assert_eq!(said, "did you mean `full_screen`? ");
+        assert_eq!(did_you_mean_field("missing field `mesh`"), "");
+        assert_eq!(did_you_mean_field("unknown field `x`, there are no fields"), "");
+    }
+}

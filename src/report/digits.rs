@@ -1,0 +1,132 @@
+//! How many digits of a number people are shown: decided here, by what the number is, for terminal and page alike.
+//! Machines get every digit.
+
+/// What a number is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantity {
+    /// A setting, or a value that must be seen whole: the shortest text that reads back to the same number.
+    #[default]
+    Exact,
+    /// A figure of a paper, or ours beside it: so many digits after the point.
+    Decimals(u8),
+    /// Measured or worked out, a time, rate or size: four significant digits, and never fewer than the whole part.
+    Measured,
+    /// A quotient of two quantities: three significant digits.
+    Ratio,
+    /// In per cent: one digit after the point; below 1 %, two significant digits.
+    Percent,
+    /// How far something is from what it should be: three significant digits.
+    Error,
+}
+
+/// Numbers from here on are written with an exponent, and those below [`SMALL`].
+const LARGE: i32 = 15;
+/// The power of ten below which numbers are written with an exponent.
+const SMALL: i32 = -4;
+
+/// A number as people are shown it: thousands parted by commas, digits by what it is.
+pub fn shown(value: f64, quantity: Quantity) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return exact(value);
+    }
+    let text = match quantity {
+        Quantity::Exact => exact(value),
+        Quantity::Decimals(decimals) => fixed(value, usize::from(decimals)),
+        Quantity::Percent if value.abs() >= 1.0 => fixed(value, 1),
+        Quantity::Percent => significant(value, 2),
+        // What is whole is a count or was set so.
+        _ if value.fract() == 0.0 && value.abs() < 1e15 => fixed(value, 0),
+        Quantity::Measured => significant(value, 4),
+        Quantity::Ratio | Quantity::Error => significant(value, 3),
+    };
+    grouped(&text)
+}
+
+/// A count as people are shown it: `177,694`.
+pub fn count(count: u64) -> String {
+    grouped(&count.to_string())
+}
+
+/// The shortest text that reads back to the same number: plain near one, with an exponent far from it.
+pub(super) fn exact(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !value.is_finite() || (1e-4..1e9).contains(&magnitude) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// The text with the thousands of its whole part parted by commas.
+pub(super) fn grouped(text: &str) -> String {
+    let (sign, rest) = text.split_at(usize::from(text.starts_with('-')));
+    let whole = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    let (whole, rest) = rest.split_at(whole);
+    let mut out = sign.to_owned();
+    for (i, digit) in whole.chars().enumerate() {
+        if i > 0 && (whole.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out + rest
+}
+
+/// So many digits after the point; nothing reads -0.
+fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zero) if zero.chars().all(|c| matches!(c, '0' | '.')) => zero.to_owned(),
+        _ => text,
+    }
+}
+
+/// So many significant digits, and never fewer than the whole part has.
+fn significant(value: f64, digits: i32) -> String {
+    let places = usize::try_from(digits - 1).unwrap_or(0);
+    let scientific = format!("{value:.places$e}");
+    // The power of ten after rounding: 9.999 of three digits is 1.00e1.
+    let power = scientific.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok()).unwrap_or(0);
+    if (SMALL..LARGE).contains(&power) {
+        fixed(value, usize::try_from(digits - 1 - power).unwrap_or(0))
+    } else {
+        scientific
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_from_what_a_number_is() {
+        let cases = [
+            (177_693.910_2, Quantity::Measured, "177,694"),
+            (99.225_1, Quantity::Measured, "99.23"),
+            (0.000_123_456, Quantity::Measured, "0.0001235"),
+            (1.234_56e-7, Quantity::Measured, "1.235e-7"),
+            (1.234_56e17, Quantity::Measured, "1.235e17"),
+            (7.0, Quantity::Measured, "7"),
+            (0.805_6, Quantity::Ratio, "0.806"),
+            (12.345, Quantity::Percent, "12.3"),
+            (0.004_56, Quantity::Percent, "0.0046"),
+            (-26.35, Quantity::Percent, "-26.4"),
+            (4.6e-5, Quantity::Error, "4.60e-5"),
+            (9.999_6, Quantity::Error, "10.0"),
+            (527.3, Quantity::Decimals(1), "527.3"),
+            (-0.04, Quantity::Decimals(1), "0.0"),
+            (206_905.0, Quantity::Decimals(0), "206,905"),
+            (1024.5, Quantity::Exact, "1,024.5"),
+            (1.5e-7, Quantity::Exact, "1.5e-7"),
+            (-1234.0, Quantity::Exact, "-1,234"),
+            (0.0, Quantity::Percent, "0"),
+            (f64::NEG_INFINITY, Quantity::Ratio, "-inf"),
+        ];
+        for (value, quantity, text) in cases {
+            assert_eq!(shown(value, quantity), text, "{value:e}, {quantity:?}");
+        }
+        assert_eq!([0, 999, 1000, u64::MAX].map(count), ["0", "999", "1,000", "18,446,744,073,709,551,615"]);
+    }
+}

@@ -1,0 +1,179 @@
+//! Tables as text within a width: words and numbers stay whole.
+//!
+//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the first
+//! column; where it is too narrow even for one column beside the first, every row becomes a list of its entries. Only
+//! there a word that is longer than a line goes over two; numbers never do, in [`MIN_WIDTH`] columns or more.
+
+use comfy_table::{CellAlignment, ContentArrangement, presets};
+use textwrap::core::{Word, display_width};
+use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
+
+/// Narrower terminals are treated as this wide.
+pub const MIN_WIDTH: usize = 40;
+/// A column of words takes at least as much, if it has as much to say.
+const ROOM_FOR_WORDS: usize = 12;
+/// Words longer than this, addresses for example, may go to the next line behind a slash.
+const LONG_WORD: usize = 24;
+/// Columns of paper between two tables' columns: a rule and a blank on each side.
+const RULE: usize = 3;
+
+/// A column of a table, as text.
+pub(super) struct Column {
+    heading: String,
+    /// Its entries, and which of them are numbers: those are set flush right, points below each other.
+    cells: Vec<(String, bool)>,
+    /// The longest piece that must not be broken, the least that it should have, and what it can use.
+    widths: [usize; 3],
+}
+
+impl Column {
+    /// A column of entries, of which those that are numbers are marked.
+    pub(super) fn new(heading: String, cells: Vec<(String, bool)>) -> Self {
+        let cells = aligned(cells);
+        // Blanks that hold a number's point in place belong to it.
+        let piece = |(text, number): &(String, bool)| if *number { display_width(text) } else { longest_piece(text) };
+        let longest = cells.iter().map(piece).fold(longest_piece(&heading), usize::max);
+        let most = cells.iter().map(|(text, _)| display_width(text)).fold(display_width(&heading), usize::max);
+        let words = cells.iter().filter(|(_, number)| !number).map(|(text, _)| display_width(text)).max().unwrap_or(0);
+        Self { heading, cells, widths: [longest, longest.max(words.min(ROOM_FOR_WORDS)), most] }
+    }
+
+    /// Whether most entries are numbers, so that the heading is set as they are.
+    fn is_of_numbers(&self) -> bool {
+        let numbers = self.cells.iter().filter(|(_, number)| *number).count();
+        2 * numbers > self.cells.iter().filter(|(text, _)| !text.is_empty()).count()
+    }
+}
+
+/// Numbers brought to one length, so that their points are below each other.
+fn aligned(cells: Vec<(String, bool)>) -> Vec<(String, bool)> {
+    let numbers = || cells.iter().filter(|(_, number)| *number).map(|(text, _)| halves(text));
+    let left = numbers().map(|(whole, _)| display_width(whole)).max().unwrap_or(0);
+    let right = numbers().map(|(_, rest)| display_width(rest)).max().unwrap_or(0);
+    let align = |(text, number): (String, bool)| {
+        let (whole, rest) = halves(&text);
+        (if number { format!("{whole:>left$}{rest:<right$}") } else { text }, number)
+    };
+    cells.into_iter().map(align).collect()
+}
+
+/// A number before its point, and from there on.
+fn halves(number: &str) -> (&str, &str) {
+    number.split_at(number.find(['.', 'e', ' ']).unwrap_or(number.len()))
+}
+
+/// Words, and pieces of long ones that end with a slash.
+fn pieces(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
+    Box::new(WordSeparator::AsciiSpace.find_words(line).flat_map(|word| {
+        if word.word.len() <= LONG_WORD || !word.word.contains('/') {
+            return vec![word];
+        }
+        let mut parts: Vec<Word<'_>> = word.word.split_inclusive('/').map(Word::from).collect();
+        if let Some(last) = parts.last_mut() {
+            last.whitespace = word.whitespace;
+        }
+        parts
+    }))
+}
+
+fn longest_piece(text: &str) -> usize {
+    pieces(text).map(|word| display_width(word.word)).max().unwrap_or(0)
+}
+
+/// Text on lines of at most `width` columns, broken between words, and within a word only if that alone is longer.
+pub fn wrapped(text: &str, width: usize, indent: &str) -> Vec<String> {
+    let options = Options::new(width)
+        .subsequent_indent(indent)
+        .word_separator(WordSeparator::Custom(pieces))
+        .word_splitter(WordSplitter::NoHyphenation)
+        .wrap_algorithm(WrapAlgorithm::FirstFit);
+    textwrap::wrap(text, options).into_iter().map(std::borrow::Cow::into_owned).collect()
+}
+
+/// Columns side by side within a width.
+pub(super) fn within(columns: &[Column], width: usize) -> String {
+    let width = width.max(MIN_WIDTH);
+    match cut(columns, width) {
+        Some(parts) => {
+            // As few parts in less room are parts of more equal widths.
+            let even = (MIN_WIDTH..width).filter_map(|less| cut(columns, less)).find(|even| even.len() == parts.len());
+            let parts: Vec<String> = even.unwrap_or(parts).iter().map(|part| side_by_side(part, width)).collect();
+            parts.join("\n\n")
+        }
+        None => lists(columns, width),
+    }
+}
+
+/// The columns in as few groups as fit, each after the first with the table's first column; `None` if one column does
+/// not fit beside it.
+fn cut(columns: &[Column], width: usize) -> Option<Vec<Vec<&Column>>> {
+    let fits = |group: &[&Column], least: usize| taken(group.iter().map(|column| column.widths[least])) <= width;
+    let (first, others) = columns.split_first()?;
+    let (mut groups, mut group) = (Vec::new(), vec![first]);
+    for column in others {
+        group.push(column);
+        if !fits(&group, 1) && group.len() > 2 {
+            group.pop();
+            groups.push(std::mem::replace(&mut group, vec![first, column]));
+        }
+    }
+    groups.push(group);
+    groups.iter().all(|group| fits(group, 0)).then_some(groups)
+}
+
+/// What columns of some widths take with the rules between and around them.
+fn taken(widths: impl Iterator<Item = usize>) -> usize {
+    widths.map(|width| width + RULE).sum::<usize>() + 1
+}
+
+/// Shares the width: every column gets what it can use, but for the widest, which get equally much.
+fn shares(columns: &[&Column], width: usize) -> Vec<usize> {
+    let at = |level: usize| -> Vec<usize> {
+        columns.iter().map(|column| level.clamp(column.widths[0], column.widths[2])).collect()
+    };
+    let level = (1..=width).take_while(|level| taken(at(*level).into_iter()) <= width).last().unwrap_or(0);
+    let mut widths = at(level);
+    let mut left = width.saturating_sub(taken(widths.iter().copied()));
+    for (share, column) in widths.iter_mut().zip(columns) {
+        if left > 0 && *share < column.widths[2] {
+            *share += 1;
+            left -= 1;
+        }
+    }
+    widths
+}
+
+fn side_by_side(columns: &[&Column], width: usize) -> String {
+    let widths = shares(columns, width);
+    let lines = |text: &str, width: usize| wrapped(text, width, "").join("\n");
+    let entry = |text: String, number: bool| {
+        let alignment = if number { CellAlignment::Right } else { CellAlignment::Left };
+        comfy_table::Cell::new(text).set_alignment(alignment)
+    };
+    let mut table = comfy_table::Table::new();
+    table.set_content_arrangement(ContentArrangement::Disabled).load_style(presets::ASCII_MARKDOWN);
+    let heading = |(column, width): (&&Column, &usize)| entry(lines(&column.heading, *width), column.is_of_numbers());
+    table.set_header(columns.iter().zip(&widths).map(heading));
+    for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
+        table.add_row(columns.iter().zip(&widths).map(|(column, width)| {
+            // Blanks around a number hold its point in place.
+            let (text, number) = &column.cells[row];
+            entry(if *number { text.clone() } else { lines(text, *width) }, *number)
+        }));
+    }
+    table.trim_fmt()
+}
+
+/// Each row as a list: its first entry, and below it the others by their headings.
+fn lists(columns: &[Column], width: usize) -> String {
+    let Some((first, others)) = columns.split_first() else { return String::new() };
+    let list = |row: usize| {
+        let mut list = wrapped(&format!("{}: {}", first.heading, first.cells[row].0.trim()), width, "    ");
+        for column in others.iter().filter(|column| !column.cells[row].0.is_empty()) {
+            let text = format!("  {}: {}", column.heading, column.cells[row].0.trim());
+            list.extend(wrapped(&text, width, "    "));
+        }
+        list.join("\n")
+    };
+    (0..first.cells.len()).map(list).collect::<Vec<_>>().join("\n\n")
+}

@@ -1,0 +1,74 @@
+//! Tables of every command, in the widths of terminals.
+
+use std::path::Path;
+use std::process::Command;
+
+use unicode_width::UnicodeWidthStr as _;
+
+use crate::crossbar_in;
+
+/// What a command prints on a terminal of so many columns.
+fn printed(folder: &Path, arguments: &[&str], columns: usize) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
+    command.args(arguments).current_dir(folder).env("COLUMNS", columns.to_string());
+    let output = command.output().expect("the program that this test was built with");
+    String::from_utf8(output.stdout).expect("the program writes text")
+}
+
+fn fixture(path: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path).display().to_string()
+}
+
+/// Every command that prints tables: no line of one is wider than the terminal.
+#[test]
+fn tables_fit_the_terminal() {
+    let (case, square) = (fixture("cases/modulate.toml"), fixture("models/square.obj"));
+    let commands: [&[&str]; 11] = [
+        &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
+        &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep", "30"],
+        &["reproduce", "--list"],
+        &["reproduce", "equation-11"],
+        &["devices"],
+        &["devices", "r200"],
+        &["compare", &case, "--right-format", "s3.8"],
+        &["run", &case],
+        &["run", &case, "--trace", "1,1"],
+        &["timeline", "--rays", "48x40", "--mesh", &square, "--device", "r200", "--sensitivity", "--cache"],
+        &["scene"],
+    ];
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for arguments in commands {
+        for columns in [60, 80, 120] {
+            let text = printed(folder.path(), arguments, columns);
+            assert!(text.lines().count() > 2, "{arguments:?} prints a table:\n{text}");
+            for line in text.lines().filter(|line| line.starts_with('|')) {
+                assert!(line.width() <= columns, "{arguments:?}, {columns} columns: {line}\n{text}");
+            }
+        }
+    }
+}
+
+/// The main study as it is read, with the switches that change nothing folded; its files say the same, and the document
+/// has every row.
+#[test]
+fn rows_of_the_same_bits_are_folded() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let arguments = ["leaky-teapot", "--size", "32x32", "--tessellation", "2", "--rays-per-edge", "0"];
+    insta::assert_snapshot!("leaky_teapot_80", printed(folder.path(), &arguments, 80));
+    let file =
+        |name: &str| std::fs::read_to_string(folder.path().join("out/leaky-teapot").join(name)).expect("written");
+    let csv = file("rows.csv");
+    assert!(csv.contains("switches: the same bits: color-iterator="), "{csv}");
+    assert!(file("index.html").contains("switches: the same bits"));
+    let document: serde_json::Value = serde_json::from_str(&file("study.json")).expect("JSON");
+    let rows = document["rows"].as_array().expect("rows").len();
+    assert!(csv.lines().count() + 10 < rows, "{rows} rows, folded to\n{csv}");
+}
+
+/// Off a terminal nothing depends on one: tables are 100 columns wide at most, progress has no control characters.
+#[test]
+fn off_a_terminal_the_width_is_fixed() {
+    let ran = crossbar_in(Path::new(env!("CARGO_MANIFEST_DIR")), &["devices", "nv20"], "");
+    assert!(ran.stdout.lines().all(|line| line.width() <= 100), "{}", ran.stdout);
+    assert!(!ran.stdout.contains('\x1b') && !ran.stderr.contains(['\x1b', '\r']));
+}
