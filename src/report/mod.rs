@@ -8,16 +8,21 @@ mod chart;
 mod excerpt;
 mod findings;
 mod page;
+pub mod palette;
 mod provenance;
+mod shown;
 mod source_text;
 mod table;
 pub mod trace;
 pub mod visible;
+pub mod words;
 mod write;
 
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
-pub use self::findings::{Findings, FoundTable, NamedChart, NamedFile, NamedPicture, Verdict};
+pub use self::findings::{
+    Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, TallyEntry, Tone, Verdict,
+};
 pub use provenance::Provenance;
 pub use source_text::SourceText;
 pub use table::{Cell, Table};

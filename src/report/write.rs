@@ -13,7 +13,7 @@ impl Findings {
     pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
         let pngs = self.pictures.iter().map(|found| png(&found.image)).collect::<Result<Vec<_>, _>>()?;
         let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
-        let page = page::html(self, &pngs, &drawings, provenance);
+        let page = page::html(self, &pngs, &drawings, provenance)?;
         let mut files = std::mem::take(&mut self.files);
         for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
             if let Some(name) = csv {
