@@ -19,6 +19,7 @@ mod mutation;
 mod octree;
 mod oracle;
 mod outputs;
+mod pages;
 mod pictures;
 mod ply;
 mod radiosity;
