@@ -5,6 +5,7 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;
 use crossbar::picture::{RgbImage, rgb8};
 use crossbar::ray_engine::RayBatch;
+use crossbar::report::words::grouped;
 use crossbar::report::{
     Chart, Findings, NamedChart, NamedFile, NamedPicture, Provenance, Scale, Series, Table, Tone, Verdict,
 };
@@ -12,6 +13,7 @@ use crossbar::scene::Camera;
 use crossbar::study::Study as _;
 use crossbar::study::configuration::Configuration;
 use crossbar::study::leaky_teapot::{Parameters, PixelVerdict};
+use crossbar::study::reproduce;
 use refsim::machine::ExecutorKind;
 use strum::VariantArray as _;
 
@@ -32,8 +34,8 @@ fn everything() -> Vec<NamedFile> {
     found.tally(1, ["row fails", "rows fail"], Tone::Bad);
     found.conclude(Verdict::Failed);
     found.legend(vec![([1, 2, 3], "a colour".to_owned())]);
-    let marked = NamedPicture::new("p", rgb8(700, 2, [[9; 3]; 1400]), "a \"wide\" one").marked(vec![1; 1400]);
-    found.pictures(vec![marked, NamedPicture::new("q", rgb8(1, 1, [[0; 3]]), "a small one")]);
+    let marked = NamedPicture::new("p", rgb8(700, 2, [[9; 3]; 1400]), "a \"wide\" picture").marked(vec![1; 1400]);
+    found.pictures(vec![marked, NamedPicture::new("q", rgb8(1, 1, [[0; 3]]), "a small picture")]);
     found.heading("A <section>");
     found.paragraph("Some text.");
     let mut table = Table::new("a <b> table", &["what", "long_name_%", "verdict"]);
@@ -170,10 +172,10 @@ fn shown(page: &str, alt: &str) -> Vec<RgbImage> {
 /// size, as what it is or as something worse, and leaks stay visible in the shaded picture.
 #[test]
 fn every_wrong_pixel_is_shown() {
-    let (width, height) = (700, 90);
+    let (width, height) = (800, 160);
     let camera = Camera::teapot(width, height).expect("a camera");
     let parameters = Parameters {
-        mesh: teapot(3).expect("a teapot"),
+        mesh: teapot(6).expect("a teapot"),
         view: RayBatch::new(width, height, camera.rays()).expect("rays"),
         sides: Sides::Front,
         configurations: vec![Configuration::device("r200").expect("a card")],
@@ -194,10 +196,16 @@ fn every_wrong_pixel_is_shown() {
     let wrong = map.pixels().filter(|pixel| verdict(pixel).rank() > 0).count();
     let leaks = map.pixels().filter(|pixel| verdict(pixel) == PixelVerdict::Leak).count();
     assert!(wrong > 100 && leaks > 20, "{wrong} {leaks}");
+    // The conclusion is of these pixels.
+    let said = found.conclusions().join(" ");
+    let sentences = [(leaks, "leaks: "), (wrong, "is wrong in ")];
+    for (count, before) in sentences {
+        assert!(said.contains(&format!("r200 {before}{}", grouped(count as u64))), "{said}");
+    }
     let (picture, exact) = (decoded(file(&files, "r200.png")), decoded(file(&files, "exact.png")));
     let maps = shown(&page, "r200, what is wrong where");
     let widths: Vec<u32> = maps.iter().map(RgbImage::width).collect();
-    assert_eq!(widths, [234, 350, 700], "on a phone, on a screen, and all of it");
+    assert_eq!(widths, [267, 400, 800], "on a phone, on a screen, and all of it");
     for map_shown in maps {
         let factor = width.div_ceil(map_shown.width());
         for (x, y, pixel) in map.enumerate_pixels() {
@@ -214,4 +222,27 @@ fn every_wrong_pixel_is_shown() {
             }
         }
     }
+}
+
+/// What the page of `reproduce` concludes is counted from its rows, and its verdicts stay at the edge of their tables.
+#[test]
+fn papers_rows_are_tallied() {
+    let entries = reproduce::choose(&["equation-11".to_owned(), "radeon-8500".to_owned()]).expect("two entries");
+    let mut found = reproduce::Parameters { entries }.findings(&mut |_, _, _| ()).expect("the entries run");
+    let files = found.take_files(&Provenance::new("crossbar reproduce")).expect("files");
+    let rows: serde_json::Value = serde_json::from_str(&text(&files, "study.json")).expect("JSON");
+    let rows = rows["rows"].as_array().expect("rows");
+    let counted: u64 = found.tallied().iter().map(|entry| entry.count).sum();
+    assert_eq!(counted, rows.len() as u64);
+    for entry in found.tallied() {
+        assert_eq!(rows.iter().filter(|row| row["verdict"] == entry.what.as_str()).count() as u64, entry.count);
+    }
+    let judged = rows.iter().filter(|row| row["standing"] != "calibrated");
+    let reproduced = judged.clone().filter(|row| row["verdict"] == "reproduced").count();
+    let sentence = format!("Of {} figures predicted or counted {reproduced} are reproduced", judged.count());
+    assert!(found.conclusions()[0].starts_with(&sentence), "{:?}", found.conclusions());
+    let page = text(&files, "index.html");
+    let tags = balanced(&page);
+    assert!(tags.iter().any(|tag| tag == "th class=\"said\" scope=\"col\""), "the verdict's column");
+    assert!(page.contains("class=\"summary failed\""), "a figure of the Radeon 8500 is missed");
 }

@@ -1,8 +1,8 @@
 //! How lines and points look: each has a colour, a dash and a marker of its own, on a light page and on a dark one.
 //!
 //! Colours are those of Okabe and Ito (2008), which stay apart for readers who do not tell red from green; on paper,
-//! orange, sky blue and reddish purple are darkened until they stand out from it. Yellow is left out, and black is the
-//! papers'.
+//! sky blue and reddish purple are darkened until they stand out from it, and orange to brown. Yellow is left out, and
+//! black is the papers'.
 
 use plotters::style::RGBColor;
 
@@ -18,10 +18,10 @@ const COLORS: [(Color, Color); 6] = [
     ([0x00, 0x8f, 0x68], [0x1f, 0xc3, 0x97]),
     // Reddish purple.
     ([0xb3, 0x55, 0x8a], [0xdd, 0x93, 0xbc]),
-    // Orange.
-    ([0xa8, 0x74, 0x00], [0xe6, 0xb0, 0x20]),
+    // Orange; brown on paper.
+    ([0x7a, 0x56, 0x00], [0xe6, 0xb0, 0x20]),
     // Sky blue.
-    ([0x3a, 0x8d, 0xc4], [0x8c, 0xcd, 0xf2]),
+    ([0x42, 0x98, 0xd0], [0x8c, 0xcd, 0xf2]),
 ];
 /// Lengths of dashes and of the gaps between them, in pixels; none for a solid line.
 const DASHES: [Option<(u32, u32)>; 5] = [None, Some((9, 5)), Some((2, 4)), Some((18, 6)), Some((5, 11))];

@@ -32,10 +32,12 @@ fn verdict(rows: &[TeapotRow]) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
     let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
+    let wrong = counted(best.tally.wrong(), "pixel", "pixels");
     Some(match (right.len(), rows.len() - right.len()) {
+        (0, 1) => format!("{} is wrong in {wrong} of {}.", label(best), grouped(best.tally.rays)),
+        (1, 0) => format!("{} is right in every pixel.", label(best)),
         (0, _) => {
-            let fewest = counted(best.tally.wrong(), "pixel", "pixels");
-            format!("No row is right in every pixel; {} is wrong in the fewest: {fewest}.", label(best))
+            format!("No row is right in every pixel; {} is wrong in the fewest: {wrong}.", label(best))
         }
         (_, 0) => "Every row is right in every pixel.".to_owned(),
         (1, others) => format!("Of {} rows only {names} is right in every pixel.", grouped(others as u64 + 1)),
@@ -49,8 +51,9 @@ fn most_leaks(rows: &[TeapotRow]) -> Option<String> {
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
     Some(format!(
-        "{} leaks most: {} of {} of the surface ({}).",
+        "{} leaks{}: {} of {} of the surface ({}).",
         label(worst),
+        if rows.len() > 1 { " most" } else { "" },
         grouped(leaks),
         counted(surface, "pixel", "pixels"),
         percent(worst.tally.leak_share()),
