@@ -61,7 +61,7 @@ fn structure(page: &str) -> String {
     };
     let page = cut(page, "<style>", "</style>");
     let page = cut(&page, "<svg", "</svg>");
-    let page = cut(&page, "base64,", "\"");
+    let page = cut(&page, "base64,", "\"").replace(env!("CARGO_PKG_VERSION"), "VERSION");
     // A line per block.
     [
         "<h1", "<h2", "<section", "<nav", "<ul", "<li", "<p", "<div", "<figure", "<img", "<table", "<thead", "<tbody",
@@ -87,6 +87,12 @@ fn balanced(page: &str) -> Vec<String> {
         let (tag, tail) = tail.split_once('>').expect("a tag ends");
         rest = tail;
         let name = tag.split([' ', '/', '\n']).find(|part| !part.is_empty()).unwrap_or_default().to_owned();
+        // Names of attributes stand before `="`, values between that and the next quote.
+        let attributes = tag.strip_prefix(name.as_str()).unwrap_or("");
+        let names: Vec<&str> =
+            attributes.split('"').step_by(2).map(|name| name.trim_matches([' ', '\n', '=', '/'])).collect();
+        let twice = |n: usize| names[n].contains('=') || (!names[n].is_empty() && names[..n].contains(&names[n]));
+        assert!(!(1..names.len()).any(twice), "an attribute twice: {tag}");
         if tag.starts_with('!') || tag.ends_with('/') || VOID.contains(&name.as_str()) {
             all.push(tag.to_owned());
         } else if tag.starts_with('/') {

@@ -89,7 +89,7 @@ fn notes(picture: &NamedPicture, sizes: &[SizedPicture]) -> Markup {
     let which = if picture.ranks.is_empty() { "the middle one" } else { "the worst" };
     html! {
         @for SizedPicture { factor, classes, .. } in sizes.iter().filter(|size| size.factor > 1) {
-            span.note class=(classes) { "Of each " (factor) " x " (factor) " pixels " (which) " is shown; click for all." }
+            span class=(format!("note {classes}")) { "Of each " (factor) " x " (factor) " pixels " (which) " is shown; click for all." }
         }
     }
 }

@@ -76,7 +76,7 @@ fn render_summary(findings: &Findings) -> Markup {
     html! {
         @if !(findings.conclusion.is_empty() && findings.tally.is_empty()) {
             section.summary.failed[failed] aria-label="Conclusion" {
-                @for (n, sentence) in findings.conclusion.iter().enumerate() { p.verdict[n == 0] { (sentence) } }
+                @for (n, sentence) in findings.conclusion.iter().enumerate() { p class=[(n == 0).then_some("verdict")] { (sentence) } }
                 @if !findings.tally.is_empty() {
                     ul.tally {
                         @for entry in &findings.tally { li class=(tone(entry)) { b { (entry.count) } " " (entry.what) } }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::super::Table;
+use super::super::{Cell, Table};
 
 /// The column of this name stays in sight at the right edge.
 const SAID: &str = "verdict";
@@ -19,7 +19,7 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
                 thead {
                     tr {
                         @for (column, heading) in table.headings().iter().enumerate() {
-                            th.said[said(column)] scope="col" { (broken(heading)) }
+                            th class=[said(column).then_some("said")] scope="col" { (broken(heading)) }
                         }
                     }
                 }
@@ -30,7 +30,7 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
                                 @if column == 0 {
                                     th scope="row" { (cell.text()) }
                                 } @else {
-                                    td.number[cell.is_number()].said[said(column)] { (cell.text()) }
+                                    td class=[class(cell, said(column))] { (cell.text()) }
                                 }
                             }
                         }
@@ -38,6 +38,15 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// The class of an entry; a verdict is no number.
+const fn class(cell: &Cell, said: bool) -> Option<&'static str> {
+    match (said, cell.is_number()) {
+        (true, _) => Some("said"),
+        (false, true) => Some("number"),
+        (false, false) => None,
     }
 }
 
