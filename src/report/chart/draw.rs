@@ -90,9 +90,6 @@ impl<'a> Drawing<'a> {
             .build_cartesian_2d(x, y)?;
         let numbers = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
         let mut mesh = context.configure_mesh();
-        if !self.chart.ticks.is_empty() {
-            mesh.x_labels(0);
-        }
         mesh.light_line_style(TRANSPARENT)
             .bold_line_style(rgb(LIGHT.rule))
             .axis_style(rgb(LIGHT.quiet))
@@ -117,7 +114,7 @@ impl<'a> Drawing<'a> {
     fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> Drawn<B> {
         let room = (PLOT.0 - 82) / self.chart.ticks.len().max(1) as i32;
         let long = name.chars().count() as i32 * LETTER > room;
-        let lines = if long { name.rsplit_once(' ').map_or(vec![name], |(a, b)| vec![a, b]) } else { vec![name] };
+        let lines = if long { halves(name) } else { vec![name] };
         let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
         let style = style.pos(Pos::new(HPos::Center, VPos::Top));
         lines
@@ -142,6 +139,13 @@ impl<'a> Drawing<'a> {
         }
         Ok(())
     }
+}
+
+/// A name in two lines as short as they can be; in one if it is one word.
+fn halves(name: &str) -> Vec<&str> {
+    let longer = |(space, _): &(usize, &str)| (*space).max(name.len() - space - 1);
+    let best = name.match_indices(' ').min_by_key(longer);
+    best.map_or_else(|| vec![name], |(space, _)| vec![&name[..space], &name[space + 1..]])
 }
 
 impl PixelSeries<'_> {
@@ -202,5 +206,16 @@ fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: S
             area.draw(&PathElement::new([(x - MARK, y - MARK), (x + MARK, y + MARK)], stroke))?;
             area.draw(&PathElement::new([(x - MARK, y + MARK), (x + MARK, y - MARK)], stroke))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_break_in_the_middle() {
+        assert_eq!(halves("teapot, Monte Carlo"), ["teapot,", "Monte Carlo"]);
+        assert_eq!(halves("office"), ["office"]);
     }
 }
