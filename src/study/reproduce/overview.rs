@@ -58,7 +58,7 @@ fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
     (all > 0).then(|| Prose::new(CALIBRATED, [all, missed].map(|figure| figure.to_string())))
 }
 
-/// How far a row is from print, by the logarithm's size; nothing for a value that is not above 0.
+/// How far a row is from print, as a factor of at least 1; nothing for a value that is not above 0.
 fn distance(row: &PaperRow) -> Option<f64> {
     let ratio = ratio(row);
     (ratio > 0.0 && ratio.is_finite()).then(|| ratio.max(1.0 / ratio))
@@ -79,14 +79,15 @@ fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
 const ORDER: [RowVerdict; 5] =
     [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Calibrated, RowVerdict::Explained, RowVerdict::TooVague];
 
-/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows.
+/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows that can be shown.
 fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
     let point = |(n, row): (usize, &&PaperRow)| ((n + 1) as f64, ratio(row));
     let of = |verdict: RowVerdict| Series {
         label: verdict.to_string(),
         points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
     };
-    (rows.len() > 1).then(|| EntryChart {
+    let drawn = rows.iter().filter(|row| distance(row).is_some()).count();
+    (drawn > 1).then(|| EntryChart {
         name: "overview",
         chart: Chart {
             title: "Ours over the paper's, row by row".to_owned(),
