@@ -148,7 +148,7 @@ fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     let mantissas: &[u32] = if decades <= 3 { &[1, 2, 5] } else { &[1] };
     let every = decades.div_ceil(MAX_INTERVALS).max(1);
     let at = |exponent: i32, mantissa: &u32| format!("{mantissa}e{exponent}").parse().unwrap_or(0.0);
-    let wanted = (first..=last).filter(|exponent| exponent.unsigned_abs() as usize % every == 0);
+    let wanted = (first..=last).filter(|exponent| (exponent.unsigned_abs() as usize).is_multiple_of(every));
     let ticks = wanted.flat_map(|exponent| mantissas.iter().map(move |mantissa| at(exponent, mantissa)));
     let ticks: Vec<f64> = ticks.filter(|tick| (low..=high).contains(tick)).collect();
     if ticks.len() >= 2 { ticks } else { linear_ticks(low, high) }

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::super::palette::LIGHT;
 use super::axis::Axis;
 use super::data::{Chart, DrawnSeries};
-use super::labels::{PITCH, spread};
+use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
 
 /// A place in pixels.
@@ -46,13 +46,13 @@ struct PixelSeries<'a> {
 
 impl<'a> Drawing<'a> {
     pub(super) fn new(chart: &'a Chart, series: &'a [DrawnSeries<'a>]) -> Self {
-        let labels = series.len() as i32 * PITCH + MARGINS[0] + MARGINS[1];
+        let labels = signed(series.len()) * PITCH + MARGINS[0] + MARGINS[1];
         Self { chart, series, height: PLOT.1.max(labels) }
     }
 
     /// Width and height.
     pub(super) fn size(&self) -> (u32, u32) {
-        let letters = self.series.iter().map(|series| series.label.chars().count() as i32).max().unwrap_or(0);
+        let letters = self.series.iter().map(|series| signed(series.label.chars().count())).max().unwrap_or(0);
         let width = SAMPLE[1] + 10 + letters * LETTER;
         (width.unsigned_abs(), self.height.unsigned_abs())
     }
@@ -112,8 +112,8 @@ impl<'a> Drawing<'a> {
 
     /// A name below the axis, in two lines where one would run into its neighbours.
     fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> Drawn<B> {
-        let room = (PLOT.0 - 82) / self.chart.ticks.len().max(1) as i32;
-        let long = name.chars().count() as i32 * LETTER > room;
+        let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
+        let long = signed(name.chars().count()) * LETTER > room;
         let lines = if long { halves(name) } else { vec![name] };
         let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
         let style = style.pos(Pos::new(HPos::Center, VPos::Top));
@@ -161,7 +161,7 @@ impl PixelSeries<'_> {
         let points = self.points.iter().copied();
         match style.dash {
             _ if !self.series.joined => Ok(()),
-            Some((dash, gap)) => area.draw(&DashedPathElement::new(points, dash as i32, gap as i32, stroke)),
+            Some((dash, gap)) => area.draw(&DashedPathElement::new(points, dash, gap, stroke)),
             None => area.draw(&PathElement::new(points.collect::<Vec<_>>(), stroke)),
         }
     }
@@ -169,7 +169,7 @@ impl PixelSeries<'_> {
     /// The markers: all points, or along a line some, which begin elsewhere on each line.
     fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> Drawn<B> {
         let few = !self.series.joined || self.points.len() <= 10;
-        let mut last = self.points.first().map_or(0, |p| p.0) - (n as i32 * 19).rem_euclid(APART);
+        let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
         for point in &self.points {
             if few || point.0 - last >= APART {
                 last = point.0;

@@ -3,6 +3,12 @@
 /// From one label's middle to the next one's, in pixels.
 pub(super) const PITCH: i32 = 19;
 
+/// A number of labels or letters as pixels are counted; a drawing has far less than the most that it gives.
+pub(super) fn signed(count: usize) -> i32 {
+    const MOST: i32 = 100_000;
+    i32::try_from(count).unwrap_or(MOST).min(MOST)
+}
+
 /// Places for labels whose lines end at some heights, in the same order as these: at least a pitch apart, between `top`
 /// and `bottom` if there is room for all, and downward from `top` if there is not.
 pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
@@ -35,13 +41,13 @@ struct Group {
 impl Group {
     /// Where the next label may stand.
     fn end(&self) -> i32 {
-        self.first + self.labels.len() as i32 * PITCH
+        self.first + signed(self.labels.len()) * PITCH
     }
 
     fn joined(mut self, below: Self, wanted: &[i32], room: [i32; 2]) -> Self {
         self.labels.extend(below.labels);
         let firsts = self.labels.iter().zip(0..).map(|(n, k)| i64::from(wanted[*n]) - i64::from(k * PITCH));
-        let mean = firsts.sum::<i64>().div_euclid(self.labels.len() as i64);
+        let mean = firsts.sum::<i64>().div_euclid(i64::from(signed(self.labels.len())));
         self.first = clamped(mean as i32, self.labels.len(), room);
         self
     }
@@ -49,7 +55,7 @@ impl Group {
 
 /// The place of the first of some labels, moved into the room.
 fn clamped(first: i32, labels: usize, [top, bottom]: [i32; 2]) -> i32 {
-    first.min(bottom - (labels as i32 - 1) * PITCH).max(top)
+    first.min(bottom - (signed(labels) - 1) * PITCH).max(top)
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ const COLORS: [(Color, Color); 6] = [
     ([0x42, 0x98, 0xd0], [0x8c, 0xcd, 0xf2]),
 ];
 /// Lengths of dashes and of the gaps between them, in pixels; none for a solid line.
-const DASHES: [Option<(u32, u32)>; 5] = [None, Some((9, 5)), Some((2, 4)), Some((18, 6)), Some((5, 11))];
+const DASHES: [Option<(i32, i32)>; 5] = [None, Some((9, 5)), Some((2, 4)), Some((18, 6)), Some((5, 11))];
 const MARKERS: [Marker; 7] = [
     Marker::Disc,
     Marker::Square,
@@ -56,7 +56,7 @@ pub(super) enum Marker {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SeriesStyle {
     pub(super) color: RGBColor,
-    pub(super) dash: Option<(u32, u32)>,
+    pub(super) dash: Option<(i32, i32)>,
     pub(super) marker: Marker,
 }
 
