@@ -60,6 +60,9 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
         out.titled_table(table)?;
         out.line("")?;
     }
+    for sentence in found.conclusions() {
+        out.sentence(sentence)?;
+    }
     for line in found.printed_lines() {
         out.sentence(line)?;
     }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use serde_json::{Map, Value, json};
 
+use super::palette::Color;
 use super::{Chart, Provenance, Table};
 use crate::picture::{Picture, RgbImage};
 
@@ -36,6 +37,32 @@ pub(super) enum Passage {
     Chart(usize),
     /// Side by side.
     Pictures(Range<usize>),
+    Legend(Legend),
+}
+
+/// Colours of a false-colour picture, with what each stands for.
+pub type Legend = Vec<(Color, String)>;
+
+/// Whether a count of a tally is what one hopes for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// It is.
+    Good,
+    /// It says nothing either way.
+    Neutral,
+    /// It is not.
+    Bad,
+}
+
+/// So many of the things that a study counts came out alike.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TallyEntry {
+    /// How many.
+    pub count: u64,
+    /// What they are, in the number of the count: `row missed`, `rows missed`.
+    pub what: String,
+    /// Whether that is good.
+    pub tone: Tone,
 }
 
 /// A table with the places where it is written besides the page.
@@ -109,17 +136,28 @@ pub struct NamedPicture {
     pub image: RgbImage,
     /// What stands under it; read aloud to those who cannot see it.
     pub caption: String,
+    /// How much each pixel matters where the picture is shown smaller; 0 and what is missing: not more than others.
+    pub(super) ranks: Vec<u8>,
 }
 
 impl NamedPicture {
     /// A picture with its name and caption.
     pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
-        Self { name: name.into(), image, caption: caption.into() }
+        Self { name: name.into(), image, caption: caption.into(), ranks: Vec::new() }
+    }
+
+    /// Marks pixels that must not get lost where the picture is shown smaller: a rank per pixel, 0 for those that may.
+    #[must_use]
+    pub fn marked(self, ranks: Vec<u8>) -> Self {
+        Self { ranks, ..self }
     }
 }
 
 /// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is
 /// only written to a file. Every picture and chart is encoded once, for its file and the page.
+///
+/// The page begins with conclusion and tally. What is appended before the first heading follows them, and then the
+/// table of contents: a study shows its most telling picture or chart there.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub(super) title: String,
@@ -130,6 +168,8 @@ pub struct Findings {
     pub(super) layers: Vec<(String, Picture)>,
     pub(super) files: Vec<NamedFile>,
     pub(super) world_to_camera: Option<[f32; 16]>,
+    pub(super) conclusion: Vec<String>,
+    pub(super) tally: Vec<TallyEntry>,
     fields: Map<String, Value>,
     printed: Vec<String>,
     verdict: Verdict,
@@ -139,6 +179,18 @@ impl Findings {
     /// Nothing yet, under the title of the page.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
+    }
+
+    /// Appends a sentence to the conclusion, which the page begins with. It is computed from the rows, never written by
+    /// hand.
+    pub fn conclusion(&mut self, sentence: impl Into<String>) {
+        self.conclusion.push(sentence.into());
+    }
+
+    /// Appends a count to the tally under the conclusion, with what is counted in the singular and the plural.
+    pub fn tally(&mut self, count: u64, [one, many]: [&str; 2], tone: Tone) {
+        let what = if count == 1 { one } else { many };
+        self.tally.push(TallyEntry { count, what: what.to_owned(), tone });
     }
 
     /// Appends a heading to the page.
@@ -181,6 +233,11 @@ impl Findings {
         let first = self.pictures.len();
         self.pictures.extend(pictures);
         self.text.push(Passage::Pictures(first..self.pictures.len()));
+    }
+
+    /// Appends the legend of a false-colour picture to the page.
+    pub fn legend(&mut self, legend: Legend) {
+        self.text.push(Passage::Legend(legend));
     }
 
     /// A table that does not stand on the page.
@@ -228,6 +285,16 @@ impl Findings {
         self.verdict
     }
 
+    /// The sentences of the conclusion.
+    pub fn conclusions(&self) -> &[String] {
+        &self.conclusion
+    }
+
+    /// The counts of the tally.
+    pub fn tallied(&self) -> &[TallyEntry] {
+        &self.tally
+    }
+
     /// The tables that the command prints, those without rows left out.
     pub fn printed_tables(&self) -> impl Iterator<Item = &Table> {
         self.tables.iter().filter(|found| found.printed && !found.table.rows().is_empty()).map(|found| &found.table)
@@ -238,10 +305,11 @@ impl Findings {
         &self.printed
     }
 
-    /// Everything for machines: provenance, tables, fields.
+    /// Everything for machines: provenance, conclusion, tables, fields.
     pub fn document(&self, provenance: &Provenance) -> Value {
         let mut document = self.fields.clone();
         document.insert("provenance".to_owned(), json!(provenance));
+        document.insert("conclusion".to_owned(), json!(self.conclusion));
         for found in &self.tables {
             if let Some(name) = found.field {
                 document.insert(name.to_owned(), found.whole.as_ref().unwrap_or(&found.table).json());

@@ -13,17 +13,22 @@ mod findings;
 mod fold;
 pub mod layout;
 mod page;
+pub mod palette;
 mod provenance;
+mod shown;
 mod source_text;
 mod table;
 pub mod trace;
 pub mod visible;
+pub mod words;
 mod write;
 
 pub use self::cell::{Cell, Figure};
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
-pub use self::findings::{Findings, FoundTable, NamedChart, NamedFile, NamedPicture, Verdict};
+pub use self::findings::{
+    Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, TallyEntry, Tone, Verdict,
+};
 pub use self::fold::Folded;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;

@@ -15,7 +15,7 @@ impl Findings {
         let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);
         let pngs = self.pictures.iter().map(encoded).collect::<Result<Vec<_>, _>>()?;
         let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
-        let page = page::html(self, &pngs, &drawings, provenance);
+        let page = page::html(self, &pngs, &drawings, provenance)?;
         let mut files = std::mem::take(&mut self.files);
         for (name, picture) in std::mem::take(&mut self.layers) {
             files.push((format!("{name}.exr"), exr_with_notes(&picture, &notes)?));

@@ -20,6 +20,7 @@ mod mutation;
 mod octree;
 mod oracle;
 mod outputs;
+mod pages;
 mod pictures;
 mod ply;
 mod radiosity;

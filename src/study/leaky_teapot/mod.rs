@@ -5,7 +5,9 @@
 //! first hits that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners
 //! that triangles share, where the paper's equations are evaluated once for each neighbour and need not agree.
 
+mod conclusion;
 mod outcome;
+mod pixel_verdict;
 mod report;
 
 use rayon::prelude::*;
@@ -22,6 +24,7 @@ use crate::ray_engine::{Crossbar, EngineError};
 use crate::report::{Findings, Provenance, ReportError};
 
 pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
+pub use pixel_verdict::PixelVerdict;
 
 /// Why the study has no findings.
 #[non_exhaustive]
@@ -103,7 +106,12 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
             kernel: answer.kernel,
             tally,
             pixels_differing: pixels_differing(&picture, &exact_picture),
-            map: rgb8(width, height, verdicts.iter().zip(&exact).map(|(v, e)| verdict_color(*v, e.is_some()))),
+            map: rgb8(
+                width,
+                height,
+                verdicts.iter().zip(&exact).map(|(v, e)| PixelVerdict::of(*v, e.is_some()).color()),
+            ),
+            verdicts,
             picture,
             t: answer.hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
@@ -140,17 +148,4 @@ impl Study for Parameters {
 
 fn pixels_differing(a: &RgbImage, b: &RgbImage) -> u64 {
     a.pixels().zip(b.pixels()).filter(|(x, y)| x != y).count() as u64
-}
-
-/// The leak map's colors: red for a leak, blue for a false hit, yellow and orange for a wrong triangle that touches the
-/// right one or does not, grey where the surface is right, black where nothing is.
-pub const fn verdict_color(verdict: HitVerdict, surface: bool) -> [u8; 3] {
-    match verdict {
-        HitVerdict::Right if surface => [120, 124, 130],
-        HitVerdict::Right => [16, 18, 22],
-        HitVerdict::Leak => [235, 40, 40],
-        HitVerdict::FalseHit => [60, 110, 255],
-        HitVerdict::WrongTriangle { adjacent: true } => [240, 205, 70],
-        HitVerdict::WrongTriangle { adjacent: false } => [245, 130, 30],
-    }
 }

@@ -90,7 +90,9 @@ pub struct TeapotRow {
     pub pixels_differing: u64,
     /// The shaded picture.
     pub picture: RgbImage,
-    /// The leak map; [`super::verdict_color`] explains it.
+    /// The verdict per pixel.
+    pub verdicts: Vec<HitVerdict>,
+    /// The leak map; [`super::PixelVerdict`] explains it.
     pub map: RgbImage,
     /// t per pixel; infinite where nothing was hit.
     pub t: Vec<f32>,

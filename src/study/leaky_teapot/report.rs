@@ -1,7 +1,11 @@
 //! The leaky teapot's tables, pictures and page.
 
-use super::{Parameters, TeapotOutcome, TeapotRow};
-use crate::picture::{ChannelUnit, Picture, PictureError, Samples};
+use std::cmp::Reverse;
+
+use super::conclusion::conclude;
+use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
+use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples};
+use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table};
 
 /// The rows' names, formats and switches.
@@ -112,47 +116,46 @@ fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<P
         .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))
 }
 
+/// A row's picture and its map, side by side, in which no wrong pixel gets lost.
+fn pair(group: &Group<'_>, exact: &RgbImage) -> [NamedPicture; 2] {
+    let row = group.row;
+    let (label, t) = (&row.configuration.label, &row.tally);
+    let leaks = counted(t.leaks, "leak", "leaks");
+    // Verdicts alone do not say whether the surface is there; ranks do not ask.
+    let ranks: Vec<u8> = row.verdicts.iter().map(|verdict| PixelVerdict::of(*verdict, true).rank()).collect();
+    // A pixel whose triangle is wrong may be shaded right, and then there is nothing to see.
+    let differs = row.picture.pixels().zip(exact.pixels()).map(|(ours, exact)| ours != exact);
+    let seen = ranks.iter().zip(differs).map(|(rank, differs)| if differs { *rank } else { 0 }).collect();
+    let counts = [
+        leaks.clone(),
+        counted(t.false_hits, "false hit", "false hits"),
+        counted(t.wrong_triangle, "wrong triangle", "wrong triangles"),
+    ];
+    [
+        NamedPicture::new(label, row.picture.clone(), format!("{label}: {leaks}{}", group.others())).marked(seen),
+        NamedPicture::new(
+            format!("{label}-map"),
+            row.map.clone(),
+            format!("{label}, what is wrong where: {}", listed(&counts)),
+        )
+        .marked(ranks),
+    ]
+}
+
 pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Result<Findings, ReportError> {
     let mut found = Findings::new("The leaky teapot");
+    conclude(&mut found, &outcome.rows);
+    pictures(&mut found, parameters, &outcome);
     let [rows, edges] = tables(parameters, &outcome);
     let (first, names): (Vec<usize>, Vec<String>) = (first_alike(&outcome), outcome.rows.iter().map(called).collect());
     let switched = outcome.rows.iter().any(|row| row.configuration.switch.is_some());
     let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
     let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
     let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
-    // One picture and one map of each group stand on the page.
-    let mut pictures = vec![NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic")];
-    let mut maps = Vec::new();
-    for group in groups(&outcome) {
-        let (label, t) = (&group.row.configuration.label, &group.row.tally);
-        let caption = format!("{label}: {} leaks{}", t.leaks, group.others());
-        pictures.push(NamedPicture::new(label, group.row.picture.clone(), caption));
-        let caption =
-            format!("{label}: {} leaks, {} false hits, {} wrong triangles", t.leaks, t.false_hits, t.wrong_triangle);
-        maps.push(NamedPicture::new(format!("{label}-map"), group.row.map.clone(), caption));
-        for same in group.same {
-            found.keep_picture(&same.configuration.label, same.picture.clone());
-            found.keep_picture(format!("{}-map", same.configuration.label), same.map.clone());
-        }
-    }
     found.keep_layers("exact", layers(parameters, outcome.exact_t, outcome.exact_triangle)?);
     for row in outcome.rows {
         found.keep_layers(&row.configuration.label, layers(parameters, row.t, row.triangle)?);
     }
-    found.paragraph(format!(
-        "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {} eye rays and {} triangles, in \
-         several number formats, judged against first hits that are decided in exact arithmetic on the same inputs.",
-        parameters.view.rays().len(),
-        parameters.mesh.len(),
-    ));
-    found.heading("The pictures");
-    found.pictures(pictures);
-    found.heading("What is wrong where");
-    found.paragraph(
-        "Red: a leak, no hit where the surface is. Blue: a false hit. Yellow: a wrong triangle that touches the right one. \
-         Orange: a wrong triangle that does not. Grey: right.",
-    );
-    found.pictures(maps);
     found.heading("The figures");
     found.paragraph(
         "largest_t_error is in multiples of the ray's direction. A pixel differs if its shaded colour does. r200 rows: the \
@@ -169,4 +172,36 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     }
     found.table(edges.csv("edges").field("edges"));
     Ok(found)
+}
+
+/// The page's pictures: of the row that leaks most and the exact one first, then of all others. One picture and one map
+/// of each group stand on the page.
+fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
+    let mut groups = groups(outcome);
+    // The first of those that leak alike.
+    let worst = groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(n, _)| n);
+    let first = worst.map(|worst| groups.remove(worst));
+    let mut lead: Vec<NamedPicture> = Vec::new();
+    for group in first.iter() {
+        let [picture, map] = pair(group, &outcome.exact_picture);
+        lead.extend([map, picture]);
+    }
+    lead.push(NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic"));
+    found.legend(PixelVerdict::legend());
+    found.pictures(lead);
+    found.paragraph(format!(
+        "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {} and {}, in several number \
+         formats, judged against first hits that are decided in exact arithmetic on the same inputs.",
+        counted(parameters.view.rays().len() as u64, "eye ray", "eye rays"),
+        counted(parameters.mesh.len() as u64, "triangle", "triangles"),
+    ));
+    if !groups.is_empty() {
+        found.heading("The other rows");
+        found.legend(PixelVerdict::legend());
+        found.pictures(groups.iter().flat_map(|group| pair(group, &outcome.exact_picture)).collect());
+    }
+    for same in first.into_iter().chain(groups).flat_map(|group| group.same) {
+        found.keep_picture(&same.configuration.label, same.picture.clone());
+        found.keep_picture(format!("{}-map", same.configuration.label), same.map.clone());
+    }
 }

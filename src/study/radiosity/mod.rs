@@ -4,6 +4,7 @@
 //! After a change of light or paint: how many iterations it needs from its own solution, and from zero.
 
 mod change;
+mod conclusion;
 mod difference;
 mod error;
 mod method;

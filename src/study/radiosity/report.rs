@@ -3,8 +3,11 @@
 use refsim::timing::replay::{Options, replay};
 use refsim::timing::{Level, Model, TimingError};
 
+use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
 use super::{IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::counted;
 use crate::report::{
     Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table, false_color,
 };
@@ -16,29 +19,40 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     if let Some(bytes) = timeline(parameters, &outcome)? {
         found.keep_file("timeline.json", bytes);
     }
-    found.paragraph(format!(
-        "{} patches, solved as the fragment programs of Carr, Hall and Hart (2003, section 3) would solve them, and by \
+    conclude(&mut found, &outcome);
+    let about = format!(
+        "{}, solved as the fragment programs of Carr, Hall and Hart (2003, section 3) would solve them, and by \
          solvers of the host. Pictures are drawn by the emulated {} from its radiosity texture, times {}, with the sRGB curve.",
-        outcome.patches.list().len(),
+        counted(outcome.patches.list().len() as u64, "patch", "patches"),
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),
-    ));
+    );
     let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
     let errors = errors(parameters, &outcome);
-    let (mut pictures, mut relit_pictures) = (Vec::new(), Vec::new());
+    // The room by the least accurate method and by the direct one stand at the top.
+    let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| row.label.clone());
+    let (mut lead, mut pictures, mut relit_pictures) = (Vec::new(), Vec::new(), Vec::new());
     for row in outcome.rows {
+        let leads = row.way == SolveMethod::DIRECT || Some(&row.label) == first.as_ref();
         let (label, drawn) = (row.label, row.pictures);
         let picture = |kind: &str, image, what: &str| {
             NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
         };
         pictures.push(picture("flat", drawn.flat, "each patch in its radiosity"));
-        pictures.push(picture("smooth", drawn.smooth, "resampled to corners"));
+        let smooth = picture("smooth", drawn.smooth, "resampled to corners");
+        if leads {
+            lead.push(smooth)
+        } else {
+            pictures.push(smooth)
+        }
         relit_pictures.extend(drawn.relit.map(|image| picture("relit", image, "after the changes")));
     }
     let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
-    found.table(FoundTable::from(room).field("room"));
+    found.pictures(lead);
+    found.paragraph(about);
     found.heading("The room");
+    found.table(FoundTable::from(room).field("room"));
     found.pictures(pictures);
     if !errors.is_empty() {
         found.heading("Darker and brighter than the direct solution");
@@ -91,8 +105,7 @@ fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPictu
     if scale == 0.0 {
         return Vec::new();
     }
-    let ends = digits(100.0 * scale, 2).text();
-    let scale = ends.parse::<f64>().map_or(scale, |ends| ends / 100.0);
+    let ends = shown(100.0 * scale, Quantity::Percent);
     let picture = |(label, error): (&str, &Vec<f64>)| {
         let caption = format!("{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter)");
         let image = false_color::signed(parameters.camera.width(), error, scale);
@@ -103,8 +116,7 @@ fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPictu
 
 /// The room after some iterations, as a picture.
 fn frame(frame: IterationPicture) -> NamedPicture {
-    let plural = if frame.iteration == 1 { "" } else { "s" };
-    let caption = format!("after {} iteration{plural}", frame.iteration);
+    let caption = format!("after {}", counted(frame.iteration.into(), "iteration", "iterations"));
     NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat, caption)
 }
 
@@ -137,7 +149,9 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
         outcome.rows.iter().filter(|row| row.iterations() > 0 && row.way != SolveMethod::DIRECT).map(line).collect();
     let caption = "The mean over the channels of the mean squared residual, as in the paper's Figure 3.";
     let names = ["Mean squared residual of M B - E", "iterations", "error"];
-    (!lines.is_empty()).then(|| logarithmic("residual", names, lines, caption))
+    // Fast methods must not stand in a corner beside one that goes on for ever.
+    let scale = Scale::fitting(lines.iter().filter_map(|line| line.points.last()).map(|end| end.0));
+    (!lines.is_empty()).then(|| logarithmic("residual", names, (scale, lines), caption))
 }
 
 /// Settings of switches get a line of their own where they change the error by more than this factor; the table has
@@ -167,12 +181,18 @@ fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     }
     let caption = "The mean error of what does not shine, in per cent of itself, without its sign.";
     let names = ["Mean error of patches that do not shine, either way", "patches", "error, %"];
-    (!lines.is_empty()).then(|| logarithmic("sweep", names, lines, caption))
+    let scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.0));
+    (!lines.is_empty()).then(|| logarithmic("sweep", names, (scale, lines), caption))
 }
 
-fn logarithmic(name: &str, [title, x, y]: [&str; 3], lines: Vec<Series>, caption: &str) -> NamedChart {
+fn logarithmic(
+    name: &str,
+    [title, x, y]: [&str; 3],
+    (x_scale, lines): (Scale, Vec<Series>),
+    caption: &str,
+) -> NamedChart {
     let (title, x, y) = (title.to_owned(), x.to_owned(), y.to_owned());
-    let chart = Chart { title, x, y, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
+    let chart = Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
     NamedChart { name: name.to_owned(), chart, caption: caption.to_owned() }
 }
 

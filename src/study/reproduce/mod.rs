@@ -8,6 +8,7 @@ mod entry;
 mod equation_11;
 mod error;
 mod figure_7;
+mod overview;
 mod pipeline;
 mod prose;
 mod radeon_8500;

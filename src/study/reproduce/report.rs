@@ -3,6 +3,7 @@
 use serde_json::json;
 use strum::VariantArray as _;
 
+use super::overview::overview;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
@@ -169,10 +170,12 @@ const HOW: &str = "The papers' figures beside ours. A figure is printed, implied
 
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
+    overview(&mut all, found);
     let how = super::Prose::new(HOW, [super::number(100.0 * super::Bound::SHARE, 0)]);
     all.paragraph(how.to_string());
-    all.table(FoundTable::from(tally(found)).csv("tally").field("tally").unprinted());
+    all.keep_table(FoundTable::from(tally(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
+    all.heading("All rows");
     tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
     let mut entries = Vec::new();
     for (entry, found) in found {

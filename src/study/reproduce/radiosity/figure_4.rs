@@ -3,7 +3,7 @@
 use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
-use crate::report::{Cell, Chart, Series, Table};
+use crate::report::{Cell, Chart, Scale, Series, Table};
 use crate::study::reproduce::{Bound, EntryChart, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 /// Sizes; the card of the paper had textures of at most 2048 texels a side.
@@ -49,6 +49,9 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         title: "An iteration by the size of the matrix".to_owned(),
         x: "M elements, N x N".to_owned(),
         y: "ms".to_owned(),
+        // On linear axes all but the largest sizes would stand in one corner.
+        x_scale: Scale::Logarithmic,
+        y_scale: Scale::Logarithmic,
         lines: vec![
             line("nv35, one texel an element", |p| p.rgb),
             line("nv35, four elements a texel", |p| p.luminance),

@@ -1,0 +1,232 @@
+//! Axes: their range, their ticks, and where a value stands on them.
+
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+
+use crate::elementary::log10;
+
+/// How an axis grows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// From 0, evenly; from the least value if that is below 0.
+    #[default]
+    Linear,
+    /// By powers of ten; values that are not above 0 are left out.
+    Logarithmic,
+}
+
+/// Values that differ by more than this factor get a logarithmic axis from [`Scale::fitting`]: on a linear one the
+/// smallest would stand within an eighth of the axis.
+const MAX_LINEAR_FACTOR: f64 = 8.0;
+
+impl Scale {
+    /// The scale that keeps values above 0 apart: logarithmic where they differ by a large factor.
+    pub fn fitting(values: impl IntoIterator<Item = f64>) -> Self {
+        let positive = values.into_iter().filter(|value| *value > 0.0 && value.is_finite());
+        let [least, most] = ends(positive);
+        if most > MAX_LINEAR_FACTOR * least { Self::Logarithmic } else { Self::Linear }
+    }
+
+    /// Whether a value can stand on the axis.
+    pub(super) fn admits(self, value: f64) -> bool {
+        value.is_finite() && (self == Self::Linear || value > 0.0)
+    }
+}
+
+/// The least and the largest; infinite and the wrong way round for none.
+fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// An axis as plotters asks for it.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    scale: Scale,
+    low: f64,
+    high: f64,
+    ticks: Vec<(f64, String)>,
+}
+
+/// Room beyond the outermost values.
+const MARGIN: f64 = 1.06;
+/// Positive values that differ by less than this factor get an axis to the right that does not begin at 0.
+const MAX_FACTOR_FROM_0: f64 = 4.0;
+/// At most so many intervals between ticks.
+const MAX_INTERVALS: usize = 8;
+
+impl Axis {
+    /// The axis to the right over some values, all of which its scale admits. It leaves out 0 where all values are
+    /// far from it. `None` if they span nothing.
+    pub(super) fn rightward(scale: Scale, values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
+        let [least, most] = ends(values.clone());
+        let margin = (MARGIN - 1.0) * (most - least);
+        let far = scale == Scale::Linear && least > most / MAX_FACTOR_FROM_0 && most > least;
+        if far { Self::between(scale, least - margin, most + margin) } else { Self::over(scale, values) }
+    }
+
+    /// An axis over some values, all of which its scale admits; a linear one has 0. `None` if they span nothing.
+    pub(super) fn over(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
+        let [least, most] = ends(values);
+        match scale {
+            Scale::Linear => Self::between(scale, least.min(0.0) * MARGIN, most.max(0.0) * MARGIN),
+            Scale::Logarithmic => Self::between(scale, least / MARGIN, most * MARGIN),
+        }
+    }
+
+    fn between(scale: Scale, low: f64, high: f64) -> Option<Self> {
+        let spans = low.is_finite() && high.is_finite() && high > low && (high - low).is_finite();
+        spans.then(|| {
+            let ticks = match scale {
+                Scale::Linear => linear_ticks(low, high),
+                Scale::Logarithmic => logarithmic_ticks(low, high),
+            };
+            Self { scale, low, high, ticks: ticks.into_iter().map(|tick| (tick, tick_text(tick))).collect() }
+        })
+    }
+
+    /// An axis on which so many names stand at 1, 2, ..., in the middle of as much room each; the drawing writes them.
+    pub(super) fn named(names: u32) -> Self {
+        let ticks = (1..=names).map(|place| (f64::from(place), String::new())).collect();
+        Self { scale: Scale::Linear, low: 0.5, high: f64::from(names) + 0.5, ticks }
+    }
+
+    /// How far along the axis a value stands, from 0 to 1.
+    fn share(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Logarithmic => (log10(value) - log10(self.low)) / (log10(self.high) - log10(self.low)),
+        }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        from + (self.share(*value).clamp(0.0, 1.0) * f64::from(to - from)).round() as i32
+    }
+
+    fn key_points<H: KeyPointHint>(&self, _hint: H) -> Vec<f64> {
+        self.ticks.iter().map(|(tick, _)| *tick).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format(value: &f64) -> String {
+        tick_text(*value)
+    }
+
+    fn format_ext(&self, value: &f64) -> String {
+        self.ticks.iter().find(|(tick, _)| tick == value).map_or_else(String::new, |(_, text)| text.clone())
+    }
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten.
+fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
+    let exponent = log10((high - low) / MAX_INTERVALS as f64).floor() as i32;
+    // Decimal text is read back to the nearest number: 3 times 0.1 would not be.
+    let at = |multiple: i64, step: i64, exponent: i32| format!("{}e{exponent}", multiple * step).parse().unwrap_or(0.0);
+    let steps = [(1, exponent), (2, exponent), (5, exponent), (1, exponent + 1), (2, exponent + 1)];
+    let fits = |&&(step, exponent): &&(i64, i32)| (high - low) / at(1, step, exponent) <= MAX_INTERVALS as f64;
+    let Some(&(step, exponent)) = steps.iter().find(fits) else { return Vec::new() };
+    let first = (low / at(1, step, exponent)).ceil() as i64;
+    let all = (first..).map(|multiple| at(multiple, step, exponent)).take_while(|tick| *tick <= high);
+    // Plus 0, so that nothing reads -0.
+    all.take(2 * MAX_INTERVALS).map(|tick| tick + 0.0).collect()
+}
+
+/// Powers of ten, with 2 and 5 times each where there are few of them; round steps within less than that.
+fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
+    let (first, last) = (log10(low).floor() as i32, log10(high).ceil() as i32);
+    let decades = (log10(high) - log10(low)).ceil() as usize;
+    let mantissas: &[u32] = if decades <= 3 { &[1, 2, 5] } else { &[1] };
+    let every = decades.div_ceil(MAX_INTERVALS).max(1);
+    let at = |exponent: i32, mantissa: &u32| format!("{mantissa}e{exponent}").parse().unwrap_or(0.0);
+    let wanted = (first..=last).filter(|exponent| (exponent.unsigned_abs() as usize).is_multiple_of(every));
+    let ticks = wanted.flat_map(|exponent| mantissas.iter().map(move |mantissa| at(exponent, mantissa)));
+    let ticks: Vec<f64> = ticks.filter(|tick| (low..=high).contains(tick)).collect();
+    if ticks.len() >= 2 { ticks } else { linear_ticks(low, high) }
+}
+
+/// A tick's number: plain near one, by its power of ten far from it.
+fn tick_text(tick: f64) -> String {
+    let magnitude = tick.abs();
+    if tick == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{tick}") } else { format!("{tick:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(axis: &Axis) -> Vec<&str> {
+        axis.ticks.iter().map(|(_, text)| text.as_str()).collect()
+    }
+
+    fn over(scale: Scale, values: &[f64]) -> Axis {
+        Axis::over(scale, values.iter().copied()).expect("an axis")
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        assert_eq!(texts(&over(Scale::Linear, &[0.0, 50.0])), ["0", "10", "20", "30", "40", "50"]);
+        assert_eq!(texts(&over(Scale::Linear, &[-0.1, 0.3])), ["-0.1", "0", "0.1", "0.2", "0.3"]);
+        assert_eq!(texts(&over(Scale::Logarithmic, &[1.0, 213.0])), ["1", "2", "5", "10", "20", "50", "100", "200"]);
+        assert_eq!(texts(&over(Scale::Logarithmic, &[1e-9, 1.0])), ["1e-8", "1e-6", "1e-4", "0.01", "1"]);
+    }
+
+    #[test]
+    fn there_are_two_ticks_at_least_and_few_at_most() {
+        for most in [0.001, 0.7, 1.0, 3.0, 9.5, 42.0, 1e5, 7e8] {
+            for low in [0.9, 0.3, 1e-3, 1e-12] {
+                let axis = over(Scale::Logarithmic, &[low * most, most]);
+                assert!((2..=3 * MAX_INTERVALS).contains(&axis.ticks.len()), "{low} {most}: {axis:?}");
+            }
+            let axis = over(Scale::Linear, &[0.0, most]);
+            assert!((2..=MAX_INTERVALS + 1).contains(&axis.ticks.len()), "{most}: {axis:?}");
+        }
+    }
+
+    #[test]
+    fn values_below_0_are_within_the_axis() {
+        let axis = over(Scale::Linear, &[-20.0, 40.0]);
+        assert!(axis.map(&-20.0, (0, 600)) > 0 && axis.map(&40.0, (0, 600)) < 600);
+    }
+
+    /// On an axis from 0, 60 and 70 would stand at its right end.
+    #[test]
+    fn values_far_from_0_fill_the_axis() {
+        let axis = Axis::rightward(Scale::Linear, [60.0, 70.0].into_iter()).expect("an axis");
+        assert!(axis.map(&60.0, (0, 500)) < 50 && axis.map(&70.0, (0, 500)) > 450);
+        let axis = Axis::rightward(Scale::Linear, [64.0, 512.0].into_iter()).expect("an axis");
+        assert_eq!(axis.map(&0.0, (0, 500)), 0);
+        assert!(Axis::rightward(Scale::Linear, [3.0].into_iter()).is_some());
+    }
+
+    #[test]
+    fn a_large_factor_asks_for_powers_of_ten() {
+        assert_eq!(Scale::fitting([8.0, 13.0, 23.0]), Scale::Linear);
+        assert_eq!(Scale::fitting([8.0, 13.0, 213.0]), Scale::Logarithmic);
+        assert_eq!(Scale::fitting([]), Scale::Linear);
+    }
+
+    /// The least of three counts of iterations stands where it can be told from the axis.
+    #[test]
+    fn fast_solvers_are_kept_apart() {
+        let axis = over(Scale::Logarithmic, &[1.0, 8.0, 13.0, 213.0]);
+        let places = [8.0, 13.0, 213.0].map(|value| axis.map(&value, (0, 500)));
+        assert!(places[0] > 150 && places[1] - places[0] > 30, "{places:?}");
+    }
+
+    #[test]
+    fn nothing_spans_no_axis() {
+        assert!(Axis::over(Scale::Linear, [0.0].into_iter()).is_none());
+        assert!(Axis::over(Scale::Logarithmic, std::iter::empty()).is_none());
+        assert!(Axis::over(Scale::Linear, [f64::MAX, f64::MIN].into_iter()).is_none());
+    }
+}

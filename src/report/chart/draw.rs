@@ -1,0 +1,221 @@
+//! The drawing of a chart by plotters: axes by its mesh, everything else in pixels.
+
+use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::super::palette::LIGHT;
+use super::axis::Axis;
+use super::data::{Chart, DrawnSeries};
+use super::labels::{PITCH, signed, spread};
+use super::style::{Marker, SeriesStyle, rgb};
+
+/// A place in pixels.
+type Pixel = (i32, i32);
+type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// Axes and what they enclose, with the axes' numbers.
+const PLOT: (i32, i32) = (580, 400);
+/// Above and below the plot, for the title and for the numbers below.
+const MARGINS: [i32; 2] = [44, 54];
+/// The stroke of the column's samples, from its left end to its right one.
+const SAMPLE: [i32; 2] = [PLOT.0 + 4, PLOT.0 + 28];
+/// Sizes of fonts; plotters writes them divided by 1.24.
+const FONTS: [f64; 2] = [20.0, 15.5];
+/// What a letter of the smaller font takes at most, in pixels, over a whole label: sans-serif letters are 0.6 of their
+/// font's size wide on average, or less.
+const LETTER: i32 = 8;
+/// Half the size of a marker.
+const MARK: i32 = 4;
+/// From one marker of a line to the next, at least.
+const APART: i32 = 56;
+
+/// A chart and its sizes.
+pub(super) struct Drawing<'a> {
+    chart: &'a Chart,
+    series: &'a [DrawnSeries<'a>],
+    height: i32,
+}
+
+/// A series in pixels.
+struct PixelSeries<'a> {
+    series: &'a DrawnSeries<'a>,
+    points: Vec<Pixel>,
+}
+
+impl<'a> Drawing<'a> {
+    pub(super) fn new(chart: &'a Chart, series: &'a [DrawnSeries<'a>]) -> Self {
+        let labels = signed(series.len()) * PITCH + MARGINS[0] + MARGINS[1];
+        Self { chart, series, height: PLOT.1.max(labels) }
+    }
+
+    /// Width and height.
+    pub(super) fn size(&self) -> (u32, u32) {
+        let letters = self.series.iter().map(|series| signed(series.label.chars().count())).max().unwrap_or(0);
+        let width = SAMPLE[1] + 10 + letters * LETTER;
+        (width.unsigned_abs(), self.height.unsigned_abs())
+    }
+
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, x: Axis, y: Axis) -> Drawn<B> {
+        area.fill(&rgb(LIGHT.paper))?;
+        let title = ("sans-serif", FONTS[0]).into_font().color(&rgb(LIGHT.ink));
+        area.draw(&Text::new(self.chart.title.clone(), (14, 12), title))?;
+        let points = self.axes(area, x, y)?;
+        let all: Vec<PixelSeries<'_>> =
+            self.series.iter().zip(points).map(|(series, points)| PixelSeries { series, points }).collect();
+        self.labels(area, &all)?;
+        for one in &all {
+            one.path(area)?;
+        }
+        all.iter().enumerate().try_for_each(|(n, one)| one.marks(area, n))?;
+        area.present()
+    }
+
+    /// Draws the axes, and gives the series in pixels.
+    fn axes<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        x: Axis,
+        y: Axis,
+    ) -> Result<Vec<Vec<Pixel>>, DrawingAreaErrorKind<B::ErrorType>> {
+        let (plot, _) = area.split_horizontally(PLOT.0);
+        let mut context = ChartBuilder::on(&plot)
+            .margin_top(MARGINS[0])
+            .margin_bottom(6)
+            .margin_right(12)
+            .margin_left(8)
+            .x_label_area_size(MARGINS[1] - 6)
+            .y_label_area_size(62)
+            .build_cartesian_2d(x, y)?;
+        let numbers = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
+        let mut mesh = context.configure_mesh();
+        mesh.light_line_style(TRANSPARENT)
+            .bold_line_style(rgb(LIGHT.rule))
+            .axis_style(rgb(LIGHT.quiet))
+            .label_style(numbers.clone())
+            .axis_desc_style(numbers)
+            .x_desc(self.chart.x.as_str())
+            .y_desc(self.chart.y.as_str())
+            .draw()?;
+        let (_, bottom) = context.plotting_area().get_pixel_range();
+        for (place, name) in (1..).zip(&self.chart.ticks) {
+            let (middle, _) = context.backend_coord(&(f64::from(place), 0.0));
+            self.name(area, name, (middle, bottom.end + 8))?;
+        }
+        Ok(self
+            .series
+            .iter()
+            .map(|series| series.points.iter().map(|point| context.backend_coord(point)).collect())
+            .collect())
+    }
+
+    /// A name below the axis, in two lines where one would run into its neighbours.
+    fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> Drawn<B> {
+        let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
+        let long = signed(name.chars().count()) * LETTER > room;
+        let lines = if long { halves(name) } else { vec![name] };
+        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
+        let style = style.pos(Pos::new(HPos::Center, VPos::Top));
+        lines
+            .into_iter()
+            .zip((top..).step_by(16))
+            .try_for_each(|(line, y)| area.draw(&Text::new(line.to_owned(), (middle, y), style.clone())))
+    }
+
+    /// The column of labels: a sample of each series, its name, and a thin line from where it ends.
+    fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> Drawn<B> {
+        let wanted: Vec<i32> = all.iter().map(|one| one.end().1).collect();
+        let places = spread(&wanted, [MARGINS[0] + PITCH / 2, self.height - MARGINS[1] - PITCH / 2]);
+        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
+        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+        for (one, y) in all.iter().zip(places) {
+            let SeriesStyle { color, .. } = one.series.style;
+            area.draw(&PathElement::new([one.end(), (SAMPLE[0] - 3, y)], color.mix(0.45)))?;
+            let points = if one.series.joined { SAMPLE.map(|x| (x, y)).to_vec() } else { Vec::new() };
+            PixelSeries { series: one.series, points }.path(area)?;
+            mark(area, ((SAMPLE[0] + SAMPLE[1]) / 2, y), one.series.style)?;
+            area.draw(&Text::new(one.series.label.to_owned(), (SAMPLE[1] + 6, y), style.clone()))?;
+        }
+        Ok(())
+    }
+}
+
+/// A name in two lines as short as they can be; in one if it is one word.
+fn halves(name: &str) -> Vec<&str> {
+    let longer = |(space, _): &(usize, &str)| (*space).max(name.len() - space - 1);
+    let best = name.match_indices(' ').min_by_key(longer);
+    best.map_or_else(|| vec![name], |(space, _)| vec![&name[..space], &name[space + 1..]])
+}
+
+impl PixelSeries<'_> {
+    /// Where the label's line starts.
+    fn end(&self) -> Pixel {
+        self.points.last().copied().unwrap_or_default()
+    }
+
+    /// The line, dashed or not; nothing for points.
+    fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        let style = self.series.style;
+        let stroke = style.color.stroke_width(2);
+        let points = self.points.iter().copied();
+        match style.dash {
+            _ if !self.series.joined => Ok(()),
+            Some((dash, gap)) => area.draw(&DashedPathElement::new(points, dash, gap, stroke)),
+            None => area.draw(&PathElement::new(points.collect::<Vec<_>>(), stroke)),
+        }
+    }
+
+    /// The markers: all points, or along a line some, which begin elsewhere on each line.
+    fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> Drawn<B> {
+        let few = !self.series.joined || self.points.len() <= 10;
+        let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
+        for point in &self.points {
+            if few || point.0 - last >= APART {
+                last = point.0;
+                mark(area, *point, self.series.style)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One marker.
+fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> Drawn<B> {
+    let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
+    let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];
+    let diamond = [(0, -MARK - 2), (MARK + 2, 0), (0, MARK + 2), (-MARK - 2, 0)];
+    let polygon = |corners: &[Pixel], open: bool| -> Drawn<B> {
+        let mut corners: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
+        let fill = if open { rgb(LIGHT.paper) } else { style.color };
+        area.draw(&Polygon::new(corners.clone(), fill.filled()))?;
+        corners.extend(corners.first().copied());
+        area.draw(&PathElement::new(corners, style.color.stroke_width(if open { 2 } else { 1 })))
+    };
+    match style.marker {
+        Marker::Disc => area.draw(&Circle::new((x, y), MARK, style.color.filled())),
+        Marker::Square => polygon(&square, false),
+        Marker::OpenSquare => polygon(&square, true),
+        Marker::Triangle => polygon(&triangle, false),
+        Marker::OpenTriangle => polygon(&triangle, true),
+        Marker::Diamond => polygon(&diamond, false),
+        Marker::OpenDiamond => polygon(&diamond, true),
+        Marker::Printed => {
+            let stroke = style.color.stroke_width(2);
+            area.draw(&Circle::new((x, y), MARK + 3, stroke))?;
+            area.draw(&PathElement::new([(x - MARK, y - MARK), (x + MARK, y + MARK)], stroke))?;
+            area.draw(&PathElement::new([(x - MARK, y + MARK), (x + MARK, y - MARK)], stroke))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_break_in_the_middle() {
+        assert_eq!(halves("teapot, Monte Carlo"), ["teapot,", "Monte Carlo"]);
+        assert_eq!(halves("office"), ["office"]);
+    }
+}

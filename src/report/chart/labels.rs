@@ -1,0 +1,96 @@
+//! The labels of a chart: a column to its right, each label as near to the end of its line as the others let it.
+
+/// From one label's middle to the next one's, in pixels.
+pub(super) const PITCH: i32 = 19;
+
+/// A number of labels or letters as pixels are counted; a drawing has far less than the most that it gives.
+pub(super) fn signed(count: usize) -> i32 {
+    const MOST: i32 = 100_000;
+    i32::try_from(count).unwrap_or(MOST).min(MOST)
+}
+
+/// Places for labels whose lines end at some heights, in the same order as these: at least a pitch apart, between `top`
+/// and `bottom` if there is room for all, and downward from `top` if there is not.
+pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    order.sort_by_key(|&n| (wanted[n], n));
+    // Labels that touch move together: a group stands around the middle of what its labels want.
+    let mut groups: Vec<Group> = Vec::new();
+    for &n in &order {
+        let mut group = Group { labels: vec![n], first: clamped(wanted[n], 1, [top, bottom]) };
+        while let Some(above) = groups.pop_if(|above| above.end() > group.first) {
+            group = above.joined(group, wanted, [top, bottom]);
+        }
+        groups.push(group);
+    }
+    let mut places = vec![0; wanted.len()];
+    for group in groups {
+        for (n, place) in group.labels.iter().zip((0..).map(|k| group.first + k * PITCH)) {
+            places[*n] = place;
+        }
+    }
+    places
+}
+
+/// Labels one below the other.
+struct Group {
+    labels: Vec<usize>,
+    first: i32,
+}
+
+impl Group {
+    /// Where the next label may stand.
+    fn end(&self) -> i32 {
+        self.first + signed(self.labels.len()) * PITCH
+    }
+
+    fn joined(mut self, below: Self, wanted: &[i32], room: [i32; 2]) -> Self {
+        self.labels.extend(below.labels);
+        let firsts = self.labels.iter().zip(0..).map(|(n, k)| i64::from(wanted[*n]) - i64::from(k * PITCH));
+        let mean = firsts.sum::<i64>().div_euclid(i64::from(signed(self.labels.len())));
+        self.first = clamped(mean as i32, self.labels.len(), room);
+        self
+    }
+}
+
+/// The place of the first of some labels, moved into the room.
+fn clamped(first: i32, labels: usize, [top, bottom]: [i32; 2]) -> i32 {
+    first.min(bottom - (signed(labels) - 1) * PITCH).max(top)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ROOM: [i32; 2] = [20, 420];
+
+    #[test]
+    fn labels_with_room_stand_where_their_lines_end() {
+        assert_eq!(spread(&[300, 100, 200], ROOM), [300, 100, 200]);
+    }
+
+    #[test]
+    fn lines_that_end_together_share_the_way() {
+        assert_eq!(spread(&[200, 200], ROOM), [190, 209]);
+        assert_eq!(spread(&[420, 420, 20], ROOM), [401, 420, 20]);
+    }
+
+    proptest! {
+        #[test]
+        fn labels_never_overlap(wanted in prop::collection::vec(-50..500_i32, 0..40)) {
+            let mut places = spread(&wanted, ROOM);
+            prop_assert_eq!(places.len(), wanted.len());
+            // In the order of their lines' ends.
+            for (a, x) in wanted.iter().zip(&places) {
+                for (b, y) in wanted.iter().zip(&places) {
+                    prop_assert!(a >= b || x < y, "{} {} {} {}", a, b, x, y);
+                }
+            }
+            places.sort_unstable();
+            prop_assert!(places.windows(2).all(|two| two[1] - two[0] >= PITCH), "{:?}", places);
+            let all = wanted.len() as i32 * PITCH <= ROOM[1] - ROOM[0];
+            prop_assert!(!all || places.iter().all(|place| (ROOM[0]..=ROOM[1]).contains(place)), "{:?}", places);
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! How lines and points look: each has a colour, a dash and a marker of its own, on a light page and on a dark one.
+//!
+//! Colours are those of Okabe and Ito (2008), which stay apart for readers who do not tell red from green; on paper,
+//! sky blue and reddish purple are darkened until they stand out from it, and orange to brown. Yellow is left out, and
+//! black is the papers'.
+
+use plotters::style::RGBColor;
+
+use super::super::palette::{Color, DARK, LIGHT, Theme};
+
+/// Lines on a light page, and the same on a dark one.
+const COLORS: [(Color, Color); 6] = [
+    // Blue.
+    ([0x00, 0x72, 0xb2], [0x4b, 0xa3, 0xdb]),
+    // Vermilion.
+    ([0xd5, 0x5e, 0x00], [0xf0, 0x7b, 0x1f]),
+    // Bluish green.
+    ([0x00, 0x8f, 0x68], [0x1f, 0xc3, 0x97]),
+    // Reddish purple.
+    ([0xb3, 0x55, 0x8a], [0xdd, 0x93, 0xbc]),
+    // Orange; brown on paper.
+    ([0x7a, 0x56, 0x00], [0xe6, 0xb0, 0x20]),
+    // Sky blue.
+    ([0x42, 0x98, 0xd0], [0x8c, 0xcd, 0xf2]),
+];
+/// Lengths of dashes and of the gaps between them, in pixels; none for a solid line.
+const DASHES: [Option<(i32, i32)>; 5] = [None, Some((9, 5)), Some((2, 4)), Some((18, 6)), Some((5, 11))];
+const MARKERS: [Marker; 7] = [
+    Marker::Disc,
+    Marker::Square,
+    Marker::Triangle,
+    Marker::Diamond,
+    Marker::OpenSquare,
+    Marker::OpenTriangle,
+    Marker::OpenDiamond,
+];
+
+/// Lines and sets of points that one chart can tell apart: the lists have no common divisor.
+pub(super) const MAX_SERIES: usize = COLORS.len() * DASHES.len() * MARKERS.len();
+
+/// The shape of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Marker {
+    Disc,
+    Square,
+    Triangle,
+    Diamond,
+    OpenSquare,
+    OpenTriangle,
+    OpenDiamond,
+    /// A cross in a ring: figures that a paper prints.
+    Printed,
+}
+
+/// How one line or set of points looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SeriesStyle {
+    pub(super) color: RGBColor,
+    pub(super) dash: Option<(i32, i32)>,
+    pub(super) marker: Marker,
+}
+
+impl SeriesStyle {
+    /// A paper's points.
+    pub(super) const PRINTED: Self = Self { color: rgb(LIGHT.ink), dash: None, marker: Marker::Printed };
+
+    /// The style of the n-th line or set of points of a chart.
+    pub(super) fn nth(n: usize) -> Self {
+        let (light, _) = COLORS[n % COLORS.len()];
+        Self { color: rgb(light), dash: DASHES[n % DASHES.len()], marker: MARKERS[n % MARKERS.len()] }
+    }
+}
+
+/// plotters' form of a colour.
+pub(super) const fn rgb([r, g, b]: Color) -> RGBColor {
+    RGBColor(r, g, b)
+}
+
+/// Rules that give a drawing the colours of a dark page. Colours are attributes, so that a viewer without style sheets
+/// shows the light ones.
+pub(super) fn dark_rules() -> String {
+    let of = |theme: &Theme| [theme.paper, theme.ink, theme.quiet, theme.rule];
+    let pairs = of(&LIGHT).into_iter().zip(of(&DARK)).chain(COLORS);
+    let rule = |(light, dark): (Color, Color)| {
+        let (light, dark) = (hex(light).to_uppercase(), hex(dark));
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
+    };
+    format!("@media (prefers-color-scheme:dark){{{}}}", pairs.map(rule).collect::<String>())
+}
+
+/// A colour as style sheets write it.
+fn hex([r, g, b]: Color) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::palette::{contrast, least_distance};
+    use super::*;
+
+    #[test]
+    fn no_two_series_look_the_same() {
+        let all: Vec<SeriesStyle> = (0..MAX_SERIES).map(SeriesStyle::nth).collect();
+        for (n, style) in all.iter().enumerate() {
+            assert!(!all[..n].contains(style), "{n}: {style:?}");
+            assert_ne!(style.marker, SeriesStyle::PRINTED.marker);
+        }
+        // Neighbours differ in all three, so that a reader without colours tells them apart.
+        for two in all.windows(2) {
+            assert!(two[0].color != two[1].color && two[0].dash != two[1].dash && two[0].marker != two[1].marker);
+        }
+    }
+
+    #[test]
+    fn lines_stand_out_from_both_pages() {
+        for (light, dark) in COLORS {
+            assert!(contrast(light, LIGHT.paper) >= 3.0, "{light:?}: {}", contrast(light, LIGHT.paper));
+            assert!(contrast(dark, DARK.paper) >= 3.0, "{dark:?}: {}", contrast(dark, DARK.paper));
+        }
+    }
+
+    #[test]
+    fn colors_differ_for_colour_blind_readers() {
+        let (light, dark): (Vec<Color>, Vec<Color>) = COLORS.into_iter().unzip();
+        for colors in [light, dark] {
+            assert!(least_distance(&colors) > 10.0, "{}", least_distance(&colors));
+        }
+    }
+
+    #[test]
+    fn every_colour_has_its_dark_form() {
+        let rules = dark_rules();
+        for color in (0..COLORS.len()).map(|n| SeriesStyle::nth(n).color) {
+            let hex = format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2);
+            assert!(rules.contains(&format!("[stroke=\"{hex}\"]")) && rules.contains(&format!("[fill=\"{hex}\"]")));
+        }
+    }
+}

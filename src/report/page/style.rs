@@ -1,0 +1,64 @@
+//! The page's style sheet: colours from the palette, the rest from `page.css`.
+
+use super::super::palette::{Color, DARK, LIGHT, Theme};
+
+/// Links; what one hopes for, what says nothing, and what one does not hope for: blue, grey and orange of Okabe and
+/// Ito (2008), made to stand out from each page.
+type Accents = [(&'static str, Color); 4];
+
+const ON_LIGHT: Accents = [
+    ("link", [0x00, 0x5a, 0x8f]),
+    ("good", [0x00, 0x72, 0xb2]),
+    ("neutral", [0x85, 0x8b, 0x93]),
+    ("bad", [0xd5, 0x5e, 0x00]),
+];
+const ON_DARK: Accents = [
+    ("link", [0x7c, 0xc0, 0xee]),
+    ("good", [0x4b, 0xa3, 0xdb]),
+    ("neutral", [0x85, 0x8b, 0x93]),
+    ("bad", [0xf0, 0x7b, 0x1f]),
+];
+
+/// Follows the reader's choice of a light or dark page.
+pub(super) fn sheet() -> String {
+    format!(
+        "\n:root {{ color-scheme: light dark; {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{}",
+        variables(&LIGHT, ON_LIGHT),
+        variables(&DARK, ON_DARK),
+        include_str!("page.css"),
+    )
+}
+
+fn variables(theme: &Theme, accents: Accents) -> String {
+    let Theme { paper, ink, quiet, rule, soft } = *theme;
+    let all = [("paper", paper), ("ink", ink), ("quiet", quiet), ("rule", rule), ("soft", soft)].into_iter();
+    let variable = |(name, [r, g, b]): (&str, Color)| format!("--{name}: #{r:02x}{g:02x}{b:02x};");
+    all.chain(accents).map(variable).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::palette::{contrast, least_distance};
+    use super::*;
+
+    #[test]
+    fn accents_stand_out_from_both_pages() {
+        for (theme, accents) in [(LIGHT, ON_LIGHT), (DARK, ON_DARK)] {
+            assert!(contrast(accents[0].1, theme.paper) >= 4.5, "links are text");
+            for (name, color) in &accents[1..] {
+                assert!(contrast(*color, theme.paper) >= 3.0, "{name}");
+            }
+            assert!(least_distance(&accents[1..].iter().map(|(_, color)| *color).collect::<Vec<_>>()) > 20.0);
+        }
+    }
+
+    /// Every colour of the sheet is a variable, so that a dark page has no colour of a light one.
+    #[test]
+    fn the_sheet_has_no_colour_of_its_own() {
+        let css = include_str!("page.css");
+        assert!(!css.contains('#') && !css.contains("rgb("));
+        for name in css.split("var(--").skip(1).filter_map(|rest| rest.split(')').next()) {
+            assert_eq!(sheet().matches(&format!("--{name}: #")).count(), 2, "{name}");
+        }
+    }
+}

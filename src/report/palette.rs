@@ -1,0 +1,125 @@
+//! Colours of pages, charts and false-colour pictures.
+
+/// Red, green, blue in sRGB.
+pub type Color = [u8; 3];
+
+/// The colours of a page; [`LIGHT`] and [`DARK`] follow the reader's setting.
+pub(super) struct Theme {
+    pub(super) paper: Color,
+    pub(super) ink: Color,
+    pub(super) quiet: Color,
+    pub(super) rule: Color,
+    pub(super) soft: Color,
+}
+
+pub(super) const LIGHT: Theme = Theme {
+    paper: [0xfc, 0xfc, 0xfa],
+    ink: [0x1c, 0x1e, 0x21],
+    quiet: [0x5c, 0x61, 0x68],
+    rule: [0xcf, 0xd2, 0xd6],
+    soft: [0xf0, 0xf1, 0xee],
+};
+pub(super) const DARK: Theme = Theme {
+    paper: [0x16, 0x18, 0x1b],
+    ink: [0xe4, 0xe5, 0xe7],
+    quiet: [0x9a, 0xa0, 0xa8],
+    rule: [0x3b, 0x3f, 0x45],
+    soft: [0x20, 0x23, 0x29],
+};
+
+/// Colours of Okabe and Ito (2008), which stay apart for readers with any of the three colour vision deficiencies.
+pub mod okabe_ito {
+    use super::Color;
+
+    /// Sky blue.
+    pub const SKY_BLUE: Color = [0x56, 0xb4, 0xe9];
+    /// Yellow.
+    pub const YELLOW: Color = [0xf0, 0xe4, 0x42];
+    /// Vermilion.
+    pub const VERMILION: Color = [0xd5, 0x5e, 0x00];
+    /// Reddish purple.
+    pub const REDDISH_PURPLE: Color = [0xcc, 0x79, 0xa7];
+}
+
+#[cfg(test)]
+pub(crate) use vision::{contrast, least_distance};
+
+/// How colours are seen: contrast by WCAG 2, and distances under colour vision deficiencies.
+#[cfg(test)]
+mod vision {
+    use super::Color;
+    use crate::elementary::pow;
+
+    /// Matrices of Machado, Oliveira and Fernandes (2009) on linear RGB, at full severity: all three cones, without
+    /// the long, the middle and the short ones.
+    const VISIONS: [[[f64; 3]; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+    ];
+    /// Linear sRGB to XYZ, divided by the white point.
+    const TO_XYZ: [[f64; 3]; 3] =
+        [[0.43395, 0.37621, 0.18984], [0.21267, 0.71516, 0.07217], [0.01776, 0.10947, 0.87276]];
+
+    fn linear(color: Color) -> [f64; 3] {
+        color.map(|byte| {
+            let x = f64::from(byte) / 255.0;
+            if x <= 0.04045 { x / 12.92 } else { pow((x + 0.055) / 1.055, 2.4) }
+        })
+    }
+
+    fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+    }
+
+    /// The contrast ratio, from 1 to 21.
+    pub(crate) fn contrast(a: Color, b: Color) -> f64 {
+        let luminance = |color| times(&TO_XYZ, linear(color))[1];
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// CIELAB.
+    fn lab(linear: [f64; 3]) -> [f64; 3] {
+        let f = |t: f64| if t > 0.008856 { pow(t, 1.0 / 3.0) } else { 7.787 * t + 16.0 / 116.0 };
+        let [x, y, z] = times(&TO_XYZ, linear.map(|x| x.clamp(0.0, 1.0))).map(f);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    /// The least CIELAB distance between two of the colours, over all kinds of vision.
+    pub(crate) fn least_distance(colors: &[Color]) -> f64 {
+        let mut least = f64::INFINITY;
+        for vision in &VISIONS {
+            let seen: Vec<[f64; 3]> = colors.iter().map(|color| lab(times(vision, linear(*color)))).collect();
+            for (n, a) in seen.iter().enumerate() {
+                for b in &seen[..n] {
+                    least = least.min((0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum::<f64>().sqrt());
+                }
+            }
+        }
+        least
+    }
+
+    #[test]
+    fn black_and_white_are_21_to_1_and_red_and_green_are_alike_to_some() {
+        assert!((contrast([0; 3], [255; 3]) - 21.0).abs() < 0.01);
+        let (apart, alike) = (least_distance(&[[0; 3], [255; 3]]), least_distance(&[[230, 60, 40], [130, 110, 20]]));
+        assert!(apart > 99.0 && alike < 25.0, "{apart} {alike}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Text needs 4.5 to 1 (WCAG 2, AA).
+    #[test]
+    fn text_can_be_read_on_both_pages() {
+        for theme in [LIGHT, DARK] {
+            for text in [theme.ink, theme.quiet] {
+                assert!(contrast(text, theme.paper) >= 4.5 && contrast(text, theme.soft) >= 4.5, "{text:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! What the rows of the study say, as sentences.
+
+use std::cmp::Reverse;
+
+use super::{Tally, TeapotRow};
+use crate::report::digits::count;
+use crate::report::words::{counted, listed, percent};
+use crate::report::{Findings, Tone};
+
+/// Names in a sentence, at most; more are counted.
+const MAX_NAMES: usize = 4;
+
+impl Tally {
+    /// Rays with any other answer than the right one.
+    pub const fn wrong(&self) -> u64 {
+        self.leaks + self.false_hits + self.wrong_triangle
+    }
+}
+
+/// Puts verdict, worst row, seams and tally into the findings.
+pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow]) {
+    let sentences = [verdict(rows), most_leaks(rows), seams(rows)];
+    sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
+    let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
+    found.tally(rows_with(|t| t.wrong() == 0), ["row right in every pixel", "rows right in every pixel"], Tone::Good);
+    let wrong = rows_with(|t| t.wrong() > 0 && t.leaks == 0);
+    found.tally(wrong, ["row wrong without a leak", "rows wrong without a leak"], Tone::Neutral);
+    found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
+}
+
+/// Which rows are right everywhere.
+fn verdict(rows: &[TeapotRow]) -> Option<String> {
+    let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
+    let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
+    let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
+    let wrong = counted(best.tally.wrong(), "pixel", "pixels");
+    Some(match (right.len(), rows.len() - right.len()) {
+        (0, 1) => format!("{} is wrong in {wrong} of {}.", label(best), count(best.tally.rays)),
+        (1, 0) => format!("{} is right in every pixel.", label(best)),
+        (0, _) => {
+            format!("No row is right in every pixel; {} is wrong in the fewest: {wrong}.", label(best))
+        }
+        (_, 0) => "Every row is right in every pixel.".to_owned(),
+        (1, others) => format!("Of {} rows only {names} is right in every pixel.", count(others as u64 + 1)),
+        (some, others) => format!("Of {} rows {names} are right in every pixel.", count((some + others) as u64)),
+    })
+}
+
+/// Which row leaks most; nothing if none does.
+fn most_leaks(rows: &[TeapotRow]) -> Option<String> {
+    // The first of those that leak alike.
+    let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
+    let Tally { leaks, surface, .. } = worst.tally;
+    Some(format!(
+        "{} leaks{}: {} of {} of the surface ({}).",
+        label(worst),
+        if rows.len() > 1 { " most" } else { "" },
+        count(leaks),
+        counted(surface, "pixel", "pixels"),
+        percent(worst.tally.leak_share()),
+    ))
+}
+
+/// What the rays do that are aimed at edges; nothing if none were.
+fn seams(rows: &[TeapotRow]) -> Option<String> {
+    let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());
+    let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();
+    let least = shares.clone().min_by(f64::total_cmp)?;
+    let most = shares.max_by(f64::total_cmp)?;
+    Some(if leaking == 0 {
+        "Of the rays aimed at shared edges none leaks.".to_owned()
+    } else if leaking < rows.len() {
+        format!("Of the rays aimed at shared edges up to {} leak, in {leaking} of {} rows.", percent(most), rows.len())
+    } else if least == most {
+        format!("Of the rays aimed at shared edges {} leak.", percent(most))
+    } else {
+        format!("Of the rays aimed at shared edges some leak in every row: {} to {}.", percent(least), percent(most))
+    })
+}
+
+fn label(row: &TeapotRow) -> &str {
+    &row.configuration.label
+}

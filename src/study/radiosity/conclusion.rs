@@ -1,0 +1,80 @@
+//! What the rows of the study say, as sentences.
+
+use super::{MethodRow, RadiosityOutcome, SolveMethod, StopReason, SweepRow};
+use crate::report::words::{counted, percent};
+use crate::report::{Findings, Tone};
+
+/// Puts accuracy, speed, the sweep's range and the tally into the findings.
+pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
+    let sentences = [accuracy(&outcome.rows), speed(&outcome.rows), sweep(outcome)];
+    sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
+    let iterative = || outcome.rows.iter().filter(|row| row.way != SolveMethod::DIRECT);
+    let count = |of: fn(StopReason) -> bool| iterative().filter(|row| of(row.stopped)).count() as u64;
+    found.tally(
+        count(|stopped| stopped == StopReason::Tolerance),
+        ["way met the tolerance", "ways met the tolerance"],
+        Tone::Good,
+    );
+    found.tally(
+        count(|stopped| matches!(stopped, StopReason::Cycle(_))),
+        ["way ended in a cycle", "ways ended in a cycle"],
+        Tone::Bad,
+    );
+    found.tally(
+        count(|stopped| stopped == StopReason::Iterations),
+        ["way ran out of iterations", "ways ran out of iterations"],
+        Tone::Neutral,
+    );
+}
+
+/// The row whose mean error is the largest; nothing without a direct solution to compare with.
+pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
+    let bias = |row: &MethodRow| row.off.map_or(0.0, |off| off.bias.abs());
+    rows.iter()
+        .filter(|row| row.off.is_some() && row.way != SolveMethod::DIRECT)
+        .max_by(|a, b| bias(a).total_cmp(&bias(b)))
+}
+
+fn accuracy(rows: &[MethodRow]) -> Option<String> {
+    let worst = least_accurate(rows)?;
+    let off = worst.off?;
+    Some(format!(
+        "{} is the least accurate: patches that do not shine are {} on average, and the worst one is off by {} of itself.",
+        worst.label,
+        shade(off.bias),
+        percent(off.relative),
+    ))
+}
+
+/// A signed error as too dark or too bright.
+fn shade(bias: f64) -> String {
+    let which = if bias < 0.0 { "dark" } else { "bright" };
+    format!("{} too {which}", percent(bias.abs()))
+}
+
+/// Which of the rows that met the tolerance did so first; nothing if none did.
+fn speed(rows: &[MethodRow]) -> Option<String> {
+    let within = || rows.iter().filter(|row| row.stopped == StopReason::Tolerance);
+    let (first, last) = (within().min_by_key(|row| row.iterations())?, within().max_by_key(|row| row.iterations())?);
+    let needs = |row: &MethodRow| counted(row.iterations() as u64, "iteration", "iterations");
+    Some(if first.iterations() == last.iterations() {
+        format!("{} meets the tolerance after {}.", first.label, needs(first))
+    } else {
+        let (fast, slow) = (needs(first), needs(last));
+        format!("{} meets the tolerance first, after {fast}; {} last, after {slow}.", first.label, last.label)
+    })
+}
+
+/// The range of the sweep's mean errors; nothing without a sweep.
+fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
+    let rows = || outcome.sweep.iter().filter(|row| row.off.bias.is_finite());
+    let darkest = rows().min_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
+    let brightest = rows().max_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
+    let said = |row: &SweepRow| {
+        let turned = row.switches.first().filter(|_| !row.as_it_is);
+        let switch = turned.map_or_else(String::new, |(name, value)| format!(", {name}={value}"));
+        let patches = counted(row.patches as u64, "patch", "patches");
+        format!("{} at {patches} ({}{switch})", shade(row.off.bias), row.way)
+    };
+    Some(format!("Over the sweep the mean error goes from {} to {}.", said(darkest), said(brightest)))
+}

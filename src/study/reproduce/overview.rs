@@ -1,0 +1,102 @@
+//! All rows at a glance: the conclusion, the tally, and a chart of ours over the papers'.
+
+use strum::VariantArray as _;
+
+use super::{EntryChart, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
+use crate::report::{Chart, Findings, NamedChart, Scale, Series, Tone};
+
+const JUDGED: &str =
+    "Of {} figures predicted or counted {} are reproduced within their bounds, {} explained and {} missed.";
+const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
+const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
+
+/// Puts conclusion, tally and chart into the findings.
+pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
+    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
+    for sentence in [Some(judged(&rows)), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
+        all.conclusion(sentence.to_string());
+    }
+    for verdict in RowVerdict::VARIANTS {
+        let words = verdict.to_string();
+        all.tally(count(&rows, |row| row.verdict() == *verdict) as u64, [&words, &words], tone(*verdict));
+    }
+    if let Some(EntryChart { name, chart, caption }) = chart(&rows) {
+        all.chart(NamedChart { name: name.to_owned(), chart, caption: caption.to_string() });
+    }
+}
+
+const fn tone(verdict: RowVerdict) -> Tone {
+    match verdict {
+        RowVerdict::Reproduced => Tone::Good,
+        RowVerdict::Missed => Tone::Bad,
+        RowVerdict::Calibrated | RowVerdict::Explained | RowVerdict::TooVague => Tone::Neutral,
+    }
+}
+
+fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
+    rows.iter().filter(|row| of(row)).count()
+}
+
+const fn chose_a_constant(row: &PaperRow) -> bool {
+    matches!(row.standing, Standing::Calibrated { .. })
+}
+
+fn judged(rows: &[&PaperRow]) -> Prose {
+    let of = |verdict: RowVerdict| count(rows, |row| !chose_a_constant(row) && row.verdict() == verdict);
+    let figures = [
+        count(rows, |row| !chose_a_constant(row)),
+        of(RowVerdict::Reproduced),
+        of(RowVerdict::Explained),
+        of(RowVerdict::Missed),
+    ];
+    Prose::new(JUDGED, figures.map(|figure| figure.to_string()))
+}
+
+fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
+    let all = count(rows, chose_a_constant);
+    let missed = count(rows, |row| chose_a_constant(row) && row.verdict() == RowVerdict::Missed);
+    (all > 0).then(|| Prose::new(CALIBRATED, [all, missed].map(|figure| figure.to_string())))
+}
+
+/// How far a row is from print, as a factor of at least 1; nothing for a value that is not above 0.
+fn distance(row: &PaperRow) -> Option<f64> {
+    let ratio = ratio(row);
+    (ratio > 0.0 && ratio.is_finite()).then(|| ratio.max(1.0 / ratio))
+}
+
+fn ratio(row: &PaperRow) -> f64 {
+    row.ours / row.target.value
+}
+
+fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
+    let missed = rows.iter().filter(|row| row.verdict() == RowVerdict::Missed);
+    let (row, _) = missed.filter_map(|row| Some((row, distance(row)?))).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let figures = [row.what.clone(), row.device.to_owned(), row.target.place.to_owned(), number(ratio(row), 2)];
+    Some(Prose::new(FARTHEST, figures))
+}
+
+/// The chart's verdicts: the first two have the colours of the tally.
+const ORDER: [RowVerdict; 5] =
+    [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Calibrated, RowVerdict::Explained, RowVerdict::TooVague];
+
+/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows that can be shown.
+fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
+    let point = |(n, row): (usize, &&PaperRow)| ((n + 1) as f64, ratio(row));
+    let of = |verdict: RowVerdict| Series {
+        label: verdict.to_string(),
+        points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
+    };
+    let drawn = rows.iter().filter(|row| distance(row).is_some()).count();
+    (drawn > 1).then(|| EntryChart {
+        name: "overview",
+        chart: Chart {
+            title: "Ours over the paper's, row by row".to_owned(),
+            x: "row of rows.csv".to_owned(),
+            y: "ours / paper's".to_owned(),
+            y_scale: Scale::Logarithmic,
+            dots: ORDER.map(of).into(),
+            ..Chart::default()
+        },
+        caption: "Each row's value over the paper's. Bounds differ from row to row: the tables have them.".into(),
+    })
+}
