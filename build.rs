@@ -3,7 +3,6 @@
 //! A development build is not asked: its commit changes all the time, and the crate would be compiled anew each time.
 //! A package from a registry carries its commit in a file of cargo's; without that and without git there is none.
 //! Whoever packages the program may set `CROSSBAR_COMMIT`.
-#![expect(clippy::print_stdout, reason = "cargo reads instructions on standard output")]
 
 use std::path::Path;
 use std::process::Command;

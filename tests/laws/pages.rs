@@ -5,7 +5,7 @@ use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;
 use crossbar::picture::{RgbImage, rgb8};
 use crossbar::ray_engine::RayBatch;
-use crossbar::report::words::grouped;
+use crossbar::report::digits;
 use crossbar::report::{
     Chart, Findings, NamedChart, NamedFile, NamedPicture, Provenance, Scale, Series, Table, Tone, Verdict,
 };
@@ -206,7 +206,7 @@ fn every_wrong_pixel_is_shown() {
     let said = found.conclusions().join(" ");
     let sentences = [(leaks, "leaks: "), (wrong, "is wrong in ")];
     for (count, before) in sentences {
-        assert!(said.contains(&format!("r200 {before}{}", grouped(count as u64))), "{said}");
+        assert!(said.contains(&format!("r200 {before}{}", digits::count(count as u64))), "{said}");
     }
     let (picture, exact) = (decoded(file(&files, "r200.png")), decoded(file(&files, "exact.png")));
     let maps = shown(&page, "r200, what is wrong where");

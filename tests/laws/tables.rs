@@ -13,6 +13,11 @@ fn words() -> impl Strategy<Value = String> {
         .prop_map(|words| words.join(" "))
 }
 
+/// 1 with so many zeros.
+fn power_of_ten(power: i32) -> f64 {
+    format!("1e{power}").parse().expect("a number")
+}
+
 fn cell() -> impl Strategy<Value = Cell> {
     let quantity = prop_oneof![
         Just(Quantity::Exact),
@@ -23,7 +28,7 @@ fn cell() -> impl Strategy<Value = Cell> {
         Just(Quantity::Error),
     ];
     // Figures of a table, not all doubles: seven digits after the point of 1e300 are no figure.
-    let real = (-1e9..1e9_f64, -12_i32..3).prop_map(|(x, power)| x * 10_f64.powi(power));
+    let real = (-1e9..1e9_f64, -12_i32..3).prop_map(|(x, power)| x * power_of_ten(power));
     prop_oneof![
         words().prop_map(Cell::Text),
         any::<u64>().prop_map(Cell::Count),
@@ -91,7 +96,7 @@ proptest! {
     /// What people are shown is the number, to the digits that they are shown.
     #[test]
     fn digits_are_those_of_the_number(x in -1e9..1e9_f64, power in -20_i32..3) {
-        let x = x * 10_f64.powi(power);
+        let x = x * power_of_ten(power);
         for (quantity, off) in [(Quantity::Exact, 0.0), (Quantity::Measured, 6e-4), (Quantity::Ratio, 6e-3)] {
             let back: f64 = shown(x, quantity).replace(',', "").parse().expect("a number");
             prop_assert!((back - x).abs() <= off * x.abs(), "{x:e} is shown as {back:e}");

@@ -19,10 +19,13 @@ pub(super) struct DrawState {
     pixel_constants: Constants,
     vertex_program: Option<Program>,
     vertex_constants: Option<Constants>,
-    streams: Option<Vec<(usize, StepRate)>>,
+    layout: Option<Layout>,
     fixed: FixedState,
     targets: Vec<TextureId>,
 }
+
+/// Which registers the attributes of a draw go to, and how they step.
+type Layout = Vec<(usize, StepRate)>;
 
 /// The pieces that are a few numbers each.
 #[derive(Clone, Copy, Debug)]
@@ -49,28 +52,28 @@ impl DrawState {
     }
 
     fn of(call: &DrawCall<'_>) -> Self {
-        let (vertex_program, vertex_constants, streams) = vertex_stage(call);
+        let (vertex_program, vertex_constants, layout) = vertex_stage(call);
         Self {
             samplers: call.samplers,
             pixel_program: program(call.pixel_program).clone(),
             pixel_constants: call.pixel_constants.clone(),
             vertex_program: vertex_program.cloned(),
             vertex_constants: vertex_constants.cloned(),
-            streams,
+            layout,
             fixed: FixedState::of(call),
             targets: call.targets.clone(),
         }
     }
 
     fn take(&mut self, call: &DrawCall<'_>) -> u32 {
-        let (vertex_program, vertex_constants, streams) = vertex_stage(call);
+        let (vertex_program, vertex_constants, layout) = vertex_stage(call);
         let samplers: u32 = self.samplers.iter_mut().zip(&call.samplers).map(|(kept, new)| replace(kept, new)).sum();
         samplers
             + replace(&mut self.pixel_program, program(call.pixel_program))
             + replace(&mut self.pixel_constants, call.pixel_constants)
             + replace_optional(&mut self.vertex_program, vertex_program)
             + replace_optional(&mut self.vertex_constants, vertex_constants)
-            + replace(&mut self.streams, &streams)
+            + replace(&mut self.layout, &layout)
             + replace(&mut self.targets, &call.targets)
             + self.fixed.take(&FixedState::of(call))
     }
@@ -101,9 +104,7 @@ impl FixedState {
 }
 
 /// Program, constants and layout of the attributes; nothing of vertices that come as the stage would give them.
-fn vertex_stage<'a>(
-    call: &DrawCall<'a>,
-) -> (Option<&'a Program>, Option<&'a Constants>, Option<Vec<(usize, StepRate)>>) {
+fn vertex_stage<'a>(call: &DrawCall<'a>) -> (Option<&'a Program>, Option<&'a Constants>, Option<Layout>) {
     match &call.vertices {
         VertexSource::Transformed(_) => (None, None, None),
         VertexSource::Program { program: vertex, constants, streams } => {

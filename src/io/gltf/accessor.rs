@@ -29,11 +29,11 @@ impl AccessorReader<'_> {
     pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, ModelError> {
         let fits = accessor.dimensions().multiplicity() == N
             && !matches!(accessor.dimensions(), Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4);
-        let (size, read): (usize, &dyn Fn(&[u8]) -> f32) = match (accessor.data_type(), accessor.normalized()) {
-            (DataType::F32, _) => (4, &|bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
-            (DataType::U8, true) => (1, &|bytes| (f64::from(whole(&bytes[..1])) / 255.0) as f32),
-            (DataType::U16, true) => (2, &|bytes| (f64::from(whole(&bytes[..2])) / 65535.0) as f32),
-            _ => (0, &|_| 0.0),
+        let (size, read): (usize, fn(&[u8]) -> f32) = match (accessor.data_type(), accessor.normalized()) {
+            (DataType::F32, _) => (4, |bytes| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])),
+            (DataType::U8, true) => (1, |bytes| (f64::from(whole(&bytes[..1])) / 255.0) as f32),
+            (DataType::U16, true) => (2, |bytes| (f64::from(whole(&bytes[..2])) / 65535.0) as f32),
+            _ => (0, |_| 0.0),
         };
         if !fits || size == 0 {
             let expected = format!("vectors of {N} floats, or of normalized unsigned bytes or shorts");

@@ -89,7 +89,7 @@ mod tests {
             }
             places.sort_unstable();
             prop_assert!(places.windows(2).all(|two| two[1] - two[0] >= PITCH), "{:?}", places);
-            let all = wanted.len() as i32 * PITCH <= ROOM[1] - ROOM[0];
+            let all = signed(wanted.len()) * PITCH <= ROOM[1] - ROOM[0];
             prop_assert!(!all || places.iter().all(|place| (ROOM[0]..=ROOM[1]).contains(place)), "{:?}", places);
         }
     }

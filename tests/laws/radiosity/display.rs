@@ -5,7 +5,7 @@ use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::{narrow, wide};
 use crossbar::geom::{Mesh, Ray};
 use crossbar::radiosity::display::{Display, DisplayOptions, VectorTexture, at_corners};
-use crossbar::radiosity::rooms;
+use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{DrawError, Patch, Patches, Subdivision, kernels};
 use crossbar::scene::{Camera, Material, Scene};
 use glam::DVec3;

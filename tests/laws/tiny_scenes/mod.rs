@@ -93,7 +93,8 @@ impl Yardstick {
 
 /// The yardsticks of all scenes, which every test holds something to. A test names them before it starts work in
 /// parallel: a worker that waited for another one's yardsticks could be the one that is to make them.
-static YARDSTICKS: LazyLock<Vec<Yardstick>> = LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
+static YARDSTICKS: LazyLock<Vec<Yardstick>> =
+    LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
 
 /// The sum of what `each` counts of one scene in `step`; scenes run in parallel.
 fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> usize {
