@@ -9,6 +9,8 @@ use crossbar::io::{scene_files, write_obj};
 use crossbar::ray_engine::kernels;
 use crossbar::scene::built;
 
+use crate::crossbar;
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples")
 }
@@ -40,5 +42,32 @@ fn examples_are_what_the_library_makes() {
         }
         let there = fs::read(&path).expect("an example");
         assert!(there == bytes, "run with CROSSBAR_BLESS=1 to write {}", path.display());
+    }
+}
+
+/// The pictures that `diff` is shown with are what `render` makes of the examples, but for what they say of themselves.
+#[test]
+fn example_pictures_are_what_the_program_draws() {
+    let teapot = "docs/examples/teapot.obj --eye 0,-10,4 --target 0,0,1 --size 96x96";
+    let room = "docs/examples/room.toml --renderer path --size 48x48 --samples";
+    let pictures = [
+        ("exact.png", "picture.png", teapot.to_owned()),
+        ("leaky.png", "picture.png", format!("{teapot} --device r200")),
+        ("rough.exr", "layers.exr", format!("{room} 1")),
+        ("smooth.exr", "layers.exr", format!("{room} 16")),
+    ];
+    for (name, file, options) in pictures {
+        let out = tempfile::tempdir().expect("a folder for the test");
+        let path = out.path().to_str().expect("a name in UTF-8");
+        let arguments: Vec<&str> = ["render"].into_iter().chain(options.split(' ')).chain(["--out", path]).collect();
+        let ran = crossbar(&arguments, "");
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        let (drawn, example) = (out.path().join(file), folder().join(name));
+        if std::env::var_os("CROSSBAR_BLESS").is_some() {
+            fs::copy(&drawn, &example).expect("written");
+        }
+        let [drawn, example] = [&drawn, &example].map(|path| path.to_str().expect("a name in UTF-8"));
+        let ran = crossbar(&["diff", example, drawn], "");
+        assert_eq!(ran.code, Some(0), "run with CROSSBAR_BLESS=1 to write {example}\n{}", ran.transcript());
     }
 }

@@ -2,9 +2,11 @@
 
 use serde_json::json;
 
-use super::compare::{DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
+use super::compare::{DifferenceBounds, DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
 use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table, Verdict, false_color};
 
 const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
@@ -15,6 +17,10 @@ pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) ->
     let mut found = Findings::new("Two pictures");
     let held = asked.holds(&outcome);
     found.conclude(Verdict::held(held));
+    found.conclusion(conclusion(&outcome.channels));
+    if asked.bounds != DifferenceBounds::default() {
+        found.conclusion(if held { "Within all bounds." } else { "Out of bounds." });
+    }
     found.paragraph(format!(
         "{} against {}, {} x {} pixels. Differences are second minus first.",
         first.name,
@@ -34,11 +40,20 @@ pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) ->
     Ok(found)
 }
 
+/// How many channels differ.
+fn conclusion(channels: &[ChannelDifference]) -> String {
+    let all = channels.len();
+    match channels.iter().filter(|channel| channel.differing > 0).count() {
+        0 => "The pictures are equal in every sample.".to_owned(),
+        differing => format!("The pictures differ in {differing} of {}.", counted(all as u64, "channel", "channels")),
+    }
+}
+
 fn table(channels: &[ChannelDifference]) -> Table {
     let columns = "channel differing not_finite nan_first nan_second rmse mean maximum x y first second";
     let mut table = Table::of("Samples, channel by channel", columns);
     for channel in channels {
-        let number = |value: f64| if channel.whole { Cell::Empty } else { digits(value) };
+        let number = |value: f64| if channel.whole { Cell::Empty } else { Cell::error(value) };
         let worst = channel.worst;
         table.push([
             channel.name.as_str().into(),
@@ -51,8 +66,8 @@ fn table(channels: &[ChannelDifference]) -> Table {
             number(channel.maximum),
             worst.map(|worst| worst.x).into(),
             worst.map(|worst| worst.y).into(),
-            worst.map(|worst| digits(worst.left)).unwrap_or(Cell::Empty),
-            worst.map(|worst| digits(worst.right)).unwrap_or(Cell::Empty),
+            worst.map_or(Cell::Empty, |worst| Cell::measured(worst.left)),
+            worst.map_or(Cell::Empty, |worst| Cell::measured(worst.right)),
         ]);
     }
     table
@@ -60,9 +75,10 @@ fn table(channels: &[ChannelDifference]) -> Table {
 
 /// SSIM and FLIP, in words and for machines.
 fn tell(found: &mut Findings, asked: &PictureDifference, seen: &SeenDifference) {
-    let (flip, ppd) = (&seen.flip, digits(asked.ppd).text());
-    let [mean, maximum] = [flip.mean, flip.maximum].map(|value| digits(value).text());
-    let similarity = seen.ssim.map_or("none: smaller than a window of 11x11".to_owned(), |ssim| digits(ssim).text());
+    let (flip, ppd) = (&seen.flip, shown(asked.ppd, Quantity::Measured));
+    let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));
+    let similarity =
+        seen.ssim.map_or("none: smaller than a window of 11x11".to_owned(), |ssim| shown(ssim, Quantity::Measured));
     let line = format!("SSIM {similarity}; FLIP mean {mean}, largest {maximum}, at {ppd} pixels per degree");
     found.print(line.clone());
     found.paragraph(format!("{line}. {FLIP}"));
@@ -86,7 +102,7 @@ fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOut
         None => worst_channel(outcome),
     };
     let scale = asked.scale.unwrap_or_else(|| usual_scale(&values));
-    let ends = digits(scale).text();
+    let ends = shown(scale, Quantity::Error);
     let caption = format!(
         "{what}, second minus first: blue -{ends} or less, white 0, red +{ends} or more; black where not finite"
     );
@@ -129,14 +145,6 @@ fn worst_channel(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
     channel.map_or_else(Default::default, |(name, values)| {
         (format!("channel {name}"), values.iter().map(|&value| f64::from(value)).collect())
     })
-}
-
-/// Rounded to six significant digits.
-fn digits(x: f64) -> Cell {
-    if x == 0.0 || !x.is_finite() {
-        return x.into();
-    }
-    format!("{x:.5e}").parse::<f64>().unwrap_or(x).into()
 }
 
 #[cfg(test)]

@@ -79,7 +79,8 @@ fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
 const ORDER: [RowVerdict; 5] =
     [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Calibrated, RowVerdict::Explained, RowVerdict::TooVague];
 
-/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows that can be shown.
+/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows that can be
+/// shown.
 fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
     let point = |(n, row): (usize, &&PaperRow)| ((n + 1) as f64, ratio(row));
     let of = |verdict: RowVerdict| Series {
