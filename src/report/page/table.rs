@@ -19,7 +19,7 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
                 thead {
                     tr {
                         @for (column, heading) in table.shown_headings().iter().enumerate() {
-                            th class=[said(column).then_some("said")] scope="col" { (broken(heading)) }
+                            th class=[said(column).then_some("said")] scope="col" { (heading) }
                         }
                     }
                 }
@@ -47,12 +47,5 @@ const fn class(cell: &Cell, said: bool) -> Option<&'static str> {
         (true, _) => Some("said"),
         (false, true) => Some("number"),
         (false, false) => None,
-    }
-}
-
-/// A heading that may go over several lines behind its underscores.
-fn broken(heading: &str) -> Markup {
-    html! {
-        @for part in heading.split_inclusive('_') { (part) @if part.ends_with('_') { wbr; } }
     }
 }
