@@ -253,7 +253,14 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn rcp(&self, a: f32) -> f32 {
-        self.div(1.0, a)
+        let quotient = match (PATH, R) {
+            (GENERAL, _) | (_, EVEN) => return self.div(1.0, a),
+            (HOST, AWAY) => 1.0 / a,
+            (_, AWAY) => toward::reciprocal::<ZERO>(a),
+            _ => toward::reciprocal::<R>(a),
+        };
+        let rounded = self.narrow(quotient);
+        if a == 0.0 { self.pole(a.to_bits() & SIGN_BIT) } else { rounded }
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Sums and products of single precision in the roundings that the host does not have: the host's own, moved by one
+//! Sums, products and reciprocals of single precision in the roundings that the host does not have: the host's own, moved by one
 //! unit where its error has the wrong sign.
 //!
 //! Truncating twice, to 24 bits and then to fewer, is truncating once, and so is rounding down twice; and rounding to
@@ -55,6 +55,22 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
     }
     let p = a * b;
     one_lower(p, error(a, b, p).to_bits().cast_signed() < INFINITE)
+}
+
+/// `1 / x` cut off or, for [`DOWN`], rounded down; of zero an infinity of its sign.
+///
+/// The host's reciprocal times `x`, less 1, is a number of single precision: its sign says on which side of the truth
+/// the reciprocal lies. No reciprocal but those of powers of two, which are exact, is half way between two singles, so
+/// that rounding to nearest away is what the host does.
+#[inline(always)]
+pub(crate) fn reciprocal<const R: u8>(x: f32) -> f32 {
+    let q = 1.0 / x;
+    // Positive where `q` is too large in magnitude; infinite or NaN where it is an infinity, NaN where it is a zero.
+    let excess = error(q, x, 1.0);
+    let too_large = (excess > 0.0) & (excess < f32::INFINITY);
+    let (inward, outward) =
+        if R == DOWN { (too_large & (x > 0.0), (excess < 0.0) & (x < 0.0)) } else { (too_large, false) };
+    f32::from_bits(q.to_bits().wrapping_sub(inward.into()).wrapping_add(outward.into()))
 }
 
 /// `a + b` rounded to the nearest single, ties away from zero.
