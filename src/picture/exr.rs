@@ -24,7 +24,7 @@ pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
 /// The same with notes as attributes; characters beyond Latin-1 are escaped.
 ///
 /// # Errors
-/// As [`exr`].
+/// As [`exr()`].
 pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>, PictureError> {
     let refused = |reason: String| PictureError::Encode { format: PictureFormat::Exr, reason };
     let channel = |channel: &PictureChannel| {
