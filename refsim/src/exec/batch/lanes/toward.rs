@@ -1,5 +1,5 @@
-//! Sums, products and reciprocals of single precision in the roundings that the host does not have: the host's own, moved by one
-//! unit where its error has the wrong sign.
+//! Sums, products and reciprocals of single precision in the roundings that the host does not have: the host's own,
+//! moved by one unit where its error has the wrong sign.
 //!
 //! Truncating twice, to 24 bits and then to fewer, is truncating once, and so is rounding down twice; and rounding to
 //! nearest away sees the same halves after a truncation. So these serve every format of up to 24 bits. A finite result
