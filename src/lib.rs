@@ -48,6 +48,8 @@
 //! host.
 
 #[cfg(feature = "systems")]
+pub mod atlas;
+#[cfg(feature = "systems")]
 pub mod card;
 #[cfg(feature = "cli")]
 pub mod case;
@@ -66,6 +68,8 @@ pub mod oracle;
 #[cfg(feature = "systems")]
 pub mod picture;
 #[cfg(feature = "systems")]
+pub mod quadrature;
+#[cfg(feature = "systems")]
 pub mod radiosity;
 #[cfg(feature = "systems")]
 pub mod ray_engine;
@@ -79,5 +83,7 @@ pub mod scene;
 pub mod shader;
 #[cfg(feature = "cli")]
 pub mod study;
+#[cfg(feature = "systems")]
+pub mod subsurface;
 #[cfg(feature = "systems")]
 pub mod tracer;

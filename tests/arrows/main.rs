@@ -41,18 +41,24 @@ const CROSSBAR: Law = (
         ("linalg", &[]),
         ("elementary", &[]),
         ("names", &[]),
+        ("quadrature", &[]),
         ("picture", &["elementary"]),
         ("geom", &[]),
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["names", "picture", "geom", "scene", "linalg"]),
         ("card", &[]),
+        ("atlas", &["elementary", "geom"]),
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
         ("compare", &[]),
         ("oracle", &["geom", "compare"]),
         ("case", &["names", "picture", "io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "tracer", "elementary", "picture", "geom", "scene", "linalg", "io"]),
+        ("radiosity", &["card", "tracer", "elementary", "quadrature", "picture", "geom", "scene", "linalg", "io"]),
+        (
+            "subsurface",
+            &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"],
+        ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
         (
@@ -61,6 +67,8 @@ const CROSSBAR: Law = (
                 "names",
                 "ray_engine",
                 "radiosity",
+                "subsurface",
+                "atlas",
                 "renderer",
                 "report",
                 "picture",
@@ -80,6 +88,8 @@ const CROSSBAR: Law = (
                 "study",
                 "ray_engine",
                 "radiosity",
+                "subsurface",
+                "atlas",
                 "renderer",
                 "case",
                 "compare",
@@ -122,7 +132,7 @@ const BATCH: Law = (
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &[&str] =
-    &["card", "tracer", "case", "compare", "shader", "radiosity", "ray_engine", "study", "cli"];
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "subsurface", "ray_engine", "study", "cli"];
 
 /// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
 /// where the rooms have files in common, may name no room at all.

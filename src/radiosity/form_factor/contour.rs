@@ -7,9 +7,9 @@
 
 use std::f64::consts::PI;
 
-use super::gauss::EIGHT;
 use crate::elementary::{atan2, ln};
 use crate::geom::vector::unit;
+use crate::quadrature::EIGHT;
 use glam::DVec3;
 
 /// Sides with a smaller cosine between them contribute nothing.

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::gauss::{FIVE, GaussPoint, THREE};
 use super::{contour, polygon};
+use crate::quadrature::{FIVE, GaussPoint, THREE};
 use crate::radiosity::Patch;
 use glam::DVec3;
 

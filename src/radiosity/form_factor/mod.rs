@@ -11,7 +11,6 @@ mod closure;
 mod contour;
 mod error;
 mod exchange;
-mod gauss;
 mod hemicube;
 mod polygon;
 pub mod rectangles;

@@ -1,14 +1,14 @@
 //! Gauss-Legendre rules on [0, 1]: n points integrate polynomials up to degree 2 n - 1 exactly.
 
 /// A point and its weight; weights sum to 1.
-pub(super) type GaussPoint = (f64, f64);
+pub type GaussPoint = (f64, f64);
 
 /// Three points.
-pub(super) const THREE: [GaussPoint; 3] =
+pub const THREE: [GaussPoint; 3] =
     rule([(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)]);
 
 /// Five points.
-pub(super) const FIVE: [GaussPoint; 5] = rule([
+pub const FIVE: [GaussPoint; 5] = rule([
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
     (0.0, 128.0 / 225.0),
@@ -17,7 +17,7 @@ pub(super) const FIVE: [GaussPoint; 5] = rule([
 ]);
 
 /// Eight points.
-pub(super) const EIGHT: [GaussPoint; 8] = rule([
+pub const EIGHT: [GaussPoint; 8] = rule([
     (-0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
     (-0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
     (-0.525_532_409_916_329, 0.313_706_645_877_887_27),

@@ -1,0 +1,3 @@
+//! System 3: light that scatters below a surface, gathered over a meshed atlas by fragment programs.
+//!
+//! docs/papers/subsurface.md maps each equation.
