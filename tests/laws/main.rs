@@ -27,6 +27,7 @@ mod radiosity;
 mod ranges;
 mod ray_tree;
 mod scene_files;
+mod subsurface;
 mod tables;
 mod timing;
 mod tiny_scenes;
