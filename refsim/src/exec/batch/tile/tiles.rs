@@ -1,33 +1,27 @@
 //! The batch executor on a tile: part after part, all 256 fragments at once.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use rayon::prelude::*;
-
-use super::decoded::{DecodedPixel, PixelCode, PixelPrograms, decoded, plan};
-use super::output::{OutputStage, Shaded};
+use super::decoded::{DecodedPixel, PixelCode, PixelPrograms, decoded};
+use super::output::{Fragment, OutputStage, Shaded};
+use super::pieces::Pieces;
 use super::raster::TileFrame;
-use super::shader::{InputSlots, PartMode, TileShader};
+use super::round::{RoundCode, TileRound};
+use super::shader::{PartMode, TileShader};
 use super::store::Survivors;
 use super::targets::Targets;
 use crate::event::FragmentCounts;
-use crate::exec::batch::lanes::{LANES, LaneFormats, SimdLevel};
+use crate::exec::batch::lanes::{LaneFormats, SimdLevel};
 use crate::exec::batch::run::{
-    BatchTexture, FlowRun, Slots, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants, run_steps,
+    BatchTexture, FlowRun, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants, run_steps,
 };
-use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPlan, StraightProgram};
-use crate::exec::batch::vertex::{Surfaces, Triangle};
+use crate::exec::batch::vertex::Surfaces;
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
 use crate::exec::{Overrun, ResolvedConstants, TileDraw, colors_written, inputs_read, output_rules, sample_rules};
 use crate::output::{DepthFormat, TargetTile};
-use crate::raster::{ComponentMask, POSITION_COMPONENT, TriangleSetup};
+use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::Region;
-
-/// Triangles whose constants are computed sooner than a worker is woken up.
-const FEW: usize = 4 * LANES;
-/// Triangles a worker gets at least where several share a tile.
-const FEWEST_SHARED: usize = 16;
 
 /// The batch tile executor of one draw.
 #[derive(Debug)]
@@ -38,33 +32,6 @@ pub struct BatchTiles<'a> {
     output: OutputStage,
     inputs: ComponentMask,
     program: Arc<DecodedPixel>,
-}
-
-/// Some triangles of a draw, with what is computed for them before tiles are walked.
-#[derive(Debug)]
-pub struct TileRound<'s> {
-    surfaces: &'s Surfaces,
-    /// The components that are constant over every triangle.
-    constant: u64,
-    code: RoundCode<'s>,
-    /// For each value that the plan's varying block is given, a row of values by triangle.
-    given: Vec<Vec<u32>>,
-    inputs: InputSlots,
-}
-
-#[derive(Debug)]
-enum RoundCode<'s> {
-    Straight(&'s StraightProgram, Arc<StraightPlan>),
-    Flow(&'s FlowPlan),
-}
-
-impl TileRound<'_> {
-    fn results(&self) -> &ResultSlots {
-        match &self.code {
-            RoundCode::Straight(_, plan) => &plan.results,
-            RoundCode::Flow(plan) => plan.results(),
-        }
-    }
 }
 
 impl<'a> BatchTiles<'a> {
@@ -130,64 +97,9 @@ impl<'a> BatchTiles<'a> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, one lane per triangle.
+    /// Prepares some triangles.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> TileRound<'s> {
-        let constant = surfaces.all_constant() & self.inputs.0;
-        let (code, given) = match &self.program.code {
-            PixelCode::Straight(program, plans) => {
-                let plan = plan(program, plans, constant);
-                let given = self.uniforms(constant, &plan.uniform, surfaces);
-                (RoundCode::Straight(program, plan), given)
-            }
-            PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new()),
-        };
-        let wanted = match &code {
-            RoundCode::Straight(_, plan) => &plan.invariant.inputs,
-            RoundCode::Flow(plan) => plan.inputs(),
-        };
-        let row = |component: u16| surfaces.rows.iter().position(|row| row.component == usize::from(component));
-        let axis = |component: u16| usize::from(component).checked_sub(POSITION_COMPONENT).filter(|&axis| axis < 4);
-        let inputs = InputSlots {
-            rows: wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect(),
-            position: wanted.iter().filter_map(|&(component, slot)| Some((axis(component)?, slot))).collect(),
-        };
-        TileRound { surfaces, constant, code, given, inputs }
-    }
-
-    /// Computes what is constant over each triangle: for each root of the block a value by triangle.
-    fn uniforms(&self, constant: u64, block: &StepBlock, surfaces: &Surfaces) -> Vec<Vec<u32>> {
-        if block.roots.is_empty() {
-            return Vec::new();
-        }
-        let idle = &self.program.uniforms;
-        let compute = |group: &[Triangle]| {
-            let mut slots = idle.take(|known| known.0 == constant).map_or_else(
-                || {
-                    let mut slots = Slots::new(block.slots);
-                    fill_constants(block, &mut slots);
-                    slots
-                },
-                |known| known.1,
-            );
-            for &(component, slot) in &block.inputs {
-                let Some(row) = surfaces.row(component) else { continue };
-                for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
-                    // A pattern is the number's host bits: single precision is the host's own.
-                    *value = row.base[triangle.planes as usize];
-                }
-            }
-            run_steps(&block.steps, &self.around(), &[0; LANES], &mut slots);
-            let values = block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>();
-            idle.keep((constant, slots));
-            values
-        };
-        let groups: Vec<_> = if surfaces.len() <= FEW {
-            surfaces.triangles.chunks(LANES).map(compute).collect()
-        } else {
-            surfaces.triangles.par_chunks(LANES).map(compute).collect()
-        };
-        let whole = |root: usize| groups.iter().flat_map(|group| group[root].iter().copied()).collect();
-        (0..block.roots.len()).map(whole).collect()
+        TileRound::new(&self.program, surfaces, self.inputs, &self.around())
     }
 
     /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
@@ -207,37 +119,32 @@ impl<'a> BatchTiles<'a> {
         let region = tile.region;
         let depth = tile.depth.as_ref().map(|buffer| buffer.format);
         let mut targets = Targets::load(tile, self.output.written, &self.output.state, &self.output.rules);
-        let mut counts;
-        // What shading leaves is kept as fragments until it is their turn: worth it where most are killed.
+        let mut counts = FragmentCounts::default();
+        let others = Mutex::new(Vec::new());
+        // What another thread shades is kept as fragments until it is their turn: worth it where most are killed.
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
-        if workers > 1 && few_left && order.len() >= FEWEST_SHARED * workers {
-            let share = order.len().div_ceil(workers).next_multiple_of(2);
-            let (own, others) = order.split_at(share.min(order.len()));
-            let mut rest: Vec<_> =
-                others.chunks(share).map(|part| (part, Vec::new(), Ok(FragmentCounts::default()))).collect();
-            // The first share is this thread's own, and merged while the others are on their way.
-            counts = rayon::in_place_scope(|scope| {
-                for (part, fragments, counts) in &mut rest {
-                    scope.spawn(move |_| {
-                        *counts = self.shade_all(round, part, (region, depth), |shaded, survivors, _| {
-                            shaded.gather(survivors, fragments);
-                        });
-                    });
-                }
-                self.shade_all(round, own, (region, depth), |shaded, survivors, counts| {
-                    self.output.merge(shaded, survivors, &mut targets, counts);
-                })
-            })?;
-            for (_, fragments, more) in &rest {
-                counts += (*more)?;
-                for fragment in fragments {
-                    self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
-                }
+        let workers = if few_left { Pieces::workers(order, workers) } else { 1 };
+        let pieces = Pieces::new(order, workers);
+        rayon::in_place_scope(|scope| {
+            for _ in 1..workers {
+                scope.spawn(|_| self.shade_behind(round, (region, depth), &pieces, &others));
             }
-        } else {
-            counts = self.shade_all(round, order, (region, depth), |shaded, survivors, counts| {
-                self.output.merge(shaded, survivors, &mut targets, counts);
-            })?;
+            let mut shading = self.shading(round, (region, depth));
+            while let Some((_, piece)) = pieces.first() {
+                shading.shade(piece, &mut counts, |shaded, survivors, counts| {
+                    self.output.merge(shaded, survivors, &mut targets, counts);
+                })?;
+            }
+            shading.end();
+            Ok(())
+        })?;
+        let mut others = others.into_inner().unwrap_or_else(PoisonError::into_inner);
+        others.sort_unstable_by_key(|behind: &Behind| behind.piece);
+        for behind in others {
+            counts += behind.counts?;
+            for fragment in &behind.fragments {
+                self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
+            }
         }
         targets.store();
         Ok(counts)
@@ -249,39 +156,35 @@ impl<'a> BatchTiles<'a> {
         self.draw(&self.round(&surfaces), &[0], tile, 1)
     }
 
-    /// Runs the program for some triangles, part after part; `merge` gets what the tests before the depth test leave.
-    fn shade_all(
+    /// Shades pieces from the back until all are taken.
+    fn shade_behind(
         &self,
         round: &TileRound<'_>,
-        order: &[u32],
+        tile: (Region, Option<DepthFormat>),
+        pieces: &Pieces<'_>,
+        out: &Mutex<Vec<Behind>>,
+    ) {
+        let mut shading = None;
+        while let Some((piece, order)) = pieces.last() {
+            let shading = shading.get_or_insert_with(|| self.shading(round, tile));
+            let (mut counts, mut fragments) = (FragmentCounts::default(), Vec::new());
+            let done =
+                shading.shade(order, &mut counts, |shaded, survivors, _| shaded.gather(survivors, &mut fragments));
+            let behind = Behind { piece, fragments, counts: done.map(|()| counts) };
+            out.lock().unwrap_or_else(PoisonError::into_inner).push(behind);
+        }
+        shading.into_iter().for_each(TileShading::end);
+    }
+
+    fn shading<'r>(
+        &'r self,
+        round: &'r TileRound<'r>,
         (region, depth): (Region, Option<DepthFormat>),
-        mut merge: impl FnMut(Shaded<'_>, &mut Survivors, &mut FragmentCounts),
-    ) -> Result<FragmentCounts, Overrun> {
-        let mut counts = FragmentCounts::default();
+    ) -> TileShading<'r, 'a> {
         let mut shader = self.shader(round);
         shader.start(region);
-        let mut survivors = Survivors::new();
-        let manner = self.manner(round, depth.is_some());
-        let mut at = 0;
-        while at < order.len() {
-            let part = &order[at..];
-            at += shader.take(round.surfaces, part, manner).max(1);
-            if shader.covered_count == 0 {
-                continue;
-            }
-            self.shade(round, part[0], &mut shader, &mut counts)?;
-            let shaded = Shaded {
-                results: round.results(),
-                formats: &self.formats,
-                slots: &shader.slots,
-                covered: &shader.covered,
-                depth: &shader.depth,
-            };
-            self.output.test(shaded, depth, &mut survivors, &mut counts);
-            merge(shaded, &mut survivors, &mut counts);
-        }
-        self.program.shaders.keep((round.constant, shader));
-        Ok(counts)
+        let mode = self.manner(round, depth.is_some());
+        TileShading { tiles: self, round, depth, shader, survivors: Survivors::new(), mode }
     }
 
     /// Rows for a plan, used before or new.
@@ -355,6 +258,59 @@ impl<'a> BatchTiles<'a> {
             }
         }
         Ok(())
+    }
+}
+
+/// What was left of a piece that was shaded before its turn.
+struct Behind {
+    piece: usize,
+    fragments: Vec<Fragment>,
+    counts: Result<FragmentCounts, Overrun>,
+}
+
+/// A thread's work on one tile.
+struct TileShading<'r, 'a> {
+    tiles: &'r BatchTiles<'a>,
+    round: &'r TileRound<'r>,
+    depth: Option<DepthFormat>,
+    shader: TileShader,
+    survivors: Survivors,
+    mode: PartMode,
+}
+
+impl TileShading<'_, '_> {
+    /// Runs the program for some triangles, part after part; `merge` gets what the tests before the depth test leave.
+    fn shade(
+        &mut self,
+        order: &[u32],
+        counts: &mut FragmentCounts,
+        mut merge: impl FnMut(Shaded<'_>, &mut Survivors, &mut FragmentCounts),
+    ) -> Result<(), Overrun> {
+        let Self { tiles, round, depth, shader, survivors, mode } = self;
+        let mut at = 0;
+        while at < order.len() {
+            let part = &order[at..];
+            at += shader.take(round.surfaces, part, *mode).max(1);
+            if shader.covered_count == 0 {
+                continue;
+            }
+            tiles.shade(round, part[0], shader, counts)?;
+            let shaded = Shaded {
+                results: round.results(),
+                formats: &tiles.formats,
+                slots: &shader.slots,
+                covered: &shader.covered,
+                depth: &shader.depth,
+            };
+            tiles.output.test(shaded, *depth, survivors, counts);
+            merge(shaded, survivors, counts);
+        }
+        Ok(())
+    }
+
+    /// Keeps the rows for the next tile.
+    fn end(self) {
+        self.tiles.program.shaders.keep((self.round.constant, self.shader));
     }
 }
 

@@ -1,0 +1,114 @@
+//! Triangles made ready for tiles: their plan, and what is constant over each.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::decoded::{DecodedPixel, PixelCode, plan};
+use super::shader::InputSlots;
+use crate::exec::batch::cache::Pool;
+use crate::exec::batch::lanes::LANES;
+use crate::exec::batch::run::{Slots, Surroundings, fill_constants, run_steps};
+use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPlan, StraightProgram};
+use crate::exec::batch::vertex::{Surfaces, Triangle};
+use crate::raster::{ComponentMask, POSITION_COMPONENT};
+
+/// Triangles whose constants are computed sooner than a worker is woken up.
+const FEW: usize = 4 * LANES;
+
+/// Some triangles of a draw, with what is computed for them before tiles are walked.
+#[derive(Debug)]
+pub struct TileRound<'s> {
+    pub(super) surfaces: &'s Surfaces,
+    /// The components that are constant over every triangle.
+    pub(super) constant: u64,
+    pub(super) code: RoundCode<'s>,
+    /// For each value that the plan's varying block is given, a row of values by triangle.
+    pub(super) given: Vec<Vec<u32>>,
+    pub(super) inputs: InputSlots,
+}
+
+#[derive(Debug)]
+pub(super) enum RoundCode<'s> {
+    Straight(&'s StraightProgram, Arc<StraightPlan>),
+    Flow(&'s FlowPlan),
+}
+
+impl<'s> TileRound<'s> {
+    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, one lane per triangle.
+    pub(super) fn new(
+        program: &'s DecodedPixel,
+        surfaces: &'s Surfaces,
+        inputs: ComponentMask,
+        around: &Surroundings<'_>,
+    ) -> Self {
+        let constant = surfaces.all_constant() & inputs.0;
+        let (code, given) = match &program.code {
+            PixelCode::Straight(straight, plans) => {
+                let plan = plan(straight, plans, constant);
+                let given = uniforms(&program.uniforms, constant, &plan.uniform, surfaces, around);
+                (RoundCode::Straight(straight, plan), given)
+            }
+            PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new()),
+        };
+        let wanted = match &code {
+            RoundCode::Straight(_, plan) => &plan.invariant.inputs,
+            RoundCode::Flow(plan) => plan.inputs(),
+        };
+        let row = |component: u16| surfaces.rows.iter().position(|row| row.component == usize::from(component));
+        let axis = |component: u16| usize::from(component).checked_sub(POSITION_COMPONENT).filter(|&axis| axis < 4);
+        let inputs = InputSlots {
+            rows: wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect(),
+            position: wanted.iter().filter_map(|&(component, slot)| Some((axis(component)?, slot))).collect(),
+        };
+        Self { surfaces, constant, code, given, inputs }
+    }
+
+    pub(super) fn results(&self) -> &ResultSlots {
+        match &self.code {
+            RoundCode::Straight(_, plan) => &plan.results,
+            RoundCode::Flow(plan) => plan.results(),
+        }
+    }
+}
+
+/// Computes what is constant over each triangle: for each root of the block a value by triangle.
+fn uniforms(
+    idle: &Pool<(u64, Slots)>,
+    constant: u64,
+    block: &StepBlock,
+    surfaces: &Surfaces,
+    around: &Surroundings<'_>,
+) -> Vec<Vec<u32>> {
+    if block.roots.is_empty() {
+        return Vec::new();
+    }
+    let compute = |group: &[Triangle]| {
+        let mut slots = idle.take(|known| known.0 == constant).map_or_else(
+            || {
+                let mut slots = Slots::new(block.slots);
+                fill_constants(block, &mut slots);
+                slots
+            },
+            |known| known.1,
+        );
+        for &(component, slot) in &block.inputs {
+            let Some(row) = surfaces.row(component) else { continue };
+            for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
+                // A pattern is the number's host bits: single precision is the host's own.
+                *value = row.base[triangle.planes as usize];
+            }
+        }
+        run_steps(&block.steps, around, &[0; LANES], &mut slots);
+        let values = block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>();
+        idle.keep((constant, slots));
+        values
+    };
+    let groups: Vec<_> = if surfaces.len() <= FEW {
+        surfaces.triangles.chunks(LANES).map(compute).collect()
+    } else {
+        surfaces.triangles.par_chunks(LANES).map(compute).collect()
+    };
+    let whole = |root: usize| groups.iter().flat_map(|group| group[root].iter().copied()).collect();
+    (0..block.roots.len()).map(whole).collect()
+}
