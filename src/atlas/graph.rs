@@ -17,6 +17,8 @@ pub(super) struct FaceLink {
     pub(super) to: u32,
     /// How far the centers are apart across the edge, in whole units, at least 1: whole numbers add without rounding.
     pub(super) length: u32,
+    /// How long their edge is, in the same units.
+    pub(super) edge: u32,
 }
 
 /// Faces with the links between them. A face's links are those of `links` from its start to that of the next.
@@ -35,11 +37,12 @@ impl FaceGraph {
         for edge in adjacency.edges() {
             let [a, b] = edge.vertices.map(|vertex| wide(welded.positions()[vertex as usize]));
             let middle = (a + b) / 2.0;
+            let edge_length = ((b - a).length() * unit_per_length) as u32;
             for pair in edge.triangles.windows(2) {
                 let [one, other] = [pair[0], pair[1]].map(|face| (surface.centroid(face) - middle).length());
                 let length = (((one + other) * unit_per_length) as u32).max(1);
-                pairs.push((pair[0], FaceLink { to: pair[1], length }));
-                pairs.push((pair[1], FaceLink { to: pair[0], length }));
+                pairs.push((pair[0], FaceLink { to: pair[1], length, edge: edge_length }));
+                pairs.push((pair[1], FaceLink { to: pair[0], length, edge: edge_length }));
             }
         }
         pairs.sort_unstable_by_key(|(from, link)| (*from, link.to, link.length));
@@ -111,6 +114,15 @@ impl FaceGraph {
         (part, count)
     }
 
+    /// The length of the edges between faces of different sides.
+    pub(super) fn cut_length(&self, second: &[bool]) -> u64 {
+        let across = |of: u32| {
+            let links = self.links(of).iter().filter(move |link| second[link.to as usize]);
+            links.map(|link| u64::from(link.edge)).sum::<u64>()
+        };
+        (0..self.len() as u32).filter(|&face| !second[face as usize]).map(across).sum()
+    }
+
     /// The faces of each side, with the links within it.
     pub(super) fn halves(&self, second: &[bool]) -> [Self; 2] {
         let mut place = vec![0; self.len()];
@@ -127,7 +139,7 @@ impl FaceGraph {
             for (face, _) in (0..).zip(second).filter(|(_, own)| **own == side) {
                 half.faces.push(self.faces[face as usize]);
                 let within = self.links(face).iter().filter(|link| second[link.to as usize] == side);
-                half.links.extend(within.map(|link| FaceLink { to: place[link.to as usize], length: link.length }));
+                half.links.extend(within.map(|link| FaceLink { to: place[link.to as usize], ..*link }));
                 half.starts.push(half.links.len() as u32);
             }
             half

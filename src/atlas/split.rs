@@ -15,6 +15,8 @@ pub(super) type SplitLimits = RangeInclusive<usize>;
 #[derive(Debug)]
 pub(super) struct FaceMeasures {
     centers: Vec<DVec3>,
+    /// Normals, as long as twice the areas.
+    normals: Vec<DVec3>,
     demands: Vec<f64>,
 }
 
@@ -25,12 +27,18 @@ impl FaceMeasures {
         let demand = |area: &f64| if mean > 0.0 { (area / mean).max(LEAST_DEMAND) } else { 1.0 };
         Self {
             centers: (0..surface.len() as u32).map(|face| surface.centroid(face)).collect(),
+            normals: (0..surface.len() as u32).map(|face| surface.area_vector(face)).collect(),
             demands: surface.areas().iter().map(demand).collect(),
         }
     }
 
     pub(super) fn center(&self, face: u32) -> DVec3 {
         self.centers[face as usize]
+    }
+
+    /// A normal as long as twice the face's area.
+    pub(super) fn normal(&self, face: u32) -> DVec3 {
+        self.normals[face as usize]
     }
 
     /// How many texels the face should have: its area over that of a mean texel, but at least [`LEAST_DEMAND`].

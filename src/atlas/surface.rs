@@ -60,6 +60,12 @@ impl AtlasSurface {
         unit(combined(normals, weights)).unwrap_or(normals[0])
     }
 
+    /// A normal as long as twice the area.
+    pub(super) fn area_vector(&self, face: u32) -> DVec3 {
+        let [a, b, c] = self.corners(face);
+        (b - a).cross(c - a)
+    }
+
     pub(super) fn centroid(&self, face: u32) -> DVec3 {
         let [a, b, c] = self.corners(face);
         (a + b + c) / 3.0

@@ -7,6 +7,9 @@
 
 use glam::DVec3;
 
+use crate::elementary::on_circle;
+use crate::geom::vector::unit;
+
 use super::graph::{FaceGraph, UNREACHED};
 use super::split::{FaceMeasures, SplitLimits};
 
@@ -16,6 +19,9 @@ const WHOLE_PARTS: f64 = 1.0 / 32.0;
 /// The share by which they may differ so that both are connected, before other seeds are tried.
 const MENDED: f64 = 1.0 / 16.0;
 
+/// How many flat cuts are tried.
+const DIRECTIONS: u32 = 6;
+
 /// Two halves: `true` for the second.
 struct Halves {
     second: Vec<bool>,
@@ -23,8 +29,11 @@ struct Halves {
     uneven: f64,
 }
 
-/// Cuts a connected cluster.
+/// Cuts a connected cluster: flat, by the shortest cut with connected halves, else by paths.
 pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
+    if let Some(flat) = cut_flat(graph, measures, &limits) {
+        return flat;
+    }
     let mut connected: Option<Halves> = None;
     let mut plain = None;
     for axis in axes(graph, measures) {
@@ -45,6 +54,42 @@ pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: 
         plain = plain.or(Some(halves));
     }
     connected.or(plain).map_or_else(|| vec![false; graph.len()], |halves| halves.second)
+}
+
+/// The shortest of some flat cuts, in directions all round in the plane of the cluster's mean normal, that leave both
+/// halves connected.
+fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) -> Option<Vec<bool>> {
+    let mean: DVec3 = graph.faces().iter().map(|&face| measures.normal(face)).sum();
+    let [right, up] = plane(unit(mean).unwrap_or(DVec3::Z));
+    let mut best: Option<(u64, Vec<bool>)> = None;
+    for direction in 0..DIRECTIONS {
+        let [cos, sin] = on_circle(f64::from(direction) / f64::from(2 * DIRECTIONS));
+        let along = right * cos + up * sin;
+        let key = |face: u32| measures.center(graph.faces()[face as usize]).dot(along);
+        let mut order: Vec<(f64, u32)> = (0..graph.len() as u32).map(|face| (key(face), face)).collect();
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let order: Vec<u32> = order.into_iter().map(|(_, face)| face).collect();
+        let second = second_of(&order, best_cut(graph, measures, limits, &order));
+        let length = graph.cut_length(&second);
+        if best.as_ref().is_none_or(|(least, _)| length < *least) && graph.parts(|face| second[face as usize]).1 == 2 {
+            best = Some((length, second));
+        }
+    }
+    best.map(|(_, second)| second)
+}
+
+/// Two directions at right angles to each other and to a normal.
+fn plane(normal: DVec3) -> [DVec3; 2] {
+    let size = normal.abs();
+    let axis = if size.x <= size.y && size.x <= size.z {
+        DVec3::X
+    } else if size.y <= size.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let right = unit(axis.cross(normal)).unwrap_or(DVec3::X);
+    [right, normal.cross(right)]
 }
 
 /// Cuts a cluster of several parts, in the order in which they lie along the longest axis: between parts, or through
