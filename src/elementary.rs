@@ -20,6 +20,16 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// e to the power x, less 1, without loss near 0.
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// The square root of x^2 + y^2, without overflow.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+
 /// The cube root.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
@@ -28,6 +38,21 @@ pub fn cbrt(x: f64) -> f64 {
 /// The angle of the point (x, y) from the x axis, in radians.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
+}
+
+/// The angle in [0, pi] whose cosine is x.
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The hyperbolic cosine.
+pub fn cosh(x: f64) -> f64 {
+    libm::cosh(x)
+}
+
+/// The number whose hyperbolic sine is x.
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
 }
 
 /// Sine and cosine of an angle in radians.

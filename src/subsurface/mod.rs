@@ -1,3 +1,24 @@
 //! System 3: light that scatters below a surface, gathered over a meshed atlas by fragment programs.
 //!
 //! docs/papers/subsurface.md maps each equation.
+//!
+//! - [`Coefficients`], [`Material`]: what the medium is made of, per mm;
+//! - [`Dipole`]: the diffuse reflectance R_d of equation 7 by distance, its integrals over discs and the plane;
+//! - [`fresnel`]: transmittance of the boundary and its means;
+//! - [`point_to_polygon`], [`uniform_sphere`], [`SphereSeries`]: exact answers for polygons and spheres;
+//! - [`materials`]: the published media, each figure with its source;
+//! - [`walk`]: photons followed through the medium, for the dipole's own error.
+
+mod dipole;
+pub mod fresnel;
+mod material;
+pub mod materials;
+mod polygon;
+mod sphere;
+pub mod walk;
+
+pub use dipole::{Dipole, InternalReflection};
+pub use fresnel::fresnel_transmittance;
+pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
+pub use polygon::point_to_polygon;
+pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};
