@@ -317,6 +317,7 @@ fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
         signed_texel_minimum: SignedTexelMinimum::Clamp,
         zero_times_anything: false,
         target_rounding: TargetRounding::Nearest,
+        mipmap_rounding: TargetRounding::Nearest,
         depth_rounding: TargetRounding::Nearest,
         subpixel_bits: 8,
         filter_fraction_bits: 8,

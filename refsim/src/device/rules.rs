@@ -87,11 +87,11 @@ named_choice! {
 }
 
 named_choice! {
-    /// How a value is rounded into a target or a depth buffer of unsigned fractions.
+    /// How a value is rounded into a target, a generated mip level or a depth buffer of fractions.
     TargetRounding {
-        /// To the nearest step, halves up.
+        /// To the nearest step, halves away from zero.
         Nearest = "nearest",
-        /// Down to the next step.
+        /// To the next step towards zero.
         Truncate = "truncate",
     }
 }
@@ -183,6 +183,8 @@ pub struct Rules {
     pub zero_times_anything: bool,
     /// Rounding into colour targets of unsigned fractions.
     pub target_rounding: TargetRounding,
+    /// Rounding of the means that fill generated mip levels.
+    pub mipmap_rounding: TargetRounding,
     /// Rounding into integer depth buffers.
     pub depth_rounding: TargetRounding,
     /// Fraction bits of a window position at set-up, 0 to 8.

@@ -28,7 +28,7 @@ pub struct Switch {
 
 /// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters
 /// it.
-pub(super) const RULES: [&str; 20] = [
+pub(super) const RULES: [&str; 21] = [
     "format",
     "result-range",
     "partial",
@@ -45,6 +45,7 @@ pub(super) const RULES: [&str; 20] = [
     "signed-texel-minimum",
     "zero-times-anything",
     "target-rounding",
+    "mipmap-rounding",
     "depth-rounding",
     "subpixel-bits",
     "filter-fraction-bits",
@@ -145,6 +146,7 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
         "signed-texel-minimum" => rules.signed_texel_minimum = SignedTexelMinimum::from_name(value)?,
         "zero-times-anything" => rules.zero_times_anything = truth(value)?,
         "target-rounding" => rules.target_rounding = TargetRounding::from_name(value)?,
+        "mipmap-rounding" => rules.mipmap_rounding = TargetRounding::from_name(value)?,
         "depth-rounding" => rules.depth_rounding = TargetRounding::from_name(value)?,
         "subpixel-bits" => rules.subpixel_bits = bits(value)?,
         "filter-fraction-bits" => rules.filter_fraction_bits = bits(value)?,

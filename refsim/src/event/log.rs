@@ -62,6 +62,8 @@ pub enum Event {
     },
     /// A draw.
     Draw(Box<DrawRecord>),
+    /// The mip levels of a texture were filled from its level 0.
+    GenerateMipmaps(MipmapRecord),
     /// Data came back from the card.
     ReadBack {
         /// Where from.
@@ -152,6 +154,45 @@ pub struct DepthRecord {
     pub write: bool,
     /// Whether the pixel program decides the depth.
     pub replaced: bool,
+}
+
+/// One generated mip level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MipmapLevel {
+    /// Width, height, and slices or faces, in texels.
+    pub extents: [u32; 3],
+    /// Different texels of the level before that were read.
+    pub texels_read: u64,
+}
+
+impl MipmapLevel {
+    /// Texels of the level, each written once.
+    pub fn texels_written(&self) -> u64 {
+        self.extents.iter().map(|&extent| u64::from(extent)).product()
+    }
+}
+
+/// The generation of a texture's mip levels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MipmapRecord {
+    /// The texture.
+    pub texture: ResourceId,
+    /// Bytes of a texel.
+    pub texel_bytes: u32,
+    /// The levels from 1 on, each made from the one before.
+    pub levels: Vec<MipmapLevel>,
+}
+
+impl MipmapRecord {
+    /// Texels read, over all levels.
+    pub fn texels_read(&self) -> u64 {
+        self.levels.iter().map(|level| level.texels_read).sum()
+    }
+
+    /// Texels written, over all levels.
+    pub fn texels_written(&self) -> u64 {
+        self.levels.iter().map(MipmapLevel::texels_written).sum()
+    }
 }
 
 /// One draw: its counts, programs, textures and targets.

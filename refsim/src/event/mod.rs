@@ -15,8 +15,8 @@ mod texels;
 
 pub use counts::{ByteCounts, DrawEvents, FragmentCounts, PrimitiveCounts, SAMPLERS};
 pub use log::{
-    DepthRecord, DrawRecord, Event, FenceId, FilterKind, HostWork, MipKind, ReadBackMode, ResourceId, SamplerRecord,
-    TargetRecord,
+    DepthRecord, DrawRecord, Event, FenceId, FilterKind, HostWork, MipKind, MipmapLevel, MipmapRecord, ReadBackMode,
+    ResourceId, SamplerRecord, TargetRecord,
 };
 pub use program::{ArithmeticSlot, FlowConstants, PhaseWork, ProgramWork, TextureSlot};
 pub use texels::{SamplerTraffic, TexelObserver, TexelTouch};

@@ -85,8 +85,23 @@ pub enum MachineError {
     )]
     FloatFilter { sampler: usize, format: TexelFormat, device: String },
     /// Mip maps of a float texture.
-    #[error("texture has {levels} levels of {format}, `{device}` allows 1 (limits.float_mipmaps)")]
+    #[error(
+        "texture has {levels} levels of {format}, `{device}` allows 1 (limits.float_mipmaps); keep each level in a texture of its own"
+    )]
     FloatLevels { levels: usize, format: TexelFormat, device: String },
+    /// Levels of a float texture are to be generated on a device that cannot filter it.
+    #[error(
+        "texture {number} is {format}, whose mip levels `{device}` cannot generate (limits.{key}); draw each level by a program that reads four texels of the one before, into a texture of its own"
+    )]
+    FloatMipmaps { number: usize, format: TexelFormat, device: String, key: &'static str },
+    /// Levels of a rectangle are to be generated.
+    #[error("texture {number} is a rectangle, which has no mip levels; make it a 2-D texture")]
+    RectangleMipmaps { number: usize },
+    /// Levels are to be generated in a texture that was made without them.
+    #[error(
+        "texture {number} was made with level 0 alone; make it with up to {possible} levels to have them generated"
+    )]
+    NoLevels { number: usize, possible: u32 },
     /// Blending into a float target.
     #[error(
         "target {target} is {format} and blended, which `{device}` cannot (limits.float_blending); turn blending off"

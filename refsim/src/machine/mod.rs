@@ -17,6 +17,7 @@ mod executor;
 mod executor_kind;
 mod handle;
 mod memory;
+mod mipmaps;
 mod observe;
 mod pixel_state;
 mod record;

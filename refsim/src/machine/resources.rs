@@ -18,11 +18,7 @@ impl Machine {
         check_texture_format(&self.profile, image.format())?;
         let limit = self.profile.limits.max_texture_size;
         check_size(&self.profile, "texture", limit, "max_texture_size", &image)?;
-        let levels = image.levels().len();
-        if levels > 1 && image.format().record().is_float() && !self.profile.limits.float_mipmaps {
-            let device = self.profile.name.clone();
-            return Err(MachineError::FloatLevels { levels, format: image.format(), device });
-        }
+        check_levels(&self.profile, &image)?;
         let bytes = image.bytes().len() as u64;
         let id = self.keep(image);
         self.note_upload(id, bytes);
@@ -48,10 +44,11 @@ impl Machine {
         Ok(id)
     }
 
-    fn keep_target(&mut self, image: Image) -> Result<TextureId, MachineError> {
+    pub(super) fn keep_target(&mut self, image: Image) -> Result<TextureId, MachineError> {
         check_target_format(&self.profile, image.format())?;
         let limit = self.profile.limits.max_target_size;
         check_size(&self.profile, "target", limit, "max_target_size", &image)?;
+        check_levels(&self.profile, &image)?;
         Ok(self.keep(image))
     }
 
@@ -100,15 +97,16 @@ impl Machine {
         Err(crate::texture::TextureError::DataSize { unit: "bytes", expected, found }.into())
     }
 
-    /// Fills a target with a colour, single precision patterns, rounded as the device rounds into targets.
+    /// Fills a target with a colour, single precision patterns, rounded as the device rounds into targets. Mip levels
+    /// from 1 on stay as they are.
     ///
     /// # Errors
     /// If the handle is dead.
     pub fn clear_target(&mut self, id: TextureId, color: [u32; 4]) -> Result<(), MachineError> {
         let rounding = self.profile.rules.target_rounding;
         let image = self.memory.texture_mut(id)?;
-        image.clear(Format::FP32, color, rounding);
-        let bytes = image.bytes().len() as u64;
+        image.clear_level(0, Format::FP32, color, rounding);
+        let bytes = image.level_bytes(0).len() as u64;
         self.recorder.push(|| Event::Clear { resource: id.into(), bytes });
         Ok(())
     }
@@ -198,6 +196,14 @@ impl Machine {
         }
         Ok(())
     }
+}
+
+fn check_levels(profile: &Profile, image: &Image) -> Result<(), MachineError> {
+    let (levels, format) = (image.levels().len(), image.format());
+    if levels > 1 && format.record().is_float() && !profile.limits.float_mipmaps {
+        return Err(MachineError::FloatLevels { levels, format, device: profile.name.clone() });
+    }
+    Ok(())
 }
 
 fn check_size(

@@ -95,10 +95,7 @@ impl Image {
         level_count: u32,
     ) -> Result<Self, TextureError> {
         check_extents(kind, width, height, depth)?;
-        let most = match kind {
-            TextureKind::Rectangle => 1,
-            _ => width.max(height).max(depth).ilog2() + 1,
-        };
+        let most = Self::most_levels(kind, [width, height, depth]);
         if level_count == 0 || level_count > most {
             return Err(TextureError::Levels { most, found: level_count });
         }
@@ -125,6 +122,16 @@ impl Image {
             offset = next;
         }
         Ok(Self { format, kind, levels, bytes: vec![0; offset as usize], stamp: Stamp::default() })
+    }
+
+    /// Levels of a full chain, down to one texel: as many as an image of these extents can have.
+    pub fn most_levels(kind: TextureKind, [width, height, depth]: [u32; 3]) -> u32 {
+        let longest = match kind {
+            TextureKind::Rectangle => 1,
+            TextureKind::Volume => width.max(height).max(depth),
+            _ => width.max(height),
+        };
+        longest.max(1).ilog2() + 1
     }
 
     /// A 2-D image of one level.
@@ -280,13 +287,24 @@ impl Image {
         Ok(())
     }
 
-    /// Fills every texel of every level.
-    pub fn clear(&mut self, from: Format, values: [u32; 4], rounding: TargetRounding) {
+    /// Fills every texel of a level; nothing happens if there is no such level.
+    pub fn clear_level(&mut self, level: u32, from: Format, values: [u32; 4], rounding: TargetRounding) {
         let size = self.format.bytes();
         let raw = encode(self.format, from, values, rounding).to_le_bytes();
-        for texel in self.bytes_mut().chunks_exact_mut(size) {
+        let place = self.level_place(level);
+        for texel in self.bytes_mut()[place].chunks_exact_mut(size) {
             texel.copy_from_slice(&raw[..size]);
         }
+    }
+
+    /// The bytes of a level; none if there is no such level.
+    pub fn level_bytes(&self, level: u32) -> &[u8] {
+        &self.bytes[self.level_place(level)]
+    }
+
+    fn level_place(&self, level: u32) -> std::ops::Range<usize> {
+        let Some(l) = self.levels.get(level as usize) else { return 0..0 };
+        l.offset..l.offset + l.slice_bytes * l.slices as usize
     }
 
     /// Overwrites a rectangle of one slice with texel bytes, row by row.

@@ -11,6 +11,7 @@ pub(crate) mod image;
 mod kind;
 mod layout;
 mod lod;
+mod mipmap;
 mod pixels;
 mod sample;
 mod texel;
@@ -24,6 +25,8 @@ pub use image::{Image, Level, Region};
 pub use kind::TextureKind;
 pub use layout::{Layout, TexelMap};
 pub use lod::{Lod, lod_from_derivatives};
+pub use mipmap::MipmapRules;
+pub(crate) use mipmap::texels_under;
 pub use pixels::ImagePixel;
 pub use sample::{
     Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, touched, unbound,

@@ -117,18 +117,35 @@ pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: Targe
     if negative && !signed {
         return 0;
     }
-    let scale = match channel.class {
-        ChannelClass::SplitSnorm => {
-            if negative {
-                16
-            } else {
-                15
-            }
-        }
-        _ => denominator(channel),
-    };
-    let scale = u64::from(scale);
+    let scale = steps(channel, negative);
     let magnitude = value::scaled_magnitude(significand, exponent, scale, nearest).min(scale) as u32;
+    signed_bits(channel, negative, magnitude)
+}
+
+/// [`encode_channel`] of `numerator / denominator` into a channel of fractions.
+pub(crate) fn encode_ratio(channel: Channel, numerator: i64, denominator: u64, rounding: TargetRounding) -> u32 {
+    let negative = numerator < 0;
+    let scale = steps(channel, negative);
+    let (product, divisor) = (u128::from(numerator.unsigned_abs()) * u128::from(scale), u128::from(denominator.max(1)));
+    let quotient = match rounding {
+        TargetRounding::Nearest => (2 * product + divisor) / (2 * divisor),
+        TargetRounding::Truncate => product / divisor,
+    };
+    let magnitude = u32::try_from(quotient.min(u128::from(scale))).unwrap_or(u32::MAX);
+    signed_bits(channel, negative, magnitude)
+}
+
+/// Steps from 0 to 1, or from 0 to -1, in the codes of a channel of fractions.
+fn steps(channel: Channel, negative: bool) -> u64 {
+    match (channel.class, negative) {
+        (ChannelClass::SplitSnorm, true) => 16,
+        (ChannelClass::SplitSnorm, false) => 15,
+        _ => u64::from(denominator(channel)),
+    }
+}
+
+/// Two's complement within a channel.
+fn signed_bits(channel: Channel, negative: bool, magnitude: u32) -> u32 {
     if negative { magnitude.wrapping_neg() & mask(channel.bits) } else { magnitude }
 }
 

@@ -21,6 +21,21 @@ pub struct DrawCost {
     pub bottleneck: Bottleneck,
 }
 
+impl DrawCost {
+    /// Both, one after the other; bound by what the longer one is bound by.
+    #[must_use]
+    pub fn and_then(self, next: Self) -> Self {
+        Self {
+            front_end: self.front_end + next.front_end,
+            shader: self.shader + next.shader,
+            memory: self.memory + next.memory,
+            total: self.total + next.total,
+            core_clocks: self.core_clocks + next.core_clocks,
+            bottleneck: if next.total > self.total { next.bottleneck } else { self.bottleneck },
+        }
+    }
+}
+
 /// What bounds a draw.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash, PartialOrd, Ord, strum::Display)]

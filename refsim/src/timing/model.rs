@@ -1,9 +1,9 @@
 //! The two models of a card: its rates, and its pipeline.
 
-use super::pipeline::{CacheSize, FragmentClocks, PipelineClocks, fragment_clocks, pipeline_clocks};
+use super::pipeline::{CacheSize, FragmentClocks, PipelineClocks, fragment_clocks, mipmap_clocks, pipeline_clocks};
 use super::{Bottleneck, Clocks, DrawCost, Hertz, Picoseconds, TimingError};
 use crate::device::{Bus, Confidence, FigureRow, Profile, Rates};
-use crate::event::{DrawRecord, ProgramWork};
+use crate::event::{DrawRecord, MipmapRecord, ProgramWork};
 
 /// How deep a model looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -92,8 +92,20 @@ impl Model {
     /// What a draw costs.
     pub fn draw(&self, draw: &DrawRecord) -> DrawCost {
         match self.level {
-            Level::Rates => self.draw_by_rate(draw),
-            Level::Pipeline => self.draw_by_pipeline(draw),
+            Level::Rates => self.fill(draw.counts.fragments.generated),
+            Level::Pipeline => self.cost(&self.clocks(draw)),
+        }
+    }
+
+    /// What the generation of mip levels costs: level by level, each as a draw over it. The rates count the texels
+    /// written as fragments.
+    pub fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
+        match self.level {
+            Level::Rates => self.fill(record.texels_written()),
+            Level::Pipeline => {
+                let levels = mipmap_clocks(record, &self.rates);
+                levels.iter().map(|clocks| self.cost(clocks)).fold(DrawCost::default(), DrawCost::and_then)
+            }
         }
     }
 
@@ -244,9 +256,8 @@ impl Model {
     }
 
     /// Fragments at the fill rate.
-    fn draw_by_rate(&self, draw: &DrawRecord) -> DrawCost {
+    fn fill(&self, fragments: u64) -> DrawCost {
         let fill = rate(self.rates.measured_fill_pixels_per_s.or(self.rates.fill_pixels_per_s));
-        let fragments = draw.counts.fragments.generated;
         let total = fill.time_of(fragments);
         let core = u128::from(self.rates.core_clock_hz.unwrap_or_default());
         let clocks = (u128::from(fragments) * core).div_ceil(u128::from(fill.per_second()));
@@ -259,8 +270,7 @@ impl Model {
         }
     }
 
-    fn draw_by_pipeline(&self, draw: &DrawRecord) -> DrawCost {
-        let clocks = self.clocks(draw);
+    fn cost(&self, clocks: &PipelineClocks) -> DrawCost {
         let core = rate(self.rates.core_clock_hz);
         DrawCost {
             front_end: core.time_of(clocks.front_end().0),

@@ -6,12 +6,14 @@ use super::host::{HostError, HostModel, HostOperation};
 use super::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ResourceId};
 use super::timeline::Timeline;
 use super::{DrawCost, Level, Model, Picoseconds};
-use crate::event::{self, DrawRecord, Event, FenceId, ReadBackMode};
+use crate::event::{self, DrawRecord, Event, FenceId, MipmapRecord, ReadBackMode};
 
 /// How long a card and its bus need for what a log asks of them.
 pub trait Costs {
     /// A draw.
     fn draw(&self, record: &DrawRecord) -> DrawCost;
+    /// The generation of a texture's mip levels.
+    fn mipmaps(&self, record: &MipmapRecord) -> DrawCost;
     /// Bytes to the card.
     fn upload(&self, bytes: u64) -> Picoseconds;
     /// Bytes from the card.
@@ -49,6 +51,10 @@ impl Options<'_> {
 impl Costs for Model {
     fn draw(&self, record: &DrawRecord) -> DrawCost {
         self.draw(record)
+    }
+
+    fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
+        self.mipmaps(record)
     }
 
     fn upload(&self, bytes: u64) -> Picoseconds {
@@ -90,6 +96,8 @@ pub struct Replay {
     pub timeline: Timeline,
     /// The cost of each draw, in the order of the log.
     pub draws: Vec<DrawCost>,
+    /// The cost of each generation of mip levels, in the order of the log.
+    pub mipmaps: Vec<DrawCost>,
     /// What each test of a fence would have said.
     pub fence_tests: Vec<bool>,
     /// Host operations that cost nothing because there is no host model.
@@ -156,6 +164,7 @@ impl Player<'_> {
                 self.queue.clear(copy, costs.clear(*bytes), format!("clear {}", name(*resource)));
             }
             Event::Draw(record) => self.draw(record, costs.draw(record)),
+            Event::GenerateMipmaps(record) => self.mipmaps(record, costs.mipmaps(record)),
             Event::ReadBack { resource, bytes, mode, fence } => {
                 let copy = self.current(*resource);
                 let mode = self.options.read_back.unwrap_or(*mode);
@@ -199,6 +208,13 @@ impl Player<'_> {
         let writes: Vec<ResourceId> = record.writes().into_iter().map(|resource| self.current(resource)).collect();
         self.queue.draw(&reads, &writes, cost, format!("draw {}", self.found.draws.len()));
         self.found.draws.push(cost);
+    }
+
+    /// As a draw that reads and writes the texture: what was drawn before is done, and nothing reads it meanwhile.
+    fn mipmaps(&mut self, record: &MipmapRecord, cost: DrawCost) {
+        let texture = self.current(record.texture);
+        self.queue.draw(&[texture], &[texture], cost, format!("mip levels of {}", name(record.texture)));
+        self.found.mipmaps.push(cost);
     }
 
     fn fence(&self, event: usize, fence: FenceId) -> Result<Fence, ReplayError> {

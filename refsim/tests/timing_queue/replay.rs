@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use proptest::prelude::*;
 use refsim::event::{
-    DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork, ReadBackMode,
-    ResourceId, SamplerRecord, TargetRecord,
+    DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, MipmapRecord, ProgramWork,
+    ReadBackMode, ResourceId, SamplerRecord, TargetRecord,
 };
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 use refsim::timing::queue::QueueFigures;
@@ -21,6 +21,10 @@ struct Simple;
 impl Costs for Simple {
     fn draw(&self, record: &DrawRecord) -> DrawCost {
         cost(0, record.counts.vertices, 0, 0)
+    }
+
+    fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
+        cost(0, record.texels_written(), 0, 0)
     }
 
     fn upload(&self, bytes: u64) -> Picoseconds {

@@ -6,7 +6,7 @@ use crate::isa::Opcode;
 use crate::timing::Clocks;
 
 /// Bytes of a plain texel.
-const PLAIN_TEXEL: u64 = 4;
+pub(super) const PLAIN_TEXEL: u64 = 4;
 
 /// How long one fragment keeps the units of its pipeline busy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,9 +4,11 @@
 //! time in which the pipeline fills and drains. docs/timing.md has the formulas with a worked example.
 
 mod fragment;
+mod mipmaps;
 mod traffic;
 
 pub use fragment::{FragmentClocks, fragment_clocks};
+pub(super) use mipmaps::mipmap_clocks;
 pub use traffic::{CacheSize, Traffic, traffic};
 
 use super::{Bottleneck, Clocks};

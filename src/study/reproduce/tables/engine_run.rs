@@ -2,7 +2,7 @@
 //! the paper.
 
 use refsim::device::Profile;
-use refsim::event::{DrawRecord, Event};
+use refsim::event::{DrawRecord, Event, MipmapRecord};
 use refsim::machine::ExecutorKind;
 use refsim::timing::host::HostModel;
 use refsim::timing::queue::QueueFigures;
@@ -61,6 +61,10 @@ struct GeForce4 {
 impl Costs for GeForce4 {
     fn draw(&self, record: &DrawRecord) -> DrawCost {
         self.rates.draw(record)
+    }
+
+    fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
+        self.rates.mipmaps(record)
     }
 
     fn upload(&self, bytes: u64) -> Picoseconds {

@@ -1,0 +1,64 @@
+//! Generated mip levels: the fixed function of SGIS_generate_mipmap, which OpenGL 1.4 took over.
+
+use super::{Machine, MachineError, TextureId};
+use crate::device::Profile;
+use crate::event::{Event, MipmapLevel, MipmapRecord};
+use crate::texture::{Image, MipmapRules, TexelFormat, TextureKind, texels_under};
+
+impl Machine {
+    /// Makes a colour target with mip levels, all of zero bytes: draws go into level 0, samplers and
+    /// [`Machine::read_back`] see all levels, and [`Machine::generate_mipmaps`] fills those below. `levels` counts level
+    /// 0; [`Image::most_levels`] says how many there can be.
+    ///
+    /// # Errors
+    /// As [`Machine::create_target`], and if the device has no levels of the format or there can't be so many.
+    pub fn create_target_with_levels(
+        &mut self,
+        format: TexelFormat,
+        width: u32,
+        height: u32,
+        levels: u32,
+    ) -> Result<TextureId, MachineError> {
+        self.keep_target(Image::new(format, TextureKind::D2, [width, height, 1], levels)?)
+    }
+
+    /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does, and as
+    /// `GENERATE_MIPMAP` of 2003 does whenever level 0 changes: here it is a command. The bits are those of
+    /// [`Image::generate_mipmaps`] whichever executor draws. Returns what was read and written.
+    ///
+    /// # Errors
+    /// If the handle is dead, the texture was made with one level where there could be more, or the device filters no
+    /// textures of the format.
+    pub fn generate_mipmaps(&mut self, id: TextureId) -> Result<MipmapRecord, MachineError> {
+        let rules = MipmapRules::from(&self.profile.rules);
+        let record = record(&self.profile, id, self.memory.texture(id)?)?;
+        #[cfg(feature = "wgpu")]
+        self.memory.bring_home(&[id], None)?;
+        self.memory.texture_mut(id)?.generate_mipmaps(rules);
+        self.recorder.push(|| Event::GenerateMipmaps(record.clone()));
+        Ok(record)
+    }
+}
+
+/// What the generation will do, if it can be done.
+fn record(profile: &Profile, id: TextureId, image: &Image) -> Result<MipmapRecord, MachineError> {
+    let (format, kind, device) = (image.format(), image.kind(), || profile.name.clone());
+    if kind == TextureKind::Rectangle {
+        return Err(MachineError::RectangleMipmaps { number: id.0 });
+    }
+    let limits = &profile.limits;
+    if format.record().is_float() && !(limits.float_mipmaps && limits.float_filtering) {
+        let key = if limits.float_mipmaps { "float_filtering" } else { "float_mipmaps" };
+        return Err(MachineError::FloatMipmaps { number: id.0, format, device: device(), key });
+    }
+    let possible = Image::most_levels(kind, [image.width(), image.height(), image.slices()]);
+    if image.levels().len() == 1 && possible > 1 {
+        return Err(MachineError::NoLevels { number: id.0, possible });
+    }
+    let generated = image.levels().windows(2).map(|pair| {
+        let [finer, level] = [pair[0], pair[1]].map(|l| [l.width, l.height, l.slices]);
+        let under = |axis: usize| texels_under(finer[axis], level[axis], 0).len() as u64 * u64::from(level[axis]);
+        MipmapLevel { extents: level, texels_read: (0..3).map(under).product() }
+    });
+    Ok(MipmapRecord { texture: id.into(), texel_bytes: format.bytes() as u32, levels: generated.collect() })
+}

@@ -1,0 +1,101 @@
+//! Mip levels from the level before: the box filter of automatic mipmaps.
+
+use super::format::{Channel, ChannelClass};
+use super::texel::{channel_bits, denominator, encode_ratio};
+use super::{ChannelValue, Image, SignedTexelMinimum, TargetRounding, decode_channel, value};
+use crate::device::Rules;
+use crate::num::{self, Format};
+use std::ops::Range;
+
+/// Texels under one texel of the next level at most: two along each of three axes.
+const MAX_TAPS: usize = 8;
+
+/// What a device says about the generation of mip levels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MipmapRules {
+    /// Rounding of a mean.
+    pub rounding: TargetRounding,
+    /// Meaning of the smallest signed texel.
+    pub signed_texel_minimum: SignedTexelMinimum,
+}
+
+impl From<&Rules> for MipmapRules {
+    fn from(rules: &Rules) -> Self {
+        Self { rounding: rules.mipmap_rounding, signed_texel_minimum: rules.signed_texel_minimum }
+    }
+}
+
+/// The texels of an axis that lie under texel `i` of the next level: 2i and 2i + 1, or i itself where the axis does not
+/// shrink. The last texel of an odd extent lies under none.
+pub(crate) fn texels_under(extent: u32, next: u32, i: u32) -> Range<u32> {
+    if extent == next { i..i + 1 } else { 2 * i..2 * i + 2 }
+}
+
+impl Image {
+    /// Fills levels 1 and up, each from the one before.
+    ///
+    /// A texel is the mean of the texels under it, two along each axis: those at 2i and 2i + 1. Along an axis that is
+    /// one texel long already, and from face to face of a cube, it is the one at i. The last row or column of an odd
+    /// extent has no part in the next level. Fractions are summed exactly and rounded once, by value: of -1 and 1 the
+    /// mean is 0, and halves go away from zero. Floats are combined in FP32, `a + (b - a) / 2` in rounded steps along
+    /// x, then y, then z, and converted into the format: what a linear read between them gives.
+    pub fn generate_mipmaps(&mut self, rules: MipmapRules) {
+        let size = self.format().bytes();
+        for fine in 0..self.levels().len() - 1 {
+            let level = self.levels()[fine + 1];
+            let mut texels = Vec::with_capacity(level.slices as usize * level.slice_bytes);
+            for slice in 0..level.slices {
+                for y in 0..level.height {
+                    for x in 0..level.width {
+                        let mean = self.mean_under(fine, [slice, y, x], rules);
+                        texels.extend_from_slice(&mean.to_le_bytes()[..size]);
+                    }
+                }
+            }
+            self.bytes_mut()[level.offset..][..texels.len()].copy_from_slice(&texels);
+        }
+    }
+
+    /// The texel at a slice, row and column of the level after `fine`, as a little-endian integer.
+    fn mean_under(&self, fine: usize, [slice, y, x]: [u32; 3], rules: MipmapRules) -> u128 {
+        let (finer, level) = (self.levels()[fine], self.levels()[fine + 1]);
+        let (mut taps, mut count) = ([0; MAX_TAPS], 0);
+        for s in texels_under(finer.slices, level.slices, slice) {
+            for row in texels_under(finer.height, level.height, y) {
+                for column in texels_under(finer.width, level.width, x) {
+                    taps[count] = self.raw(fine as u32, s, row, column);
+                    count += 1;
+                }
+            }
+        }
+        let taps = &taps[..count];
+        let channels = self.format().record().stored().iter();
+        channels.fold(0, |raw, &channel| raw | u128::from(mean(channel, taps, rules)) << channel.shift)
+    }
+}
+
+/// The bits of one channel in the mean of one, two, four or eight texels.
+fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
+    if let ChannelClass::Float(format) = channel.class {
+        return float_mean(format, channel, taps);
+    }
+    let sum = taps.iter().fold(0, |sum, &raw| {
+        let decoded = decode_channel(channel, channel_bits(channel, raw), rules.signed_texel_minimum);
+        match decoded {
+            ChannelValue::Ratio { numerator, .. } => sum + numerator,
+            ChannelValue::Float { .. } => sum,
+        }
+    });
+    encode_ratio(channel, sum, u64::from(denominator(channel)) * taps.len() as u64, rules.rounding)
+}
+
+/// Pairs along x, then y, then z: the order of the taps.
+fn float_mean(format: Format, channel: Channel, taps: &[u128]) -> u32 {
+    let mut values: Vec<u32> =
+        taps.iter().map(|&raw| num::ops::convert(&format, Format::FP32, channel_bits(channel, raw)).bits).collect();
+    while let [_, _, ..] = values[..] {
+        let middle = |a, b| value::add(a, value::mul(value::HALF, value::sub(b, a)));
+        values = values.chunks_exact(2).map(|pair| middle(pair[0], pair[1])).collect();
+    }
+    values.first().map_or(0, |&bits| num::ops::convert(&Format::FP32, format, bits).bits)
+}

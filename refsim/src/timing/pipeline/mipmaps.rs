@@ -1,0 +1,51 @@
+//! Generated mip levels through the units of a card: each level is a quad over it whose fragments make one bilinear
+//! read of the level before (a trilinear one of a volume).
+
+use super::fragment::PLAIN_TEXEL;
+use super::{PipelineClocks, QUAD, Traffic, clocks, memory, wide};
+use crate::device::Rates;
+use crate::event::{MipmapLevel, MipmapRecord};
+use crate::timing::Clocks;
+
+/// Triangles of a quad.
+const TRIANGLES: u64 = 2;
+/// Texels of a bilinear read.
+const BILINEAR: u64 = 4;
+
+/// The clocks of each level: a level starts when the one before is done.
+pub(in crate::timing) fn mipmap_clocks(record: &MipmapRecord, rates: &Rates) -> Vec<PipelineClocks> {
+    record.levels.iter().map(|level| level_clocks(level, record.texel_bytes.into(), rates)).collect()
+}
+
+fn level_clocks(level: &MipmapLevel, texel_bytes: u64, rates: &Rates) -> PipelineClocks {
+    let [width, height, slices] = level.extents.map(u64::from);
+    let quads = wide(width.div_ceil(2)) * wide(height.div_ceil(2)) * wide(slices);
+    let pipes = wide(rates.pixel_pipes.unwrap_or(1));
+    let texture_units = rates.texture_units.map_or(pipes, wide);
+    let written = level.texels_written();
+    let traffic = Traffic {
+        textures: level.texels_read.saturating_mul(texel_bytes),
+        color: written.saturating_mul(texel_bytes),
+        ..Traffic::default()
+    };
+    PipelineClocks {
+        setup: Clocks(
+            TRIANGLES.saturating_mul(slices).saturating_mul(rates.setup_clocks_per_triangle.unwrap_or_default()),
+        ),
+        textures: clocks(quads * wide(QUAD) * wide(read_clocks(level, texel_bytes, rates)), texture_units),
+        output: clocks(wide(written), wide(rates.raster_pixels_per_clock.unwrap_or(1))),
+        memory: memory(&traffic, rates),
+        command: Clocks(rates.draw_clocks.unwrap_or_default()),
+        fill: Clocks(rates.pipeline_clocks.unwrap_or_default()),
+        traffic,
+        ..PipelineClocks::default()
+    }
+}
+
+/// Clocks of a fragment's texture unit: a whole number, at least one.
+fn read_clocks(level: &MipmapLevel, texel_bytes: u64, rates: &Rates) -> u64 {
+    let reads = level.texels_read.div_ceil(level.texels_written().max(1)).div_ceil(BILINEAR).max(1);
+    let bytes = rates.texel_bytes_per_clock.unwrap_or(PLAIN_TEXEL).max(1);
+    let per_clock = rates.texture_reads_per_clock.unwrap_or(1).max(1);
+    reads.saturating_mul(texel_bytes.div_ceil(bytes)).div_ceil(per_clock).max(1)
+}
