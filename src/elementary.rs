@@ -20,6 +20,16 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// e to the power x, less 1, without loss near 0.
+pub fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// The square root of x^2 + y^2, without overflow.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
+}
+
 /// The cube root.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)

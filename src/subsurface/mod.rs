@@ -1,6 +1,18 @@
 //! System 3: light that scatters below a surface, gathered over a meshed atlas by fragment programs.
 //!
 //! docs/papers/subsurface.md maps each equation.
+//!
+//! - [`Coefficients`], [`Material`]: what the medium is made of, per mm;
+//! - [`Dipole`]: the diffuse reflectance R_d of equation 7 by distance, its integrals over discs and the plane;
+//! - [`fresnel`]: transmittance of the boundary and its means.
+//! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card.
 
+mod dipole;
+pub mod fresnel;
 pub mod kernels;
+mod material;
 pub mod on_card;
+
+pub use dipole::{Dipole, InternalReflection};
+pub use fresnel::fresnel_transmittance;
+pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};

@@ -1,0 +1,226 @@
+//! The dipole of Jensen, Marschner, Levoy and Hanrahan 2001: light that enters a half space at a point, by the distance
+//! at which it leaves.
+//!
+//! R_d(r) has a radial primitive, so discs and the plane have closed forms.
+
+use std::f64::consts::PI;
+
+use super::fresnel::{internal_reflectance, internal_reflectance_polynomial};
+use super::material::{Coefficients, MaterialError, check_eta};
+use crate::elementary::{exp, exp_m1, hypot};
+
+/// How the diffuse reflectance of the boundary from inside, F_dr, is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InternalReflection {
+    /// The polynomial of the paper's reference 13.
+    #[default]
+    Polynomial,
+    /// The integral of Fresnel's formula.
+    Integral,
+}
+
+/// The dipole of one channel. Lengths in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dipole {
+    coefficients: Coefficients,
+    eta: f64,
+    boundary: f64,
+    sigma_tr: f64,
+    z_r: f64,
+    z_v: f64,
+}
+
+impl Dipole {
+    /// The dipole of a medium, with the polynomial for the internal reflection.
+    ///
+    /// # Errors
+    /// [`MaterialError`]: see [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
+    pub fn new(c: Coefficients, eta: f64) -> Result<Self, MaterialError> {
+        Self::with(c, eta, InternalReflection::default())
+    }
+
+    /// The dipole of a medium.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with(c: Coefficients, eta: f64, reflection: InternalReflection) -> Result<Self, MaterialError> {
+        c.check()?;
+        check_eta(eta)?;
+        let f_dr = match reflection {
+            InternalReflection::Polynomial => internal_reflectance_polynomial(eta),
+            InternalReflection::Integral => internal_reflectance(eta),
+        };
+        let boundary = (1.0 + f_dr) / (1.0 - f_dr);
+        let sigma_t = c.sigma_t_prime();
+        let z_r = 1.0 / sigma_t;
+        // sqrt(3 sigma_a sigma'_t), without overflow.
+        let sigma_tr = sigma_t * (3.0 * (c.sigma_a / sigma_t)).sqrt();
+        Ok(Self { coefficients: c, eta, boundary, sigma_tr, z_r, z_v: z_r * (1.0 + 4.0 / 3.0 * boundary) })
+    }
+
+    /// The medium.
+    pub fn coefficients(&self) -> Coefficients {
+        self.coefficients
+    }
+
+    /// The index of refraction.
+    pub fn eta(&self) -> f64 {
+        self.eta
+    }
+
+    /// A = (1 + F_dr) / (1 - F_dr): what the boundary sends back, relative to what it lets pass.
+    pub fn boundary(&self) -> f64 {
+        self.boundary
+    }
+
+    /// The reduced extinction coefficient sigma'_t, per mm.
+    pub fn sigma_t_prime(&self) -> f64 {
+        self.coefficients.sigma_t_prime()
+    }
+
+    /// The reduced albedo alpha' = sigma'_s / sigma'_t.
+    pub fn alpha_prime(&self) -> f64 {
+        self.coefficients.alpha_prime()
+    }
+
+    /// The effective transport coefficient sigma_tr = sqrt(3 sigma_a sigma'_t), per mm.
+    pub fn sigma_tr(&self) -> f64 {
+        self.sigma_tr
+    }
+
+    /// 1 / sigma_tr: the distance over which diffuse light falls by e. Infinite without absorption.
+    pub fn diffusion_length(&self) -> f64 {
+        1.0 / self.sigma_tr
+    }
+
+    /// The mean free path 1 / sigma'_t, equal to [`Self::z_r`].
+    pub fn mean_free_path(&self) -> f64 {
+        self.z_r
+    }
+
+    /// The depth of the real source below the surface.
+    pub fn z_r(&self) -> f64 {
+        self.z_r
+    }
+
+    /// The height of the virtual source above the surface.
+    pub fn z_v(&self) -> f64 {
+        self.z_v
+    }
+
+    /// R_d at a distance of r mm, per mm^2: exitance there per flux that enters at a point. 0 for an infinite r.
+    pub fn r_d(&self, r: f64) -> f64 {
+        let source = |z: f64| {
+            let d = hypot(r, z);
+            z / d * ((self.sigma_tr + 1.0 / d) / d) * exp(-self.sigma_tr * d)
+        };
+        if r.is_infinite() {
+            return 0.0;
+        }
+        self.alpha_prime() / (4.0 * PI) * (source(self.z_r) + source(self.z_v))
+    }
+
+    /// G(r), the integral of R_d over a disc of radius r: the fraction of light that leaves within r mm of where it
+    /// entered.
+    pub fn disc(&self, r: f64) -> f64 {
+        self.ring(0.0, r)
+    }
+
+    /// G(outer) - G(inner), the integral of R_d over a ring, to full precision even if the ring is narrow.
+    pub fn ring(&self, inner: f64, outer: f64) -> f64 {
+        if outer.is_infinite() {
+            return self.beyond(inner);
+        }
+        let source = |z: f64| {
+            let (near, far) = (hypot(inner, z), hypot(outer, z));
+            // far - near.
+            let longer = (outer - inner) * ((0.5 * outer + 0.5 * inner) / (0.5 * near + 0.5 * far));
+            let fall = exp_m1(-self.sigma_tr * longer);
+            z / near * exp(-self.sigma_tr * near) * (longer / far * (1.0 + fall) - fall)
+        };
+        0.5 * self.alpha_prime() * (source(self.z_r) + source(self.z_v))
+    }
+
+    /// The integral of R_d over the plane outside a disc of radius r.
+    pub fn beyond(&self, r: f64) -> f64 {
+        if r.is_infinite() {
+            return 0.0;
+        }
+        let source = |z: f64| {
+            let d = hypot(r, z);
+            z / d * exp(-self.sigma_tr * d)
+        };
+        0.5 * self.alpha_prime() * (source(self.z_r) + source(self.z_v))
+    }
+
+    /// The integral of R_d over the plane: `alpha' / 2 (1 + e^(-4/3 A q)) e^-q`, `q = sqrt(3 (1 - alpha'))`.
+    pub fn total(&self) -> f64 {
+        let q = (3.0 * (self.coefficients.sigma_a / self.sigma_t_prime())).sqrt();
+        0.5 * self.alpha_prime() * (1.0 + exp(-4.0 / 3.0 * self.boundary * q)) * exp(-q)
+    }
+
+    /// The radius of the disc that holds `fraction` of [`Self::total`]; 0 for fractions not above 0, infinite for
+    /// those of 1 and more.
+    pub fn radius_of(&self, fraction: f64) -> f64 {
+        if !(fraction > 0.0) {
+            return 0.0;
+        }
+        if fraction >= 1.0 {
+            return f64::INFINITY;
+        }
+        let left = (1.0 - fraction) * self.beyond(0.0);
+        let [mut low, mut high] = [0.0, self.z_r];
+        while self.beyond(high) > left && high.is_finite() {
+            [low, high] = [high, 2.0 * high];
+        }
+        // Until no number lies between.
+        loop {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                return high;
+            }
+            if self.beyond(middle) > left {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn figure_7(eta: f64) -> Dipole {
+        Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, eta).unwrap()
+    }
+
+    #[test]
+    fn narrow_rings_and_far_ones_keep_their_digits() {
+        let dipole = figure_7(1.3);
+        for r in [0.0, 0.3, 5.0, 40.0] {
+            let width = 1e-9;
+            let ring = dipole.ring(r, r + width);
+            let expected = PI * width * (2.0 * r + width) * dipole.r_d(r + 0.5 * width);
+            assert_relative_eq!(ring, expected, max_relative = if r == 0.0 { 1e-9 } else { 1e-7 });
+        }
+        assert_relative_eq!(dipole.disc(3.0) + dipole.beyond(3.0), dipole.total(), max_relative = 1e-14);
+        assert_eq!(dipole.disc(f64::INFINITY), dipole.beyond(0.0));
+        assert_eq!([dipole.disc(0.0), dipole.r_d(f64::INFINITY), dipole.beyond(f64::INFINITY)], [0.0; 3]);
+    }
+
+    #[test]
+    fn extreme_figures_stay_finite() {
+        for sigma_s_prime in [1e-30, 1e-10, 1.0, 1e30] {
+            for sigma_a in [0.0, 1e-300, 1e-30, 1.0, 1e30] {
+                let dipole = Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).unwrap();
+                for r in [0.0, 1e-200, 1e-20, 1.0, 1e20, 1e200, f64::MAX] {
+                    let all = [dipole.r_d(r), dipole.disc(r), dipole.beyond(r), dipole.total()];
+                    assert!(all.iter().all(|value| value.is_finite() && *value >= 0.0), "{dipole:?} {r}: {all:?}");
+                }
+            }
+        }
+    }
+}
