@@ -3,8 +3,9 @@
 use super::error::{SubsurfaceCardError, same};
 use super::options::FloatTexels;
 use crate::card::Texels;
+use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
-use crate::subsurface::links::{EncodedLinks, LinkChoice};
+use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
 
 /// The links of all texels as textures, not yet rounded.
 #[derive(Clone, Debug)]
@@ -20,9 +21,10 @@ pub struct LinkTextures {
 }
 
 impl LinkTextures {
-    /// Of links for a map that holds irradiance times area.
-    pub fn new(encoded: &EncodedLinks<'_>) -> Self {
-        let links = encoded.links();
+    /// Of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times area; with
+    /// [`MeanWeighting::Count`] texels of levels count by their number.
+    pub fn new(links: &Links, surface: &SurfaceMoments, weighting: MeanWeighting) -> Self {
+        let encoded = EncodedLinks::new(links, surface, weighting);
         let level = match links.choice() {
             LinkChoice::Fixed { level } => Some(level),
             LinkChoice::Adaptive { .. } => None,
