@@ -2,3 +2,39 @@
 //!
 //! Every face has a rectangle of texels of its own, and every texel lies on one face. Faces are clustered in a binary
 //! tree whose nodes are squares and 2:1 rectangles, so that a texel of a coarser level is the mean of a cluster.
+//! docs/atlas.md explains the construction and says how good it is.
+//!
+//! - [`atlas`]: the atlas itself, and how points get from texels to faces and back;
+//! - [`place`]: a face's rectangle, and the map between the two;
+//! - [`texel`]: what a texel and a cluster know;
+//! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
+//! - [`drawn`]: triangles as a card draws them into the atlas, and from it;
+//! - [`tree`]: the binary tree of clusters; `graph`, `split`, `sweep` and `small` build it;
+//! - [`census`]: what is odd about a mesh;
+//! - [`quality`]: how even, connected and compact an atlas is.
+
+pub mod atlas;
+pub mod census;
+pub mod drawn;
+pub mod error;
+mod graph;
+mod levels;
+pub mod part;
+pub mod place;
+pub mod quality;
+mod small;
+mod split;
+mod surface;
+mod sweep;
+pub mod texel;
+pub mod tree;
+
+pub use atlas::{Atlas, MAX_SIDE};
+pub use census::Census;
+pub use drawn::{DrawnFace, DrawnVertex};
+pub use error::AtlasError;
+pub use part::TexelPart;
+pub use place::FacePlace;
+pub use quality::{AtlasQuality, LevelQuality};
+pub use texel::{Cluster, Texel};
+pub use tree::ClusterNode;

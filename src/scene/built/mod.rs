@@ -5,7 +5,8 @@
 //! changes a count.
 //!
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
-//! - one file a scene.
+//! - one file a scene;
+//! - [`stand_ins`]: meshes with the face counts of models that a paper shows.
 
 mod chance;
 mod cornell_box;
@@ -17,6 +18,7 @@ mod palette;
 mod parts;
 pub mod rooms;
 mod solids;
+pub mod stand_ins;
 mod teapot_room;
 mod white_box;
 

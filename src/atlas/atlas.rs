@@ -1,0 +1,258 @@
+//! The atlas: texels of a mesh, and clusters of them.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::census::Census;
+use super::drawn::{DrawnFace, DrawnVertex};
+use super::error::AtlasError;
+use super::graph::FaceGraph;
+use super::levels::levels;
+use super::part::TexelPart;
+use super::place::FacePlace;
+use super::split::FaceMeasures;
+use super::surface::AtlasSurface;
+use super::texel::{Cluster, Texel};
+use super::tree::ClusterTree;
+use crate::geom::Mesh;
+
+/// The longest side of an atlas, in texels.
+pub const MAX_SIDE: u32 = 8192;
+
+/// A mesh in a square of texels.
+#[derive(Debug, Clone)]
+pub struct Atlas {
+    side: u32,
+    surface: AtlasSurface,
+    tree: ClusterTree,
+    places: Vec<FacePlace>,
+    texels: Vec<Texel>,
+    levels: Vec<Vec<Cluster>>,
+    census: Census,
+}
+
+impl Atlas {
+    /// The atlas of a mesh with `side` texels along a side: a power of two.
+    ///
+    /// ```
+    /// use crossbar::atlas::Atlas;
+    /// use crossbar::geom::Mesh;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?;
+    /// let atlas = Atlas::new(&square, 4)?;
+    /// assert_eq!((atlas.texels().len(), atlas.levels()), (16, 3));
+    /// assert!(atlas.texels().iter().all(|texel| texel.area == 1.0 / 16.0));
+    /// assert_eq!(Atlas::new(&square, 1).err().map(|error| error.to_string()).as_deref(), Some(
+    ///     "2 faces do not fit into an atlas of 1 x 1 texels, expected a side of at least 2: every face needs a texel"
+    /// ));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`AtlasError`] if the side is no power of two or above [`MAX_SIDE`], if there are more faces than texels, and if
+    /// the mesh has no face with an area.
+    pub fn new(mesh: &Mesh, side: u32) -> Result<Self, AtlasError> {
+        check(mesh.len(), side)?;
+        let welded = mesh.welded();
+        let surface = AtlasSurface::new(mesh, &welded);
+        if surface.areas().iter().all(|area| *area == 0.0) {
+            return Err(AtlasError::NoArea { faces: mesh.len() });
+        }
+        let adjacency = welded.adjacency();
+        let graph = FaceGraph::of_mesh(&surface, &welded, &adjacency);
+        let parts = graph.parts(|_| true).1 as usize;
+        let census = Census::new(&surface, &welded, &adjacency, parts);
+        drop((adjacency, welded));
+        let measures = FaceMeasures::new(&surface, f64::from(side) * f64::from(side));
+        let tree = ClusterTree::new(graph, &measures, side);
+        drop(measures);
+        let places = places(&surface, &tree);
+        let texels = texels(&surface, &places, side);
+        let levels = levels(&surface, &places, &texels, side);
+        Ok(Self { side, surface, tree, places, texels, levels, census })
+    }
+
+    /// Texels along a side.
+    pub const fn side(&self) -> u32 {
+        self.side
+    }
+
+    /// All texels, row by row. Every one lies on a face.
+    pub fn texels(&self) -> &[Texel] {
+        &self.texels
+    }
+
+    /// The number of levels: 1 more than the logarithm of the side to base 2. Level 0 is the finest.
+    pub fn levels(&self) -> u32 {
+        self.levels.len() as u32
+    }
+
+    /// The clusters of a level, row by row; none of a level that does not exist.
+    pub fn clusters(&self, level: u32) -> &[Cluster] {
+        self.levels.get(level as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// The cluster under a texel of a level.
+    ///
+    /// # Panics
+    /// If there is no such level, column or row.
+    pub fn cluster(&self, level: u32, x: u32, y: u32) -> &Cluster {
+        let width = self.side >> level;
+        assert!(x < width && y < width, "level {level} has {width} columns and rows, found {x}, {y}");
+        &self.levels[level as usize][y as usize * width as usize + x as usize]
+    }
+
+    /// The rectangle of each face of the mesh, in its order.
+    pub fn places(&self) -> &[FacePlace] {
+        &self.places
+    }
+
+    /// The tree of clusters.
+    pub const fn tree(&self) -> &ClusterTree {
+        &self.tree
+    }
+
+    /// The area of the surface.
+    pub fn area(&self) -> f64 {
+        self.surface.areas().iter().sum()
+    }
+
+    /// The area of the surface over the number of texels.
+    pub fn mean_texel_area(&self) -> f64 {
+        self.area() / self.texels.len() as f64
+    }
+
+    /// What is odd about the mesh.
+    pub const fn census(&self) -> &Census {
+        &self.census
+    }
+
+    /// The mesh with one vertex per place, and no vertex that no face uses.
+    pub(super) fn welded(&self) -> Mesh {
+        self.surface.welded()
+    }
+
+    /// Whether normals are those of the mesh; else they are the means of the faces around each vertex.
+    pub const fn has_given_normals(&self) -> bool {
+        self.surface.has_given_normals()
+    }
+
+    /// The corners of a face of the mesh.
+    ///
+    /// # Panics
+    /// If there is no such face, as the following.
+    pub fn corners(&self, face: u32) -> [DVec3; 3] {
+        self.surface.corners(face)
+    }
+
+    /// The normals at the corners of a face, at length 1; zero where none is known.
+    pub fn normals(&self, face: u32) -> [DVec3; 3] {
+        self.surface.normals(face)
+    }
+
+    /// The face and the point of it at texel coordinates, which are clamped to the atlas: texel (x, y) reaches from
+    /// there to (x + 1, y + 1).
+    pub fn point_at(&self, x: f64, y: f64) -> (u32, DVec3) {
+        let clamped = |at: f64| if at >= 0.0 { at.min(f64::from(self.side)) } else { 0.0 };
+        let [x, y] = [x, y].map(clamped);
+        let [column, row] = [x, y].map(|at| (at as u32).min(self.side - 1));
+        let face = self.texels[row as usize * self.side as usize + column as usize].face;
+        (face, self.surface.point(face, self.places[face as usize].weights(x, y)))
+    }
+
+    /// Texel coordinates of the point of a face with these weights of its corners, by index.
+    pub fn coordinates(&self, face: u32, weights: [f64; 3]) -> [f64; 2] {
+        self.places[face as usize].coordinates(weights)
+    }
+
+    /// The part of the surface under a texel, by its index.
+    pub fn part(&self, texel: u32) -> TexelPart {
+        let face = self.texels[texel as usize].face;
+        let [x, y] = self.column_and_row(texel);
+        TexelPart::new(&self.places[face as usize], self.surface.corners(face), [x, y], [x + 1.0, y + 1.0])
+    }
+
+    /// `n` x `n` points that share the area of a texel's part evenly, row by row: the mean points of so many equal
+    /// parts of it. Their mean is the texel's.
+    pub fn points(&self, texel: u32, n: u32) -> impl Iterator<Item = DVec3> {
+        let face = self.texels[texel as usize].face;
+        let [x, y] = self.column_and_row(texel);
+        let step = 1.0 / f64::from(n);
+        (0..n).flat_map(move |row| (0..n).map(move |column| [column, row])).map(move |at| {
+            let [left, top] = [x + f64::from(at[0]) * step, y + f64::from(at[1]) * step];
+            let weights = self.places[face as usize].mean_weights([left, top], [left + step, top + step]);
+            self.surface.point(face, weights)
+        })
+    }
+
+    fn column_and_row(&self, texel: u32) -> [f64; 2] {
+        [f64::from(texel % self.side), f64::from(texel / self.side)]
+    }
+
+    /// A face as a card draws it into the atlas, and from it.
+    pub fn drawn(&self, face: u32) -> DrawnFace {
+        let place = self.places[face as usize];
+        let [a, b, c] = place.in_turn(self.surface.corners(face));
+        let [na, nb, nc] = place.in_turn(self.surface.normals(face));
+        let [x, y, far_x, far_y] = [place.x, place.y, place.x + place.width, place.y + place.height];
+        let [beside, below] = [[far_x, y], [x, far_y]];
+        let [at_b, at_c] = if place.transposed { [below, beside] } else { [beside, below] };
+        let vertex = |position, normal, at| DrawnVertex { position, normal, at };
+        let [a, b, c] = [vertex(a, na, [x, y]), vertex(b, nb, at_b), vertex(c, nc, at_c)];
+        let m = vertex((b.position + c.position) / 2.0, (nb + nc) / 2.0, [far_x, far_y]);
+        DrawnFace { triangles: [[a, b, m], [a, m, c]], bounds: place.bounds() }
+    }
+}
+
+/// Whether so many faces have an atlas of this side.
+fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
+    if !side.is_power_of_two() || side > MAX_SIDE {
+        return Err(AtlasError::Side { side, most: MAX_SIDE });
+    }
+    let texels = |side: u32| u64::from(side) * u64::from(side);
+    if faces == 0 {
+        return Err(AtlasError::NoFaces);
+    }
+    if faces as u64 > texels(MAX_SIDE) {
+        return Err(AtlasError::TooLarge { faces, most: texels(MAX_SIDE) });
+    }
+    if faces as u64 > texels(side) {
+        let mut least = side;
+        while faces as u64 > texels(least) {
+            least *= 2;
+        }
+        return Err(AtlasError::TooManyFaces { faces, side, least });
+    }
+    Ok(())
+}
+
+/// The rectangle of each face: that of its leaf.
+fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
+    let mut rectangles = vec![[0; 4]; surface.len()];
+    for leaf in tree.nodes().iter().filter(|node| node.faces == 1) {
+        rectangles[tree.order()[leaf.first as usize] as usize] = [leaf.x, leaf.y, leaf.width, leaf.height];
+    }
+    (0..).zip(rectangles).map(|(face, rectangle)| FacePlace::squarest(rectangle, surface.corners(face))).collect()
+}
+
+/// All texels, row by row.
+fn texels(surface: &AtlasSurface, places: &[FacePlace], side: u32) -> Vec<Texel> {
+    let mut face_of = vec![0_u32; side as usize * side as usize];
+    for (face, place) in (0..).zip(places) {
+        for row in place.y..place.y + place.height {
+            let from = row as usize * side as usize + place.x as usize;
+            face_of[from..from + place.width as usize].fill(face);
+        }
+    }
+    let texel = |(at, face): (usize, u32)| {
+        let place = &places[face as usize];
+        let [x, y] = [at % side as usize, at / side as usize].map(|at| at as f64);
+        let weights = place.mean_weights([x, y], [x + 1.0, y + 1.0]);
+        let area = surface.areas()[face as usize] / f64::from(place.texels());
+        Texel { face, point: surface.point(face, weights), normal: surface.normal(face, weights), area }
+    };
+    face_of.into_par_iter().enumerate().map(texel).collect()
+}

@@ -1,0 +1,197 @@
+//! A face's rectangle of texels, and the map between the rectangle and the face.
+//!
+//! The corners of the rectangle, in turn, are the corners a and b of the face, the middle m of the edge from b to c,
+//! and c. The triangles (a, b, m) and (a, m, c) have equal areas on both sides, so the map is affine in each, continuous
+//! across the diagonal, and keeps the ratio of areas: every texel of a face has the same area.
+//!
+//! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the weights of
+//! the corners are 1 - u - v + s of a, u - s/2 of b and v - s/2 of c.
+
+use glam::DVec3;
+
+/// A face's rectangle, in texels, and which corner of the face lies where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FacePlace {
+    /// The column of its first texel.
+    pub x: u32,
+    /// The row of its first texel.
+    pub y: u32,
+    /// Texels per row: a power of two.
+    pub width: u32,
+    /// Rows: as many as `width`, or twice as many.
+    pub height: u32,
+    /// The corner of the face, 0 to 2, that lies at (x, y): corner a. Corners b and c follow it in the face's order.
+    pub first: u8,
+    /// Whether corner b lies along y and c along x, instead of b along x and c along y.
+    pub transposed: bool,
+}
+
+impl FacePlace {
+    /// The place of a face with these corners in a rectangle: of the six ways to lay it there the one with the squarest
+    /// texels. Of equal ones it is the first, by corner, then untransposed.
+    pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
+        let mut best: Option<(f64, Self)> = None;
+        for first in 0..3_u8 {
+            for transposed in [false, true] {
+                let place = Self { x, y, width, height, first, transposed };
+                let stretch = place.stretch(corners);
+                if best.is_none_or(|(least, _)| stretch < least) {
+                    best = Some((stretch, place));
+                }
+            }
+        }
+        best.map_or(Self { x, y, width, height, first: 0, transposed: false }, |(_, place)| place)
+    }
+
+    /// The squares of the sides of a texel's image, in both halves together. All ways have the same area, so the least
+    /// sum is the squarest image: the sum over the area is least, 2 per half, for a square.
+    fn stretch(&self, corners: [DVec3; 3]) -> f64 {
+        let [a, b, c] = self.in_turn(corners);
+        let [along_u, along_v] = if self.transposed { [self.height, self.width] } else { [self.width, self.height] };
+        let [along_u, along_v] = [along_u, along_v].map(|texels| f64::from(texels) * f64::from(texels));
+        let far = (c - b).length_squared() / 4.0;
+        ((b - a).length_squared() + far) / along_u + ((c - a).length_squared() + far) / along_v
+    }
+
+    /// Something per corner of the face, by index, as that of corners a, b and c.
+    pub fn in_turn<T: Copy>(&self, of: [T; 3]) -> [T; 3] {
+        let first = usize::from(self.first) % 3;
+        [of[first], of[(first + 1) % 3], of[(first + 2) % 3]]
+    }
+
+    /// What stands for corners a, b and c, per corner of the face by index: the opposite of [`FacePlace::in_turn`].
+    pub fn by_index<T: Copy>(&self, [a, b, c]: [T; 3]) -> [T; 3] {
+        match self.first {
+            0 => [a, b, c],
+            1 => [c, a, b],
+            _ => [b, c, a],
+        }
+    }
+
+    /// Number of texels.
+    pub fn texels(&self) -> u32 {
+        self.width * self.height
+    }
+
+    /// Whether a texel of the atlas is one of the face's.
+    pub fn contains(&self, x: u32, y: u32) -> bool {
+        (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
+    }
+
+    /// The least and the largest texel coordinates, `[x, y, x, y]`, with which a bilinear read stays on the face: half
+    /// a texel within the rectangle. Coordinates clamped to them also read the nearest texel of the face.
+    pub fn bounds(&self) -> [f64; 4] {
+        let [x, y, width, height] = [self.x, self.y, self.width, self.height].map(f64::from);
+        [x + 0.5, y + 0.5, x + width - 0.5, y + height - 0.5]
+    }
+
+    /// Weights of the corners of the face, by index, at texel coordinates of its rectangle. Coordinates outside it are
+    /// clamped to it. Exact where the coordinates are multiples of 2^-20 texels.
+    pub fn weights(&self, x: f64, y: f64) -> [f64; 3] {
+        let [u, v] = self.local(x, y);
+        self.weights_of(u, v, u.min(v))
+    }
+
+    /// Texel coordinates of the point of the face with these weights of its corners, by index. The weights are clamped
+    /// to the face.
+    pub fn coordinates(&self, weights: [f64; 3]) -> [f64; 2] {
+        let [a, b, c] = self.in_turn(weights).map(|weight| if weight >= 0.0 { weight.min(1.0) } else { 0.0 });
+        let [u, v] = if b >= c { [1.0 - a, 2.0 * c] } else { [2.0 * b, 1.0 - a] }.map(|part: f64| part.min(1.0));
+        let [along_x, along_y] = if self.transposed { [v, u] } else { [u, v] };
+        let [x, y, width, height] = [self.x, self.y, self.width, self.height].map(f64::from);
+        [x + width * along_x, y + height * along_y]
+    }
+
+    /// Weights of the corners of the face, by index, at the mean point of a rectangle within its own: exact means, also
+    /// of rectangles that the diagonal crosses.
+    pub(super) fn mean_weights(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [f64; 3] {
+        let ([u0, v0], [u1, v1]) = (self.local(x0, y0), self.local(x1, y1));
+        let [u, v] = [(u0 + u1) / 2.0, (v0 + v1) / 2.0];
+        let least = if u1 <= v0 || v1 <= u0 {
+            u.min(v)
+        } else {
+            // The mean of the smaller is that of u less that of what u exceeds v by, whose integral over the rectangle
+            // is made of four sixths of cubes.
+            let cube = |t: f64| if t > 0.0 { t * t * t / 6.0 } else { 0.0 };
+            let excess = cube(u1 - v0) - cube(u1 - v1) - cube(u0 - v0) + cube(u0 - v1);
+            u - excess / ((u1 - u0) * (v1 - v0))
+        };
+        self.weights_of(u, v, least)
+    }
+
+    /// (u, v), each from 0 to 1, at texel coordinates.
+    fn local(&self, x: f64, y: f64) -> [f64; 2] {
+        let part = |at: f64, from: u32, texels: u32| {
+            let part = (at - f64::from(from)) / f64::from(texels);
+            if part >= 0.0 { part.min(1.0) } else { 0.0 }
+        };
+        let [along_x, along_y] = [part(x, self.x, self.width), part(y, self.y, self.height)];
+        if self.transposed { [along_y, along_x] } else { [along_x, along_y] }
+    }
+
+    fn weights_of(&self, u: f64, v: f64, least: f64) -> [f64; 3] {
+        let half = least / 2.0;
+        let [b, c] = [u - half, v - half];
+        // u + v - least is the larger of the two where both are those of one point.
+        self.by_index([1.0 - (u + v - least), b, c])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACES: [FacePlace; 4] = [
+        FacePlace { x: 8, y: 4, width: 4, height: 4, first: 0, transposed: false },
+        FacePlace { x: 0, y: 2, width: 1, height: 2, first: 1, transposed: false },
+        FacePlace { x: 2, y: 0, width: 2, height: 4, first: 2, transposed: true },
+        FacePlace { x: 5, y: 7, width: 1, height: 1, first: 1, transposed: true },
+    ];
+
+    #[test]
+    fn the_map_and_its_inverse_are_exact() {
+        for place in PLACES {
+            for step in 0..=16 {
+                for other in 0..=16 {
+                    let x = f64::from(place.x) + f64::from(place.width * step) / 16.0;
+                    let y = f64::from(place.y) + f64::from(place.height * other) / 16.0;
+                    let weights = place.weights(x, y);
+                    assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)), "{weights:?}");
+                    assert_eq!(weights.iter().sum::<f64>(), 1.0);
+                    assert_eq!(place.coordinates(weights), [x, y], "{place:?} {weights:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn corners_lie_where_the_place_says() {
+        let place = PLACES[0];
+        assert_eq!(place.weights(8.0, 4.0), [1.0, 0.0, 0.0]);
+        assert_eq!(place.weights(12.0, 4.0), [0.0, 1.0, 0.0]);
+        assert_eq!(place.weights(12.0, 8.0), [0.0, 0.5, 0.5]);
+        assert_eq!(place.weights(8.0, 8.0), [0.0, 0.0, 1.0]);
+        let turned = PLACES[2];
+        assert_eq!(turned.weights(2.0, 0.0), [0.0, 0.0, 1.0], "corner 2 is a");
+        assert_eq!(turned.weights(2.0, 4.0), [1.0, 0.0, 0.0], "b, along y");
+        assert_eq!(turned.weights(4.0, 0.0), [0.0, 1.0, 0.0], "c, along x");
+    }
+
+    #[test]
+    fn a_face_of_one_texel_has_its_mean_at_the_centroid() {
+        for place in PLACES {
+            let [x, y] = [f64::from(place.x), f64::from(place.y)];
+            let far = [x + f64::from(place.width), y + f64::from(place.height)];
+            for weight in place.mean_weights([x, y], far) {
+                approx::assert_abs_diff_eq!(weight, 1.0 / 3.0, epsilon = 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn texels_of_a_right_isosceles_face_are_square() {
+        let corners = [DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0), DVec3::ZERO];
+        let place = FacePlace::squarest([0, 0, 4, 4], corners);
+        assert_eq!((place.first, place.transposed), (2, false), "the right angle at a");
+    }
+}

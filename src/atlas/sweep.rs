@@ -1,0 +1,240 @@
+//! Cuts of large clusters: faces in an order in which every prefix is a half.
+//!
+//! From two faces far apart, A and B, faces are ordered by how much farther from A than from B they are. A face's
+//! predecessor on the shortest path from A comes before it, and that on the shortest path from B behind it, so both
+//! halves of any cut are connected. Only faces with equal differences, a part that hangs on the rest by one face, can
+//! spoil that; distances are whole numbers, so rounding cannot.
+
+use glam::DVec3;
+
+use crate::elementary::on_circle;
+use crate::geom::vector::unit;
+
+use super::graph::{FaceGraph, UNREACHED};
+use super::split::{FaceMeasures, SplitLimits};
+
+/// The share of the demand by which two halves may differ so that a part of the mesh stays whole.
+const WHOLE_PARTS: f64 = 1.0 / 32.0;
+
+/// The share by which they may differ so that both are connected, before other seeds are tried.
+const MENDED: f64 = 1.0 / 16.0;
+
+/// How many flat cuts are tried.
+const DIRECTIONS: u32 = 6;
+
+/// Two halves: `true` for the second.
+struct Halves {
+    second: Vec<bool>,
+    /// How much the demands of the halves differ, as a share of their sum.
+    uneven: f64,
+}
+
+/// Cuts a connected cluster: flat, by the shortest cut with connected halves, else by paths.
+pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
+    if let Some(flat) = cut_flat(graph, measures, &limits) {
+        return flat;
+    }
+    let mut connected: Option<Halves> = None;
+    let mut plain = None;
+    for axis in axes(graph, measures) {
+        let order = order(graph, measures, axis, |_| true);
+        let halves = cut_order(graph, measures, &limits, &order);
+        let (part, parts) = graph.parts(|face| halves.second[face as usize]);
+        if parts == 2 {
+            return halves.second;
+        }
+        if let Some(mended) = mend(graph, measures, &limits, &halves.second, &part, parts) {
+            if mended.uneven <= MENDED {
+                return mended.second;
+            }
+            if connected.as_ref().is_none_or(|best| mended.uneven < best.uneven) {
+                connected = Some(mended);
+            }
+        }
+        plain = plain.or(Some(halves));
+    }
+    connected.or(plain).map_or_else(|| vec![false; graph.len()], |halves| halves.second)
+}
+
+/// The shortest of some flat cuts, in directions all round in the plane of the cluster's mean normal, that leave both
+/// halves connected.
+fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) -> Option<Vec<bool>> {
+    let mean: DVec3 = graph.faces().iter().map(|&face| measures.normal(face)).sum();
+    let [right, up] = plane(unit(mean).unwrap_or(DVec3::Z));
+    let mut best: Option<(u64, Vec<bool>)> = None;
+    for direction in 0..DIRECTIONS {
+        let [cos, sin] = on_circle(f64::from(direction) / f64::from(2 * DIRECTIONS));
+        let along = right * cos + up * sin;
+        let key = |face: u32| measures.center(graph.faces()[face as usize]).dot(along);
+        let mut order: Vec<(f64, u32)> = (0..graph.len() as u32).map(|face| (key(face), face)).collect();
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let order: Vec<u32> = order.into_iter().map(|(_, face)| face).collect();
+        let second = second_of(&order, best_cut(graph, measures, limits, &order));
+        let length = graph.cut_length(&second);
+        if best.as_ref().is_none_or(|(least, _)| length < *least) && graph.parts(|face| second[face as usize]).1 == 2 {
+            best = Some((length, second));
+        }
+    }
+    best.map(|(_, second)| second)
+}
+
+/// Two directions at right angles to each other and to a normal.
+fn plane(normal: DVec3) -> [DVec3; 2] {
+    let size = normal.abs();
+    let axis = if size.x <= size.y && size.x <= size.z {
+        DVec3::X
+    } else if size.y <= size.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let right = unit(axis.cross(normal)).unwrap_or(DVec3::X);
+    [right, normal.cross(right)]
+}
+
+/// Cuts a cluster of several parts, in the order in which they lie along the longest axis: between parts, or through
+/// the one in the middle.
+pub(super) fn cut_parts(
+    graph: &FaceGraph,
+    measures: &FaceMeasures,
+    limits: SplitLimits,
+    part: &[u32],
+    parts: u32,
+) -> Vec<bool> {
+    let [axis, ..] = axes(graph, measures);
+    let place = part_places(graph, measures, axis, part, parts);
+    let mut order: Vec<u32> = (0..graph.len() as u32).collect();
+    order.sort_by_key(|&face| place[part[face as usize] as usize]);
+    let at = best_cut(graph, measures, &limits, &order);
+    let total = demand(graph, measures, &order);
+    let starts: Vec<usize> =
+        (1..order.len()).filter(|&k| part[order[k] as usize] != part[order[k - 1] as usize]).collect();
+    let uneven = |k: usize| (total - 2.0 * demand(graph, measures, &order[..k])).abs();
+    // The boundaries on both sides of the best cut.
+    let behind = starts.partition_point(|&k| k < at);
+    let near = [behind.checked_sub(1), Some(behind)].into_iter().flatten().filter_map(|index| starts.get(index));
+    let between = near.copied().filter(|k| limits.contains(k)).min_by(|a, b| uneven(*a).total_cmp(&uneven(*b)));
+    if let Some(k) = between.filter(|&k| k == at || uneven(k) <= WHOLE_PARTS * total) {
+        return second_of(&order, k);
+    }
+    // Through a part: its faces in the order of a sweep.
+    let cut = part[order[at] as usize];
+    let from = order.partition_point(|&face| place[part[face as usize] as usize] < place[cut as usize]);
+    let within = self::order(graph, measures, axis, |face| part[face as usize] == cut);
+    order[from..from + within.len()].copy_from_slice(&within);
+    cut_order(graph, measures, &limits, &order).second
+}
+
+/// The place of each part in the order along an axis, by the mean of its centers.
+fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[u32], parts: u32) -> Vec<u32> {
+    let mut sums = vec![(0.0, 0.0); parts as usize];
+    for (&of, &face) in part.iter().zip(graph.faces()) {
+        let sum = &mut sums[of as usize];
+        *sum = (sum.0 + measures.center(face)[axis], sum.1 + 1.0);
+    }
+    let mut by_place: Vec<u32> = (0..parts).collect();
+    let mean = |of: u32| sums[of as usize].0 / sums[of as usize].1;
+    by_place.sort_by(|a, b| mean(*a).total_cmp(&mean(*b)));
+    let mut place = vec![0; parts as usize];
+    (0..).zip(by_place).for_each(|(at, of)| place[of as usize] = at);
+    place
+}
+
+/// The axes by the extent of the cluster along them, the longest first.
+fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &face in graph.faces() {
+        low = low.min(measures.center(face));
+        high = high.max(measures.center(face));
+    }
+    let extent = high - low;
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|a, b| extent[*b].total_cmp(&extent[*a]));
+    axes
+}
+
+/// The faces of a connected part in the order of a sweep from its lowest face along an axis to the one farthest from
+/// that.
+fn order(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, of: impl Fn(u32) -> bool) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..graph.len() as u32).filter(|&face| of(face)).collect();
+    let along = |face: u32| measures.center(graph.faces()[face as usize])[axis];
+    let Some(low) = order.iter().copied().reduce(|a, b| if along(b) < along(a) { b } else { a }) else {
+        return order;
+    };
+    let from_low = graph.distances(low);
+    let distance = |face: u32| from_low[face as usize];
+    let reached = order.iter().copied().filter(|&face| distance(face) != UNREACHED);
+    let high = reached.reduce(|a, b| if distance(b) > distance(a) { b } else { a }).unwrap_or(low);
+    let from_high = graph.distances(high);
+    order.sort_unstable_by_key(|&face| {
+        let [from, to] = [from_low[face as usize], from_high[face as usize]];
+        (i128::from(from) - i128::from(to), from, face)
+    });
+    order
+}
+
+fn demand(graph: &FaceGraph, measures: &FaceMeasures, faces: &[u32]) -> f64 {
+    faces.iter().map(|&face| measures.demand(graph.faces()[face as usize])).sum()
+}
+
+/// Where to cut an order: the number of faces of the first half, within the limits, with which the halves' demands are
+/// nearest to each other.
+fn best_cut(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, order: &[u32]) -> usize {
+    let half = demand(graph, measures, order) / 2.0;
+    let mut best = (f64::INFINITY, *limits.start());
+    let mut sum = 0.0;
+    for (k, &face) in (1..).zip(order) {
+        sum += measures.demand(graph.faces()[face as usize]);
+        if limits.contains(&k) && (sum - half).abs() < best.0 {
+            best = ((sum - half).abs(), k);
+        }
+    }
+    best.1
+}
+
+fn cut_order(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, order: &[u32]) -> Halves {
+    let at = best_cut(graph, measures, limits, order);
+    let total = demand(graph, measures, order);
+    let uneven = (total - 2.0 * demand(graph, measures, &order[..at])).abs() / total;
+    Halves { second: second_of(order, at), uneven }
+}
+
+fn second_of(order: &[u32], at: usize) -> Vec<bool> {
+    let mut second = vec![false; order.len()];
+    order[at..].iter().for_each(|&face| second[face as usize] = true);
+    second
+}
+
+/// Connected halves from halves of several parts: of each half the part of the largest demand stays, the others go
+/// over. `None` where that is outside the limits or not enough.
+fn mend(
+    graph: &FaceGraph,
+    measures: &FaceMeasures,
+    limits: &SplitLimits,
+    second: &[bool],
+    part: &[u32],
+    parts: u32,
+) -> Option<Halves> {
+    let mut demands = vec![0.0; parts as usize];
+    part.iter().zip(graph.faces()).for_each(|(&of, &face)| demands[of as usize] += measures.demand(face));
+    let mut largest: [Option<u32>; 2] = [None; 2];
+    for (&of, &side) in part.iter().zip(second) {
+        let best = &mut largest[usize::from(side)];
+        if best.is_none_or(|best| demands[of as usize] > demands[best as usize]) {
+            *best = Some(of);
+        }
+    }
+    let stays = |of: u32, side: bool| largest[usize::from(side)] == Some(of);
+    let mended: Vec<bool> =
+        part.iter().zip(second).map(|(&of, &side)| if stays(of, side) { side } else { !side }).collect();
+    let firsts = mended.iter().filter(|side| !**side).count();
+    if !limits.contains(&firsts) || graph.parts(|face| mended[face as usize]).1 != 2 {
+        return None;
+    }
+    let of_side = |own: bool| {
+        let faces = graph.faces().iter().zip(&mended).filter(|(_, side)| **side == own);
+        faces.map(|(&face, _)| measures.demand(face)).sum::<f64>()
+    };
+    let [first, last] = [of_side(false), of_side(true)];
+    Some(Halves { second: mended, uneven: (first - last).abs() / (first + last) })
+}

@@ -1,0 +1,105 @@
+//! The binary tree of clusters.
+
+use super::graph::FaceGraph;
+use super::split::{FaceMeasures, cut};
+
+/// From how many faces on the halves of a cluster are worked on side by side.
+const SIDE_BY_SIDE: usize = 2048;
+
+/// A node of the tree: a cluster of faces and its rectangle of texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ClusterNode {
+    /// Where its faces begin in [`ClusterTree::order`].
+    pub first: u32,
+    /// How many there are.
+    pub faces: u32,
+    /// The column of its first texel.
+    pub x: u32,
+    /// The row of its first texel.
+    pub y: u32,
+    /// Texels per row.
+    pub width: u32,
+    /// Rows: as many as `width`, or twice as many.
+    pub height: u32,
+}
+
+/// A binary tree of clusters with one face per leaf: 2 T - 1 nodes for T faces.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClusterTree {
+    nodes: Vec<ClusterNode>,
+    order: Vec<u32>,
+}
+
+impl ClusterTree {
+    /// The tree of the faces of a graph, at least one, over a square of texels that has one for each.
+    pub(super) fn new(graph: FaceGraph, measures: &FaceMeasures, side: u32) -> Self {
+        let count = graph.len();
+        let mut nodes = vec![ClusterNode::default(); 2 * count - 1];
+        let mut order = vec![0; count];
+        let root = ClusterNode { first: 0, faces: count as u32, x: 0, y: 0, width: side, height: side };
+        grow(graph, measures, root, &mut nodes, &mut order);
+        Self { nodes, order }
+    }
+
+    /// All nodes: the root, all below its first child, all below its second.
+    pub fn nodes(&self) -> &[ClusterNode] {
+        &self.nodes
+    }
+
+    /// The faces in the order in which the leaves have them: those of a node are neighbors here.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// The faces of a node.
+    pub fn faces(&self, node: &ClusterNode) -> &[u32] {
+        self.order.get(node.first as usize..).and_then(|from| from.get(..node.faces as usize)).unwrap_or_default()
+    }
+
+    /// The children of a node, as indices into [`ClusterTree::nodes`]; `None` of a leaf and of a node that does not
+    /// exist.
+    pub fn children(&self, node: usize) -> Option<[usize; 2]> {
+        let first = node + 1;
+        (self.nodes.get(node)?.faces > 1).then(|| [first, first + 2 * self.nodes[first].faces as usize - 1])
+    }
+}
+
+/// Fills the nodes and the order below a node.
+fn grow(graph: FaceGraph, measures: &FaceMeasures, node: ClusterNode, nodes: &mut [ClusterNode], order: &mut [u32]) {
+    nodes[0] = node;
+    if graph.len() == 1 {
+        order[0] = graph.faces()[0];
+        return;
+    }
+    let capacity = node.width as usize * node.height as usize / 2;
+    let [first, second] = graph.halves(&cut(&graph, measures, capacity));
+    let side_by_side = graph.len() >= SIDE_BY_SIDE;
+    drop(graph);
+    let [one, other] = rectangles(node, first.len() as u32);
+    let (nodes, other_nodes) = nodes[1..].split_at_mut(2 * first.len() - 1);
+    let (order, other_order) = order.split_at_mut(first.len());
+    let of_first = || grow(first, measures, one, nodes, order);
+    let of_second = || grow(second, measures, other, other_nodes, other_order);
+    if side_by_side {
+        rayon::join(of_first, of_second);
+    } else {
+        of_first();
+        of_second();
+    }
+}
+
+/// The children of a node whose first child has so many faces: a square is halved in width, a rectangle in height.
+fn rectangles(node: ClusterNode, faces: u32) -> [ClusterNode; 2] {
+    let (width, height) =
+        if node.width == node.height { (node.width / 2, node.height) } else { (node.width, node.height / 2) };
+    let first = ClusterNode { faces, width, height, ..node };
+    let second = ClusterNode {
+        first: node.first + faces,
+        faces: node.faces - faces,
+        x: node.x + node.width - width,
+        y: node.y + node.height - height,
+        width,
+        height,
+    };
+    [first, second]
+}
