@@ -11,6 +11,7 @@ use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
 fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
     let mut names = Profile::card_names();
     assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200"]);
+    names.extend(Profile::variant_names());
     names.extend(["ideal-fp32", "ideal-s3.12:rtz:wrap", "ideal-e4m3:sat:ftz"]);
     for name in names {
         let profile = Profile::named(name).unwrap();
@@ -33,7 +34,7 @@ fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
 
 #[test]
 fn every_figure_has_a_source() {
-    for name in Profile::card_names() {
+    for name in Profile::card_names().into_iter().chain(Profile::variant_names()) {
         let profile = Profile::named(name).unwrap();
         let rows = profile.figures();
         assert!(rows.len() > 50, "{name} has {} figures", rows.len());
@@ -131,7 +132,7 @@ fn ideal_devices_take_any_format() {
 #[test]
 fn unknown_names_get_an_error_that_lists_the_known() {
     let text = |r: Result<Profile, DeviceError>| r.unwrap_err().to_string();
-    insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 ideal-<format>");
+    insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 fx5800 fx5900 ideal-<format>");
     insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
     let mut nv20 = Profile::named("nv20").unwrap();
     insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits lod-fraction-bits lrp mad rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
@@ -153,5 +154,25 @@ fn every_format_that_a_profile_lists_exists() {
             let known: refsim::output::DepthFormat = format.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_eq!(known.name(), format, "{name} uses another spelling");
         }
+    }
+}
+
+/// So whatever holds for a card holds for its variants, and no test of arithmetic has to draw on them.
+#[test]
+fn variants_differ_from_their_card_in_rates_alone() {
+    let variants = Profile::variant_names();
+    assert_eq!(variants, ["fx5800", "fx5900"]);
+    for (name, card, core, memory) in [("fx5800", "nv30", 400, 12_800), ("fx5900", "nv35", 400, 27_200)] {
+        let (variant, card) = (Profile::named(name).unwrap(), Profile::named(card).unwrap());
+        assert_eq!((&variant.rules, &variant.limits, &variant.bus), (&card.rules, &card.limits, &card.bus), "{name}");
+        assert_eq!(variant.switches(), card.switches(), "{name}");
+        assert!(!variant.title.contains("Ultra") && card.title.contains("Ultra"), "{name}");
+        let mega = |figure: Option<u64>| figure.unwrap() / 1_000_000;
+        assert_eq!((mega(variant.rates.core_clock_hz), mega(variant.rates.memory_bytes_per_s)), (core, memory));
+        let (mine, theirs) = (variant.figures(), card.figures());
+        let differ = mine.iter().zip(&theirs).filter(|(a, b)| a != b).map(|(a, _)| a.key.as_str());
+        let differ: Vec<&str> = differ.collect();
+        assert_eq!(differ.len(), 5, "{name}: {differ:?}");
+        assert!(differ.iter().all(|key| key.starts_with("rates.")), "{name}: {differ:?}");
     }
 }

@@ -1,5 +1,7 @@
 //! The emulated card from the outside: draws into targets, counts, errors, threads.
 
+#[path = "machine/mipmaps.rs"]
+mod mipmaps;
 #[path = "machine/mistakes.rs"]
 mod mistakes;
 #[path = "common/running.rs"]

@@ -5,6 +5,7 @@ mod texture {
     mod addressing;
     mod decoding;
     mod filtering;
+    mod mipmaps;
     mod rational;
     mod robust;
     mod storing;

@@ -180,3 +180,24 @@ fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
     assert_eq!([8, 9, 11, 12].map(|n| behind("ADDX H0, H0, p[0]", n)), [4, 5, 5, 6]);
     assert_eq!([16, 17, 21, 22].map(|n| behind("MULX H0, H0, p[0]", n)), [4, 5, 5, 6]);
 }
+
+/// The worked example of docs/timing.md: the levels of a 1024 x 1024 map of 8 bits.
+#[test]
+fn mip_levels_are_drawn_one_after_the_other() {
+    let mut machine = Machine::new(Profile::named("nv35").unwrap(), ExecutorKind::Batch);
+    let map = machine.create_target_with_levels(TexelFormat::Bgra8, 1024, 1024, 11).unwrap();
+    let record = machine.generate_mipmaps(map).unwrap();
+    assert_eq!((record.texels_read(), record.texels_written()), (1_398_100, 349_525));
+    let cost = |level| Model::new(level, machine.profile()).unwrap().mipmaps(&record);
+    // 1.8 Gpixel/s.
+    assert_eq!(cost(Level::Rates).total, Picoseconds((349_525 * 10_000_u64).div_ceil(18)));
+    // Level 1: four texels read and one written for each of 512 x 512, at 27.2 GB/s and 450 MHz.
+    let first = 5_u64 * 4 * 512 * 512 * 450;
+    assert_eq!(first.div_ceil(27_200), 86_739);
+    let pipeline = cost(Level::Pipeline);
+    // 300 clocks of each level are fixed; from 4 x 4 texels on set-up of two triangles is the longest of the rest.
+    let moved: u64 = (0..8).map(|k| (first >> (2 * k)).div_ceil(27_200)).sum();
+    assert_eq!(pipeline.core_clocks, Clocks(10 * 300 + moved + 2 * 4));
+    assert_eq!(pipeline.bottleneck, Bottleneck::Memory);
+    assert_eq!(pipeline.memory.0 / 1_000_000, 257, "microseconds");
+}

@@ -68,8 +68,12 @@ impl<'s> Loaded<'s> {
             None => None,
         };
         let mut samplers = Vec::new();
-        for (&slot, (image, state)) in &setup.textures {
-            samplers.push((slot, machine.create_texture(image.clone())?, *state));
+        for (&slot, bound) in &setup.textures {
+            let texture = machine.create_texture(bound.image.clone())?;
+            if bound.generate_mipmaps {
+                machine.generate_mipmaps(texture)?;
+            }
+            samplers.push((slot, texture, bound.sampler));
         }
         Ok(Self { setup, machine, targets, depth, samplers, streams: streams(setup) })
     }

@@ -32,6 +32,7 @@ pub use probe::{Found, ProbeResult};
 pub use run::{CaseOutcome, ShaderSlots, run};
 pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
+pub use texels::CaseTexture;
 pub use trace::{PixelTrace, trace};
-pub use value::{Constant, Exactly, Number, OneOrMany};
+pub use value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
 pub use vertices::Vertices;

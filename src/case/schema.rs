@@ -12,7 +12,7 @@ use refsim::{
     texture::{Filter, MipFilter, TextureKind},
 };
 
-use super::value::{Constant, Exactly, Number, OneOrMany};
+use super::value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
 
 /// A case as written, with places for error messages; nothing in it is checked beyond words and types.
 #[derive(Clone, Debug, Deserialize)]
@@ -93,9 +93,8 @@ pub struct Texture {
     /// Whether `texels` and `mipmaps` are the stored codes, whole numbers: as many to a texel as the format stores.
     #[serde(default)]
     pub raw: bool,
-    /// The texels of levels 1 and up.
-    #[serde(default)]
-    pub mipmaps: Vec<Spanned<Vec<Vec<Number>>>>,
+    /// Where levels 1 and up come from.
+    pub mipmaps: Option<Spanned<Mipmaps>>,
     /// Both `min` and `mag`.
     pub filter: Option<Spanned<Filter>>,
     /// How a texture is read that appears smaller.

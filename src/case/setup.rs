@@ -9,7 +9,7 @@ use refsim::{
     isa::{Program, Stage, Version},
     machine::{ExecutorKind, Machine, MachineError},
     output::{AlphaTest, BlendState, DepthFormat, DepthState},
-    texture::{Image, SamplerState, TexelFormat},
+    texture::TexelFormat,
 };
 use toml::Spanned;
 
@@ -20,7 +20,7 @@ use super::{
     schema::{self, Case},
     stages,
     state::{self, Probe},
-    texels,
+    texels::{self, CaseTexture},
     value::Exactly,
     vertices::{self, Geometry},
 };
@@ -54,7 +54,7 @@ pub struct Setup {
     /// Constants of the vertex program.
     pub vertex_constants: Constants,
     /// Textures by sampler.
-    pub textures: BTreeMap<usize, (Image, SamplerState)>,
+    pub textures: BTreeMap<usize, CaseTexture>,
     /// Bump state of the texture stages.
     pub bump: [BumpStage; BUMP_STAGES],
     /// Projected textures of the texture stages.
@@ -149,9 +149,12 @@ impl Binder<'_> {
                 let slot = *texture.get_ref().slot.get_ref();
                 stages::project(self, projected, slot, &pixel, &mut projections)?;
             }
-            let (slot, image, sampler) = texels::bind(self, texture)?;
-            self.accepted(card.create_texture(image.clone()), texture.get_ref().format.span())?;
-            if textures.insert(slot, (image, sampler)).is_some() {
+            let (slot, bound) = texels::bind(self, texture)?;
+            let made = self.accepted(card.create_texture(bound.image.clone()), texture.get_ref().format.span())?;
+            if let Some(mipmaps) = texture.get_ref().mipmaps.as_ref().filter(|_| bound.generate_mipmaps) {
+                self.accepted(card.generate_mipmaps(made), mipmaps.span())?;
+            }
+            if textures.insert(slot, bound).is_some() {
                 let help = "give every texture a slot of its own";
                 return Err(self.place.wrong(texture.get_ref().slot.span(), format!("slot {slot} is taken"), help));
             }

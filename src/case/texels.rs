@@ -15,17 +15,25 @@ use super::{
     binder::Binder,
     schema,
     state::texel_format,
-    value::{Number, vector, whole},
+    value::{Mipmaps, Number, vector, whole},
 };
 
 use crate::io::{picture::MAX_BYTES, read_limited};
 use crate::names::did_you_mean;
 
-/// The sampler, the image and how it is read.
-pub(super) fn bind(
-    binder: &Binder<'_>,
-    texture: &Spanned<schema::Texture>,
-) -> Result<(usize, Image, SamplerState), CaseError> {
+/// A texture of a case.
+#[derive(Clone, Debug)]
+pub struct CaseTexture {
+    /// Its texels.
+    pub image: Image,
+    /// How it is read.
+    pub sampler: SamplerState,
+    /// Whether the card makes its levels 1 and up, of which the image holds none yet.
+    pub generate_mipmaps: bool,
+}
+
+/// The sampler, and the texture that it reads.
+pub(super) fn bind(binder: &Binder<'_>, texture: &Spanned<schema::Texture>) -> Result<(usize, CaseTexture), CaseError> {
     let written = texture.get_ref();
     let slot = *written.slot.get_ref() as usize;
     if slot >= SAMPLERS {
@@ -40,7 +48,28 @@ pub(super) fn bind(
         (Some(_), Some(_)) => return wrong("the texture has both `file` and `texels`", "keep one of the two"),
         (None, None) => return wrong("the texture has no texels", "name a PNG `file`, or list `texels`"),
     };
-    Ok((slot, image, sampler(binder, written)?))
+    let generate_mipmaps = matches!(mipmaps(written), Some(Mipmaps::Automatic));
+    let image = if generate_mipmaps {
+        let levels = Image::most_levels(image.kind(), [image.width(), image.height(), image.slices()]);
+        let too_large = |error: TextureError| binder.place.wrong(texture.span(), error.to_string(), "make it smaller");
+        image.with_levels(levels).map_err(too_large)?
+    } else {
+        image
+    };
+    let sampler = sampler(binder, written, &image)?;
+    Ok((slot, CaseTexture { image, sampler, generate_mipmaps }))
+}
+
+fn mipmaps(written: &schema::Texture) -> Option<&Mipmaps> {
+    written.mipmaps.as_ref().map(Spanned::get_ref)
+}
+
+/// The texels of levels 1 and up that the case lists.
+fn listed_levels(written: &schema::Texture) -> &[Spanned<Vec<Vec<Number>>>] {
+    match mipmaps(written) {
+        Some(Mipmaps::Texels(levels)) => levels,
+        Some(Mipmaps::Automatic) | None => &[],
+    }
 }
 
 /// Width, height and depth from as many numbers as the kind has axes.
@@ -79,10 +108,11 @@ fn from_texels(
         return Err(binder.place.wrong(texels.span(), message, "rows from the top, then faces or slices"));
     }
     let wrong = |error: TextureError| binder.place.wrong(size.span(), error.to_string(), "change `size` or `mipmaps`");
-    let levels = u32::try_from(written.mipmaps.len()).unwrap_or(u32::MAX).saturating_add(1);
+    let listed = listed_levels(written);
+    let levels = u32::try_from(listed.len()).unwrap_or(u32::MAX).saturating_add(1);
     let mut image = Image::new(format, written.kind, extents, levels).map_err(wrong)?;
     fill(binder, &mut image, 0, written.raw, texels)?;
-    for (level, texels) in (1..).zip(&written.mipmaps) {
+    for (level, texels) in (1..).zip(listed) {
         fill(binder, &mut image, level, written.raw, texels)?;
     }
     Ok(image)
@@ -168,8 +198,8 @@ fn from_file(
         return Err(binder.place.wrong(file.span(), "`raw` codes of a picture", help));
     }
     let wrong = |message: String, help: &str| binder.place.wrong(file.span(), message, help);
-    if matches!(written.kind, TextureKind::Cube | TextureKind::Volume) || !written.mipmaps.is_empty() {
-        let help = "list `texels` for cubes, volumes and mip maps";
+    if matches!(written.kind, TextureKind::Cube | TextureKind::Volume) || !listed_levels(written).is_empty() {
+        let help = "list `texels` for cubes, volumes and mip maps of your own";
         return Err(wrong("a picture makes a 1d, 2d or rectangle texture of one level".to_owned(), help));
     }
     let bytes = read_limited(&path, MAX_BYTES)
@@ -197,7 +227,7 @@ fn from_file(
         .map_err(|error| wrong(error.to_string(), "use another picture, or another `kind`"))
 }
 
-fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerState, CaseError> {
+fn sampler(binder: &Binder<'_>, written: &schema::Texture, image: &Image) -> Result<SamplerState, CaseError> {
     let unused = |span: Option<std::ops::Range<usize>>, message: &str, help: &str| match span {
         Some(span) => Err(binder.place.wrong(span, message, help)),
         None => Ok(()),
@@ -208,8 +238,8 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture) -> Result<SamplerStat
     let border = written.border.as_ref().map(Spanned::span);
     let bordered = written.address.as_ref().is_some_and(|address| address.get_ref().0.iter().any(|a| a == "border"));
     unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read comes that far")?;
-    let levels = written.mipmaps.len() as u32;
-    let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() > levels).map(Spanned::span);
+    let levels = image.levels().len() as u32;
+    let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() >= levels).map(Spanned::span);
     unused(beyond, "the texture has no such level", "`mipmaps` lists the levels from 1 on")?;
     let both = written.filter.as_ref().map(|filter| *filter.get_ref()).unwrap_or_default();
     let [address_u, address_v, address_w] = address(binder, written)?;

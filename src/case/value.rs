@@ -6,6 +6,7 @@ use serde::{
     Deserialize, Deserializer,
     de::{self, SeqAccess, Visitor},
 };
+use toml::Spanned;
 
 /// A number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,6 +117,46 @@ impl<'de> Visitor<'de> for OneOrManyVisitor {
 impl<'de> Deserialize<'de> for OneOrMany {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(OneOrManyVisitor)
+    }
+}
+
+/// Where levels 1 and up of a texture come from.
+#[derive(Clone, Debug)]
+pub enum Mipmaps {
+    /// `"automatic"`: the card makes all of them from level 0.
+    Automatic,
+    /// The texels of each level.
+    Texels(Vec<Spanned<Vec<Vec<Number>>>>),
+}
+
+struct MipmapsVisitor;
+
+impl<'de> Visitor<'de> for MipmapsVisitor {
+    type Value = Mipmaps;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("\"automatic\" or a list with the texels of each level")
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<Mipmaps, E> {
+        if text == "automatic" {
+            return Ok(Mipmaps::Automatic);
+        }
+        Err(E::invalid_value(de::Unexpected::Str(text), &self))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Mipmaps, A::Error> {
+        let mut levels = Vec::new();
+        while let Some(level) = list.next_element()? {
+            levels.push(level);
+        }
+        Ok(Mipmaps::Texels(levels))
+    }
+}
+
+impl<'de> Deserialize<'de> for Mipmaps {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MipmapsVisitor)
     }
 }
 

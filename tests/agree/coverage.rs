@@ -200,8 +200,9 @@ fn programs_reach_every_opcode_modifier_and_swizzle() {
 
 fn note_scene(seen: &mut Seen, case: &Case) {
     let scene = &case.scene;
-    for (_, image, state) in &scene.textures {
+    for (slot, image, state) in &scene.textures {
         seen.add("texture", image.format());
+        seen.add("generated", scene.generated.contains(slot).then(|| image.format().record().is_float()));
         seen.add("levels", image.levels().len() > 1);
         seen.add("address", (image.kind(), state.address_u));
         seen.add("filter", (image.kind(), state.min, state.mag, state.mip));
@@ -232,6 +233,7 @@ fn note_scene(seen: &mut Seen, case: &Case) {
     seen.add("scissor", scene.scissor.is_some());
     seen.add("draws", scene.draws);
     seen.add("second pass", scene.second_pass);
+    seen.add("target levels", scene.levels.map(|state| state.mip));
 }
 
 #[test]
@@ -267,6 +269,8 @@ fn scenes_reach_every_state() {
     seen.require(each("clip space", [ClipSpace::Direct3d, ClipSpace::OpenGl]));
     seen.require(each("cull", [Cull::None, Cull::Clockwise, Cull::CounterClockwise]));
     seen.require(each("draws", [1, 2]));
+    seen.require(each("generated", [None, Some(false), Some(true)]));
+    seen.require(each("target levels", mips.map(Some).into_iter().chain([None])));
     let switches = ["levels", "depth write", "indices", "instances", "viewport", "scissor", "second pass"];
     seen.require(switches.iter().flat_map(|s| each(s, [false, true])));
 }
@@ -302,7 +306,8 @@ fn every_suite_is_a_test_and_the_other_way_round() {
     let names: BTreeSet<&str> = suites.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names.len(), suites.len(), "two suites have one name");
     assert!(names.len() >= 150, "{} suites", names.len());
-    let own = ["constants::", "coverage::", "fuzz::", "planted::", "radiosity::", "steps::", "subsurface::", "traces::"];
+    let own =
+        ["constants::", "coverage::", "fuzz::", "mipmaps::", "planted::", "radiosity::", "steps::", "subsurface::", "traces::"];
     let suites_of_tests: BTreeSet<&str> = tests.into_iter().filter(|t| !own.iter().any(|o| t.starts_with(o))).collect();
     assert_eq!(suites_of_tests, names);
 }

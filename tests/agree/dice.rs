@@ -240,6 +240,8 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
             pixel_constants: constants(r),
             vertex_constants: constants(r),
             textures,
+            generated: Vec::new(),
+            levels: None,
             bump: std::array::from_fn(|_| BumpStage {
                 matrix: r.vector(),
                 luminance_scale: r.number(),
@@ -280,7 +282,27 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     if vertex_stage {
         shapes::streams(&mut scene, r);
     }
+    mipmaps(&mut scene, options, r);
     (scene, layout)
+}
+
+/// Whether the device generates mip levels of a format.
+fn generates(profile: &Profile, format: TexelFormat) -> bool {
+    !format.record().is_float() || profile.limits.float_mipmaps && profile.limits.float_filtering
+}
+
+/// Levels of textures, and of a target that is read, that the card makes itself.
+pub(crate) fn mipmaps(scene: &mut Scene, options: &Options, r: &mut Random) {
+    (scene.generated, scene.levels) = (Vec::new(), None);
+    for (slot, image, _) in &scene.textures {
+        if image.levels().len() > 1 && generates(&scene.profile, image.format()) && r.one_in(2) {
+            scene.generated.push(*slot);
+        }
+    }
+    if scene.second_pass && generates(&scene.profile, scene.targets[0]) && r.one_in(2) {
+        let like = Image::new_2d(scene.targets[0], 1, 1).unwrap_or_else(|e| panic!("{e}"));
+        scene.levels = Some(sampler(&like, options, &scene.profile, r));
+    }
 }
 
 fn depth_state(options: &Options, plain: bool, r: &mut Random) -> DepthState {

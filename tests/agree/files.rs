@@ -140,6 +140,7 @@ pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Ca
     }
     let kinds = kinds(&checked, r);
     scene.textures = dice::textures(&kinds, &options, &scene.profile, r);
+    dice::mipmaps(&mut scene, &options, r);
     let setups: Vec<&Program> =
         programs.0.iter().filter(|p| p.stage == Stage::Vertex && p.devices.iter().any(|d| d == device)).collect();
     let vertex = match r.below(3) {
@@ -180,7 +181,8 @@ fn from_setup(setup: &Setup) -> Case {
         size: setup.size,
         pixel_constants: setup.pixel_constants.clone(),
         vertex_constants: setup.vertex_constants.clone(),
-        textures: setup.textures.iter().map(|(slot, (image, state))| (*slot, image.clone(), *state)).collect(),
+        textures: setup.textures.iter().map(|(slot, t)| (*slot, t.image.clone(), t.sampler)).collect(),
+        generated: setup.textures.iter().filter(|(_, t)| t.generate_mipmaps).map(|(slot, _)| *slot).collect(),
         bump: setup.bump,
         projections: setup.projections,
         flat: setup.geometry.flat,
@@ -204,6 +206,7 @@ fn from_setup(setup: &Setup) -> Case {
         scissor: None,
         draws: 1,
         second_pass: false,
+        levels: None,
     };
     Case { scene, pixel: lines(&setup.pixel), vertex: setup.vertex.as_ref().map(lines) }
 }

@@ -15,6 +15,7 @@ mod executors;
 mod files;
 mod fuzz;
 mod generate;
+mod mipmaps;
 mod planted;
 mod radiosity;
 mod random;

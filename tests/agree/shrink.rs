@@ -128,9 +128,11 @@ fn without(scene: &mut Scene, first: usize, count: usize) {
 }
 
 /// Simplifications of a scene; the first goes with dropping the vertex program.
-const PARTS: [fn(&mut Scene); 26] = [
+const PARTS: [fn(&mut Scene); 28] = [
     |s| s.instances = 1,
     |s| s.second_pass = false,
+    |s| s.levels = None,
+    |s| s.generated.clear(),
     |s| s.draws = 1,
     |s| s.alpha = None,
     |s| s.blend = None,
@@ -170,7 +172,9 @@ pub(crate) fn describe(scene: &Scene) -> String {
         let sizes: Vec<String> =
             image.levels().iter().map(|l| format!("{}x{}x{}", l.width, l.height, l.slices)).collect();
         let format = image.format().name();
-        let _ = writeln!(text, "texture {slot}: {} {format} {}, {state:x?}", image.kind(), sizes.join(" "));
+        let generated = if scene.generated.contains(slot) { " (generated)" } else { "" };
+        let sizes = sizes.join(" ");
+        let _ = writeln!(text, "texture {slot}: {} {format} {sizes}{generated}, {state:x?}", image.kind());
     }
     let _ = writeln!(text, "{:?} of {} vertices, {} instances", scene.primitive, scene.vertices.len(), scene.instances);
     for vertex in scene.vertices.iter().take(4) {
@@ -182,6 +186,7 @@ pub(crate) fn describe(scene: &Scene) -> String {
     let _ = writeln!(text, "blend {:?}, masks {:?}", scene.blend, scene.masks);
     let _ = writeln!(text, "{:?} {:?} {:?}", scene.center, scene.clip_space, scene.cull);
     let _ = writeln!(text, "viewport {:x?}, scissor {:?}", scene.viewport, scene.scissor);
-    let _ = writeln!(text, "draws {}, second pass {}, indices {:?}", scene.draws, scene.second_pass, scene.indices);
+    let _ = writeln!(text, "draws {}, indices {:?}", scene.draws, scene.indices);
+    let _ = writeln!(text, "second pass {}, levels {:x?}", scene.second_pass, scene.levels);
     text
 }

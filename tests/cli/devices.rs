@@ -14,7 +14,7 @@ fn json(arguments: &[&str]) -> Value {
 fn all_devices_are_listed() {
     let listed = json(&["devices", "--json"]);
     let names: Vec<&str> = listed.as_array().expect("a list").iter().filter_map(|d| d["name"].as_str()).collect();
-    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200"]);
+    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900"]);
     let text = crossbar(&["devices"], "").stdout;
     for name in names {
         assert!(text.contains(&format!("| {name} ")), "{name} stands in the table:\n{text}");
@@ -23,7 +23,8 @@ fn all_devices_are_listed() {
 
 #[test]
 fn every_figure_has_a_source_and_a_confidence() {
-    for name in ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "ideal-s3.12:rtz"] {
+    for name in ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900", "ideal-s3.12:rtz"]
+    {
         let device = json(&["devices", name, "--json"]);
         let figures = device["figures"].as_array().expect("a list");
         assert!(!figures.is_empty(), "{name} has figures");

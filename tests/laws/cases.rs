@@ -79,6 +79,7 @@ const PIECES: &[&str] = &[
     "\"cube\"",
     "\"volume\"",
     "\"linear\"",
+    "\"automatic\"",
     "\"mirror\"",
     "\"less\"",
     "\"../..\"",

@@ -26,6 +26,9 @@ const CARDS: [(&str, &str); 8] = [
     ("nv35", include_str!("profiles/nv35.toml")),
     ("gt200", include_str!("profiles/gt200.toml")),
 ];
+/// Cards that differ from another in clocks alone, by age: their files state what differs from their `base`.
+const VARIANTS: [(&str, &str); 2] =
+    [("fx5800", include_str!("profiles/fx5800.toml")), ("fx5900", include_str!("profiles/fx5900.toml"))];
 const IDEAL: &str = include_str!("profiles/ideal.toml");
 
 /// Switches that alter limits, not rules.
@@ -37,7 +40,10 @@ const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
 struct RawProfile {
     name: String,
     title: String,
-    versions: RawFigure,
+    /// The card that has all figures which are not stated here.
+    base: Option<String>,
+    versions: Option<RawFigure>,
+    #[serde(default)]
     rules: BTreeMap<String, RawFigure>,
     #[serde(default)]
     limits: BTreeMap<String, RawFigure>,
@@ -49,6 +55,30 @@ struct RawProfile {
     clocks: BTreeMap<String, RawFigure>,
     #[serde(default)]
     bus: BTreeMap<String, RawFigure>,
+}
+
+impl RawProfile {
+    /// The file with what its base states besides.
+    fn read(text: &str) -> Result<Self, String> {
+        let mut own: Self = toml::from_str(text).map_err(|e| e.to_string())?;
+        let Some(name) = &own.base else { return Ok(own) };
+        let base = CARDS.iter().find(|(card, _)| card == name).ok_or_else(|| format!("base: no card `{name}`"))?;
+        let base = Self::read(base.1)?;
+        own.versions = own.versions.or(base.versions);
+        for (figures, more) in [
+            (&mut own.rules, base.rules),
+            (&mut own.limits, base.limits),
+            (&mut own.formats, base.formats),
+            (&mut own.rates, base.rates),
+            (&mut own.clocks, base.clocks),
+            (&mut own.bus, base.bus),
+        ] {
+            for (key, figure) in more {
+                figures.entry(key).or_insert(figure);
+            }
+        }
+        Ok(own)
+    }
 }
 
 /// A device: its arithmetic, its limits, its speed.
@@ -86,7 +116,7 @@ impl Profile {
     /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-`
     /// is no format.
     pub fn named(name: &str) -> Result<Self, DeviceError> {
-        if let Some((_, text)) = CARDS.iter().find(|(card, _)| *card == name) {
+        if let Some((_, text)) = CARDS.iter().chain(&VARIANTS).find(|(card, _)| *card == name) {
             return Self::from_toml(name, text);
         }
         if let Some(format) = name.strip_prefix("ideal-") {
@@ -100,14 +130,17 @@ impl Profile {
         Err(DeviceError::UnknownDevice { name: name.chars().take(60).collect(), known: Self::all_names().join(" ") })
     }
 
-    /// The names of the cards, by age, and `ideal-<format>` to stand for the rest.
+    /// The names of the cards, by age, of their variants, and `ideal-<format>` to stand for the rest.
     pub fn all_names() -> Vec<&'static str> {
-        let mut names = Self::card_names();
-        names.push("ideal-<format>");
-        names
+        Self::card_names().into_iter().chain(Self::variant_names()).chain(["ideal-<format>"]).collect()
     }
 
-    /// The names of the cards, by age.
+    /// The names of cards that draw and check what another one does, at other clocks: `fx5900` is an `nv35`.
+    pub fn variant_names() -> Vec<&'static str> {
+        VARIANTS.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// The names of the cards, by age, without [`Profile::variant_names`]: no two of them are alike.
     pub fn card_names() -> Vec<&'static str> {
         CARDS.iter().map(|(name, _)| *name).collect()
     }
@@ -213,7 +246,7 @@ impl Profile {
 
     fn from_toml(device: &str, text: &str) -> Result<Self, DeviceError> {
         let problem = |problem: String| DeviceError::Profile { device: device.to_owned(), problem };
-        let raw: RawProfile = toml::from_str(text).map_err(|e| problem(e.to_string()))?;
+        let raw = RawProfile::read(text).map_err(problem)?;
         let figures = rows(&raw);
         let switches = switches(&raw.rules);
         let rules = read_rules(&raw.rules).map_err(problem)?;
@@ -233,7 +266,8 @@ impl Profile {
         limits.depth_formats = part.names("depth")?;
         part.finish()?;
 
-        let mut part = section("versions", BTreeMap::from([("value".to_owned(), raw.versions)]));
+        let versions = raw.versions.ok_or_else(|| problem("versions are missing".to_owned()))?;
+        let mut part = section("versions", BTreeMap::from([("value".to_owned(), versions)]));
         for token in part.names("value")? {
             match token.parse() {
                 Ok(version) => limits.versions.push(version),
@@ -269,7 +303,7 @@ impl Profile {
 }
 
 fn rows(raw: &RawProfile) -> Vec<FigureRow> {
-    let mut rows = vec![raw.versions.row("versions".to_owned())];
+    let mut rows: Vec<FigureRow> = raw.versions.iter().map(|figure| figure.row("versions".to_owned())).collect();
     let sections = [
         ("rules", &raw.rules),
         ("limits", &raw.limits),

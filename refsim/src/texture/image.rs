@@ -185,6 +185,18 @@ impl Image {
         Ok(image)
     }
 
+    /// The image with so many levels: those that it has, and zero bytes in the others.
+    ///
+    /// # Errors
+    /// As [`Image::new`].
+    pub fn with_levels(&self, level_count: u32) -> Result<Self, TextureError> {
+        let depth = if self.kind == TextureKind::Cube { 1 } else { self.slices() };
+        let mut image = Self::new(self.format, self.kind, [self.width(), self.height(), depth], level_count)?;
+        let kept = image.bytes.len().min(self.bytes.len());
+        image.bytes[..kept].copy_from_slice(&self.bytes[..kept]);
+        Ok(image)
+    }
+
     /// The texel format.
     pub fn format(&self) -> TexelFormat {
         self.format

@@ -243,7 +243,8 @@ impl Model {
             let profile = Profile::named(name);
             profile.is_ok_and(|p| p.rates.figure(figure).or(p.bus.figure(figure)).is_some())
         };
-        let have: Vec<&str> = Profile::card_names().into_iter().filter(states).collect();
+        let names = Profile::card_names().into_iter().chain(Profile::variant_names());
+        let have: Vec<&str> = names.filter(states).collect();
         Err(TimingError::Missing { device: self.device.clone(), figure, have: have.join(" ") })
     }
 

@@ -57,9 +57,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// The cards side by side.
+/// The cards and their variants side by side.
 fn all(out: &mut Out) -> miette::Result<()> {
-    let profiles = Profile::card_names().into_iter().map(Profile::named).collect::<Result<Vec<_>, _>>()?;
+    let names = Profile::card_names().into_iter().chain(Profile::variant_names());
+    let profiles = names.map(Profile::named).collect::<Result<Vec<_>, _>>()?;
     if out.json() {
         let rows: Vec<Value> = profiles.iter().map(summary).collect();
         return Ok(out.document(&rows)?);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use refsim::event::{DrawRecord, Event, SamplerTraffic};
+use refsim::event::{DrawRecord, Event, MipmapRecord, SamplerTraffic};
 use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
@@ -33,7 +33,8 @@ pub(super) fn print(
     for one in timed {
         out.line("")?;
         out.line(format_args!("Model: {}", one.name()))?;
-        for table in [draws(log, one), units(one), shares(one)] {
+        let tables = [Some(draws(log, one)), mipmaps(log, one), Some(units(one)), Some(shares(one))];
+        for table in tables.into_iter().flatten() {
             out.line("")?;
             out.titled_table(&table)?;
         }
@@ -112,6 +113,32 @@ fn draws(log: &[Event], timed: &TimedLog) -> Table {
         ]);
     }
     table
+}
+
+/// The generations of mip levels of a log, each with its cost.
+fn generations<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a MipmapRecord, &'a DrawCost)> {
+    let records = log.iter().filter_map(|event| match event {
+        Event::GenerateMipmaps(record) => Some(record),
+        _ => None,
+    });
+    records.zip(&timed.replay.mipmaps)
+}
+
+/// The mip levels that the card made; none, no table.
+fn mipmaps(log: &[Event], timed: &TimedLog) -> Option<Table> {
+    let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
+    let mut table = Table::new("Generated mip levels", &headings);
+    for (record, cost) in generations(log, timed).take(MAX_DRAWS) {
+        table.push([
+            record.levels.len().into(),
+            record.texels_read().into(),
+            record.texels_written().into(),
+            us(cost.total),
+            cost.core_clocks.0.into(),
+            cost.bottleneck.to_string().into(),
+        ]);
+    }
+    (!table.rows().is_empty()).then_some(table)
 }
 
 /// Texture cache hits and misses per sampler, over all draws.
@@ -238,6 +265,16 @@ fn model(input: &Input, log: &[Event], timed: &TimedLog) -> Value {
             "bound_by": cost.bottleneck.to_string(),
         })
     });
+    let mipmaps = generations(log, timed).map(|(record, cost)| {
+        json!({
+            "levels": record.levels.len(),
+            "texels_read": record.texels_read(),
+            "texels_written": record.texels_written(),
+            "total_ps": cost.total.0,
+            "core_clocks": cost.core_clocks.0,
+            "bound_by": cost.bottleneck.to_string(),
+        })
+    });
     let units = timeline.usage().into_iter().map(|usage| {
         let reasons: serde_json::Map<String, Value> =
             usage.reasons.iter().map(|(reason, time)| (reason.to_string(), time.0.into())).collect();
@@ -266,6 +303,7 @@ fn model(input: &Input, log: &[Event], timed: &TimedLog) -> Value {
         "fragments_per_s": a_second(fragments(log, timed), whole),
         "rays_per_s": input.rays().map(|rays| a_second(rays, whole)),
         "draws": draws.collect::<Vec<_>>(),
+        "mipmaps": mipmaps.collect::<Vec<_>>(),
         "units": units.collect::<Vec<_>>(),
         "critical_path": path.collect::<Vec<_>>(),
         "sensitivity": sensitivity.collect::<Vec<_>>(),
