@@ -110,7 +110,11 @@ fn instructions(text: &str) -> usize {
     text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
 }
 
-fn checked(profile: &Profile, kernel: String, text: &str) -> Result<CheckedProgram, KernelError> {
+/// A program text, accepted by a device. `kernel` is what messages call it.
+///
+/// # Errors
+/// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
+pub(crate) fn checked(profile: &Profile, kernel: String, text: &str) -> Result<CheckedProgram, KernelError> {
     let refused = |problem| KernelError { kernel, device: profile.name.clone(), problem };
     let program = match assemble(text) {
         Ok(program) => program,

@@ -15,7 +15,7 @@ mod nearest;
 mod pass;
 mod texels;
 
-pub(crate) use kernel::kernels;
+pub(crate) use kernel::{checked, kernels};
 pub use kernel::{KernelError, KernelText};
 pub use levels::Levels;
 pub use nearest::NearestTarget;

@@ -70,6 +70,18 @@ impl Texels {
         }
     }
 
+    /// The texels of all levels of an image, finest first.
+    pub fn levels_of(image: &Image) -> Vec<Self> {
+        let levels = (0..).zip(image.levels());
+        let of = |(level, size): (u32, &refsim::texture::Level)| {
+            Self::from_fn([size.width as usize, size.height as usize], |x, y| {
+                let texel = image.texel(level, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
+                texel.to_format(Format::FP32).map(f32::from_bits)
+            })
+        };
+        levels.map(of).collect()
+    }
+
     /// A new texture of a card that holds these.
     ///
     /// # Errors

@@ -16,9 +16,11 @@
 mod dipole;
 pub mod factor;
 pub mod fresnel;
+pub mod kernels;
 pub mod links;
 mod material;
 pub mod materials;
+pub mod on_card;
 mod polygon;
 mod reference;
 mod sphere;

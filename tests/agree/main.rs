@@ -24,6 +24,7 @@ mod scene;
 mod shapes;
 mod shrink;
 mod steps;
+mod subsurface;
 mod suite;
 mod traces;
 

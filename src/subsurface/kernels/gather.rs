@@ -1,0 +1,212 @@
+//! Pass 2 (4.2.3): the programs that follow the links, written out for a number of them.
+//!
+//! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is what the sum is multiplied by at the end. The sum starts
+//! at 0, or at what the pass before wrote (sampler 1), and takes link after link: a product, then a sum.
+//!
+//! - *Fixed*: `p[1 + n]` is the place of link n in its level. Factors of four links lie in one texel, or with three
+//!   channels in three: the first three links' in their xyz, the fourth's in the three w.
+//! - *Adaptive*: a texel of link n has u, v, factor (with three channels: nothing, and a second texel has the factors),
+//!   and in w the level. For a map with levels, w is 2^level / side, given as both components of a derivative to `TXD`:
+//!   the level of detail is then level + 1/2, of which the sampler's bias takes the half away. For a rectangle that holds
+//!   all levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): level k begins at 2 side - 2 w.
+
+use std::fmt::Write as _;
+
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+
+use crate::card::{KernelError, checked};
+
+/// How links are chosen, as the program sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LinkLayout {
+    /// All links of a texel lead to one level; places in constants.
+    Fixed,
+    /// Each link has its own place and level.
+    Adaptive,
+}
+
+/// What kind of texture the radiosity map is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MapTexture {
+    /// A texture with levels.
+    Leveled,
+    /// A rectangle: one level, or all of them side by side.
+    Rectangle,
+}
+
+impl MapTexture {
+    fn target(self) -> &'static str {
+        match self {
+            Self::Leveled => "2D",
+            Self::Rectangle => "RECT",
+        }
+    }
+}
+
+/// A program of pass 2, but for the number of links.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GatherKernel {
+    /// How links are chosen.
+    pub layout: LinkLayout,
+    /// Whether factors are of three channels.
+    pub rgb: bool,
+    /// What the map is.
+    pub map: MapTexture,
+    /// Whether it computes in half precision.
+    pub half: bool,
+    /// Whether it adds to what the pass before wrote.
+    pub continues: bool,
+}
+
+impl GatherKernel {
+    /// All of them.
+    pub fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {
+            for map in [MapTexture::Leveled, MapTexture::Rectangle] {
+                for bits in 0..8_u8 {
+                    let [rgb, half, continues] = [1, 2, 4].map(|bit| bits & bit != 0);
+                    all.push(Self { layout, rgb, map, half, continues });
+                }
+            }
+        }
+        all
+    }
+
+    /// A name for messages.
+    pub fn name(&self) -> String {
+        let layout = if self.layout == LinkLayout::Fixed { "fixed" } else { "adaptive" };
+        let map = if self.map == MapTexture::Leveled { "leveled" } else { "rectangle" };
+        let part = |on: bool, word: &'static str| if on { word } else { "" };
+        let [rgb, half] = [part(self.rgb, "_rgb"), part(self.half, "_half")];
+        format!("gather_{layout}_{map}{rgb}{half}{}", part(self.continues, "_next"))
+    }
+
+    /// The program for so many links.
+    pub fn text(&self, links: usize) -> String {
+        let mut writer = Writer { kernel: *self, text: "!!FP1.0\n".to_owned(), unit: 1 };
+        let _ = writeln!(writer.text, "# {}: {links} links", self.name());
+        if self.continues {
+            writer.read(SUM, "f[TEX0]");
+        }
+        match self.layout {
+            LinkLayout::Fixed => (0..links).step_by(4).for_each(|from| writer.fixed(from, links)),
+            LinkLayout::Adaptive => (0..links).for_each(|_| writer.adaptive()),
+        }
+        let _ = writeln!(writer.text, "MULR o[COLR], {}, p[0];\nEND", writer.register(SUM));
+        writer.text
+    }
+
+    /// Instructions for so many links.
+    pub fn instructions(&self, links: usize) -> usize {
+        self.text(links).lines().filter(|line| line.ends_with(';')).count()
+    }
+
+    /// Samplers for so many links.
+    pub fn samplers(&self, links: usize) -> usize {
+        let textures = match (self.layout, self.rgb) {
+            (LinkLayout::Fixed, false) => links.div_ceil(4),
+            (LinkLayout::Fixed, true) => links / 4 * 3 + (links % 4).min(3),
+            (LinkLayout::Adaptive, rgb) => links * if rgb { 2 } else { 1 },
+        };
+        1 + usize::from(self.continues) + textures
+    }
+
+    /// Constants for so many links.
+    pub fn constants(&self, links: usize) -> usize {
+        match (self.layout, self.map) {
+            (LinkLayout::Fixed, _) => 1 + links,
+            (LinkLayout::Adaptive, MapTexture::Leveled) => 1,
+            (LinkLayout::Adaptive, MapTexture::Rectangle) => 2,
+        }
+    }
+
+    /// The program for so many links, accepted by a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if it breaks a rule of the device.
+    pub fn checked(&self, profile: &Profile, links: usize) -> Result<CheckedProgram, KernelError> {
+        checked(profile, format!("`{}`, written out for {links} links", self.name()), &self.text(links))
+    }
+}
+
+/// Registers: the sum, a texel of the map, a place, and texels of factors or links from [`FACTORS`] on.
+const SUM: usize = 1;
+const TEXEL: usize = 2;
+const FACTORS: usize = 3;
+const PLACE: &str = "R0";
+const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
+
+struct Writer {
+    kernel: GatherKernel,
+    text: String,
+    /// The next image unit that is free.
+    unit: usize,
+}
+
+impl Writer {
+    fn register(&self, number: usize) -> String {
+        format!("{}{number}", if self.kernel.half { 'H' } else { 'R' })
+    }
+
+    /// Reads the next texture.
+    fn read(&mut self, into: usize, at: &str) {
+        let _ = writeln!(self.text, "TEX {}, {at}, TEX{}, RECT;", self.register(into), self.unit);
+        self.unit += 1;
+    }
+
+    /// Reads the map.
+    fn read_map(&mut self, at: &str) {
+        let _ = writeln!(self.text, "TEX {}, {at}, TEX0, {};", self.register(TEXEL), self.kernel.map.target());
+    }
+
+    /// Adds the map's texel times a factor to the components of a mask.
+    fn add(&mut self, mask: &str, factor: &str) {
+        let [sum, texel] = [SUM, TEXEL].map(|number| self.register(number));
+        let letter = if self.kernel.half { 'H' } else { 'R' };
+        let _ = writeln!(self.text, "MAD{letter} {sum}.{mask}, {texel}, {factor}, {sum};");
+    }
+
+    /// Up to four links from `from` on.
+    fn fixed(&mut self, from: usize, links: usize) {
+        let count = (links - from).min(4);
+        let textures = if self.kernel.rgb { count.min(3) } else { 1 };
+        for texture in 0..textures {
+            self.read(FACTORS + texture, "f[TEX0]");
+        }
+        for link in 0..count {
+            self.read_map(&format!("p[{}]", 1 + from + link));
+            match (self.kernel.rgb, link) {
+                (false, _) => self.add("xyz", &format!("{}.{}", self.register(FACTORS), COMPONENTS[link])),
+                (true, 3) => {
+                    for (texture, mask) in COMPONENTS[..3].iter().enumerate() {
+                        self.add(mask, &format!("{}.w", self.register(FACTORS + texture)));
+                    }
+                }
+                (true, _) => self.add("xyz", &self.register(FACTORS + link)),
+            }
+        }
+    }
+
+    fn adaptive(&mut self) {
+        self.read(FACTORS, "f[TEX0]");
+        let link = self.register(FACTORS);
+        if self.kernel.rgb {
+            self.read(FACTORS + 1, "f[TEX0]");
+        }
+        match self.kernel.map {
+            MapTexture::Leveled => {
+                let texel = self.register(TEXEL);
+                let _ = writeln!(self.text, "TXD {texel}, {link}, {link}.w, {{0, 0, 0, 0}}, TEX0, 2D;");
+            }
+            MapTexture::Rectangle => {
+                let _ = writeln!(self.text, "MADR {PLACE}, {link}.w, p[1].xzzz, p[1].yzzz;");
+                let _ = writeln!(self.text, "MADR {PLACE}.xy, {link}, {link}.w, {PLACE};");
+                self.read_map(PLACE);
+            }
+        }
+        let factor = if self.kernel.rgb { self.register(FACTORS + 1) } else { format!("{link}.z") };
+        self.add("xyz", &factor);
+    }
+}

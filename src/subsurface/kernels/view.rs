@@ -1,0 +1,235 @@
+//! Pass 3 (4.2.4): the fragment programs that draw the model.
+//!
+//! - TEX0: the place in the atlas by the two halves of the face (xy: a, b, m; zw: a, m, c); TEX1: the face's bounds in
+//!   the atlas, half a texel inside; TEX2: the normal, in w the weight of corner b less that of corner c; TEX3: the
+//!   position; TEX4: direct light by vertex.
+//! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
+//! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest squared
+//!   distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta; table:
+//!   from cosine to coordinate, scale and offset; in w the shininess. `p[3]`: ambient light. Each light: `p[4]` position
+//!   (w = 1) or direction towards it (w = 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
+
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+
+use super::LightKernel;
+use crate::card::{KernelError, KernelText, checked};
+
+/// The Fresnel transmittance towards the eye.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum EyeTransmittance {
+    /// Computed by the program.
+    #[default]
+    Exact,
+    /// Read from a 1-D texture by the cosine.
+    Table,
+    /// A constant: the mean over the hemisphere.
+    Mean,
+}
+
+/// Where direct light is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DirectLight {
+    /// There is none.
+    None,
+    /// At the vertices, interpolated.
+    #[default]
+    ByVertex,
+    /// At each fragment.
+    ByFragment,
+}
+
+/// How scattered and direct light make a color.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Combine {
+    /// Their sum (section 4.2: "added in").
+    #[default]
+    Added,
+    /// Their product (4.2.4: "modulated").
+    Modulated,
+}
+
+/// A fragment program of pass 3, but for the number of lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ViewKernel {
+    /// Transmittance towards the eye.
+    pub transmittance: EyeTransmittance,
+    /// Direct light.
+    pub direct: DirectLight,
+    /// Sum or product.
+    pub combine: Combine,
+}
+
+const PLACE: &str = "!!FP1.0
+# the half of the face, and its bounds
+MOVRC RC.x, f[TEX2].w;
+MOVR R0.xy, f[TEX0];
+MOVR R0.xy(LT.x), f[TEX0].zwzw;
+MAXR R0.xy, R0, f[TEX1];
+MINR R0.xy, R0, f[TEX1].zwzw;
+# four texels around, none beyond the bounds
+ADDR R0.xy, R0, {-0.5, -0.5}.xyxy;
+FRCR R1.xy, R0;
+ADDR R0.xy, R0, -R1;
+ADDR R0, R0.xyxy, {0.5, 0.5, 1.5, 1.5};
+MINR R0.zw, R0, f[TEX1];
+TEX R2, R0, TEX0, RECT;
+TEX R3, R0.zyzw, TEX0, RECT;
+TEX R4, R0.xwzw, TEX0, RECT;
+TEX R5, R0.zwzw, TEX0, RECT;
+# between them: where all four are the same, so is what comes out
+ADDR R3, R3, -R2;
+MADR R2, R3, R1.x, R2;
+ADDR R5, R5, -R4;
+MADR R4, R5, R1.x, R4;
+ADDR R4, R4, -R2;
+MADR R2, R4, R1.y, R2;
+";
+
+const DIRECTIONS: &str = "# the unit normal
+DP3R R3.w, f[TEX2], f[TEX2];
+MAXR R3.w, R3.w, p[1].w;
+RSQR R3.w, R3.w;
+MULR R3.xyz, f[TEX2], R3.w;
+# to the eye
+MOVR R4, p[1];
+ADDR R4.xyz, R4, -f[TEX3];
+DP3R R4.w, R4, R4;
+MAXR R4.w, R4.w, p[1].w;
+RSQR R4.w, R4.w;
+MULR R4.xyz, R4, R4.w;
+";
+
+const EXACT: &str = "# half the transmittance: c g (1/(c + g)^2 + (eta/(eta^2 c + g))^2), g = sqrt(eta^2 - 1 + c^2)
+DP3R_SAT R5.x, R3, R4;
+MADR R5.y, R5.x, R5.x, p[2].x;
+RSQR R5.z, R5.y;
+MULR R5.y, R5.y, R5.z;
+ADDR R5.z, R5.x, R5.y;
+MADR R5.w, R5.x, p[2].y, R5.y;
+RCPR R5.z, R5.z;
+RCPR R5.w, R5.w;
+MULR R5.w, R5.w, p[2].z;
+MULR R5.zw, R5, R5;
+ADDR R5.z, R5.z, R5.w;
+MULR R5.x, R5.x, R5.y;
+MULR R5.x, R5.x, R5.z;
+MULR R2.xyz, R2, R5.x;
+";
+
+const TABLE: &str = "# the transmittance from a table
+DP3R_SAT R5.x, R3, R4;
+MADR R5.x, R5.x, p[2].x, p[2].y;
+TEX R5, R5.x, TEX1, 1D;
+MULR R2.xyz, R2, R5.x;
+";
+
+const LIGHTS: &str = "# direct light
+MOVR R6, p[3];
+MOVR R10.w, p[2];
+# a light
+MOVR R7, p[4];
+MADR R7.xyz, f[TEX3], -R7.w, R7;
+DP3R R7.w, R7, R7;
+MAXR R7.w, R7.w, p[0].w;
+RSQR R8.w, R7.w;
+DSTR R9, R7.w, R8.w;
+DP3R R9.w, R9, p[5];
+RCPR R9.w, R9.w;
+MULR R7.xyz, R7, R8.w;
+ADDR R8.xyz, R7, R4;
+DP3R R8.w, R8, R8;
+MAXR R8.w, R8.w, p[1].w;
+RSQR R8.w, R8.w;
+DP3R R10.x, R3, R7;
+DP3R R10.y, R3, R8;
+MULR R10.y, R10.y, R8.w;
+LITR R7, R10;
+MULR R7.yz, R7, R9.w;
+MADR R6.xyz, R7.y, p[6], R6;
+MADR R6.xyz, R7.z, p[7], R6;
+# end of a light
+";
+
+impl ViewKernel {
+    /// All of them.
+    pub fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for transmittance in [EyeTransmittance::Exact, EyeTransmittance::Table, EyeTransmittance::Mean] {
+            for direct in [DirectLight::None, DirectLight::ByVertex, DirectLight::ByFragment] {
+                let combine = [Combine::Added, Combine::Modulated];
+                let combine = if direct == DirectLight::None { &combine[..1] } else { &combine };
+                all.extend(combine.iter().map(|&combine| Self { transmittance, direct, combine }));
+            }
+        }
+        all
+    }
+
+    /// A name for messages.
+    pub fn name(&self) -> String {
+        let transmittance = match self.transmittance {
+            EyeTransmittance::Exact => "exact",
+            EyeTransmittance::Table => "table",
+            EyeTransmittance::Mean => "mean",
+        };
+        let direct = match self.direct {
+            DirectLight::None => "",
+            DirectLight::ByVertex => "_by_vertex",
+            DirectLight::ByFragment => "_by_fragment",
+        };
+        let combine = if self.combine == Combine::Modulated { "_modulated" } else { "" };
+        format!("view_{transmittance}{direct}{combine}")
+    }
+
+    /// The program for so many lights by fragment.
+    pub fn text(&self, lights: usize) -> String {
+        let by_fragment = self.direct == DirectLight::ByFragment;
+        let mut text = PLACE.to_owned();
+        if by_fragment || self.transmittance != EyeTransmittance::Mean {
+            text.push_str(DIRECTIONS);
+        }
+        text.push_str(match self.transmittance {
+            EyeTransmittance::Exact => EXACT,
+            EyeTransmittance::Table => TABLE,
+            EyeTransmittance::Mean => "",
+        });
+        if by_fragment {
+            text.push_str(&LIGHT_PART.text(lights));
+        }
+        text.push_str("# the color\n");
+        let direct = if by_fragment { "R6" } else { "f[TEX4]" };
+        text.push_str(&match (self.direct, self.combine) {
+            (DirectLight::None, _) => "MULR o[COLR].xyz, R2, p[0];\n".to_owned(),
+            (_, Combine::Added) => format!("MADR o[COLR].xyz, R2, p[0], {direct};\n"),
+            (_, Combine::Modulated) => format!("MULR R2, R2, p[0];\nMULR o[COLR].xyz, R2, {direct};\n"),
+        });
+        text.push_str("MOVR o[COLR].w, {1}.x;\nEND\n");
+        text
+    }
+
+    /// The most lights by fragment of a program with so many instruction slots and constants.
+    pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
+        let instructions = |lights| self.text(lights).lines().filter(|line| line.ends_with(';')).count();
+        let [none, one] = [0, 1].map(instructions);
+        let by_length = slots.saturating_sub(none) / one.saturating_sub(none).max(1);
+        by_length.min(constants.saturating_sub(LIGHT_PART.first) / LIGHT_PART.step)
+    }
+
+    /// The program for so many lights by fragment, accepted by a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if it breaks a rule of the device.
+    pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
+        let name = self.name();
+        let name = if self.direct == DirectLight::ByFragment {
+            format!("`{name}`, written out for {lights} lights")
+        } else {
+            format!("`{name}`")
+        };
+        checked(profile, name, &self.text(lights))
+    }
+}
+
+/// The part with direct light.
+const LIGHT_PART: LightKernel =
+    LightKernel { kernel: KernelText { name: "direct light", text: LIGHTS }, prefix: "p[", first: 4, step: 4 };

@@ -1,0 +1,153 @@
+//! Pass 2 (4.2.3): scattered irradiance, gathered over the links of each texel.
+
+use refsim::device::Profile;
+use refsim::exec::{CheckedProgram, Constants};
+use refsim::machine::{Machine, TextureId};
+
+use super::error::SubsurfaceCardError;
+use super::levels::LeveledMap;
+use super::link_textures::LinkTextures;
+use super::options::SubsurfaceCardOptions;
+use super::pass::{QuadPass, constants, nearest};
+use crate::card::new_target;
+use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
+
+/// A program of pass 2, accepted by the device.
+#[derive(Clone, Debug)]
+pub struct GatherProgram {
+    /// What it was written from.
+    pub kernel: GatherKernel,
+    /// The first link that it follows.
+    pub from: usize,
+    /// The number of links that it follows.
+    pub links: usize,
+    checked: CheckedProgram,
+}
+
+impl GatherProgram {
+    /// The number of its instructions.
+    pub fn instructions(&self) -> usize {
+        self.checked.instructions.len()
+    }
+
+    /// The number of textures that it reads.
+    pub fn samplers(&self) -> usize {
+        self.kernel.samplers(self.links)
+    }
+}
+
+/// Textures, programs and targets of pass 2.
+#[derive(Debug)]
+pub(super) struct Gather {
+    side: u32,
+    level: Option<u32>,
+    /// What the sum is multiplied by at the end.
+    factor: f32,
+    textures: Vec<TextureId>,
+    pub(super) programs: Vec<GatherProgram>,
+    /// One, or two that passes write in turn.
+    targets: Vec<TextureId>,
+}
+
+impl Gather {
+    pub(super) fn new(
+        machine: &mut Machine,
+        links: &LinkTextures,
+        options: &SubsurfaceCardOptions,
+    ) -> Result<Self, SubsurfaceCardError> {
+        let map = map_texture(options);
+        let programs = programs(machine.profile(), links, options)?;
+        let format = options.links.format();
+        let upload = |index| Ok(links.on_card(index, map).upload(machine, format)?);
+        let textures = (0..links.texture_count()).map(upload).collect::<Result<_, SubsurfaceCardError>>()?;
+        let target = |_| Ok(new_target(machine, options.scattered.format(), [links.side as usize; 2])?);
+        let targets = (0..programs.len().min(2)).map(target).collect::<Result<_, SubsurfaceCardError>>()?;
+        let factor = (1.0 / options.map.scale()) as f32;
+        Ok(Self { side: links.side, level: links.level, factor, textures, programs, targets })
+    }
+
+    /// Gathers from a map.
+    pub(super) fn run(&self, machine: &mut Machine, map: &LeveledMap) -> Result<(), SubsurfaceCardError> {
+        let mut next = 0;
+        for (pass, program) in self.programs.iter().enumerate() {
+            let kernel = program.kernel;
+            let mut textures = vec![map.read(self.level)];
+            if kernel.continues {
+                textures.extend(nearest([self.target(pass - 1)]));
+            }
+            let count = program.samplers() - textures.len();
+            textures.extend(self.textures[next..next + count].iter().flat_map(|&texture| nearest([texture])));
+            next += count;
+            let constants = self.constants(program, pass + 1 == self.programs.len());
+            let target = self.target(pass);
+            QuadPass { program: &program.checked, constants: &constants, textures: &textures, target, part: None }
+                .draw(machine, [self.side; 2])?;
+        }
+        Ok(())
+    }
+
+    fn constants(&self, program: &GatherProgram, last: bool) -> Constants {
+        let factor = if last { self.factor } else { 1.0 };
+        let places = match (self.level, program.kernel.map) {
+            (Some(level), map) => {
+                let width = self.side >> level;
+                let unit = if map == MapTexture::Leveled { width as f32 } else { 1.0 };
+                let place = |link: usize| {
+                    let [x, y] = [link as u32 % width, link as u32 / width].map(|at| (at as f32 + 0.5) / unit);
+                    [x, y, 0.0, 0.0]
+                };
+                (program.from..program.from + program.links).map(place).collect()
+            }
+            (None, MapTexture::Rectangle) => vec![[-2.0, 2.0 * self.side as f32, 0.0, 0.0]],
+            (None, MapTexture::Leveled) => Vec::new(),
+        };
+        constants(std::iter::once([factor; 4]).chain(places))
+    }
+
+    fn target(&self, pass: usize) -> TextureId {
+        self.targets[pass % self.targets.len()]
+    }
+
+    /// The scattered irradiance.
+    pub(super) fn scattered(&self) -> TextureId {
+        self.target(self.programs.len() - 1)
+    }
+}
+
+/// What kind of texture the map is.
+pub(super) fn map_texture(options: &SubsurfaceCardOptions) -> MapTexture {
+    if options.map.is_leveled() { MapTexture::Leveled } else { MapTexture::Rectangle }
+}
+
+/// The programs that follow all links: as many links per pass as the device's samplers, constants and instructions hold.
+pub(super) fn programs(
+    profile: &Profile,
+    links: &LinkTextures,
+    options: &SubsurfaceCardOptions,
+) -> Result<Vec<GatherProgram>, SubsurfaceCardError> {
+    let mut programs = Vec::new();
+    let mut from = 0;
+    while from < links.count {
+        let kernel = GatherKernel { continues: from > 0, ..links.kernel(map_texture(options), options.half) };
+        let most = most_links(profile, kernel)?.min(links.count - from);
+        programs.push(GatherProgram { kernel, from, links: most, checked: kernel.checked(profile, most)? });
+        from += most;
+    }
+    Ok(programs)
+}
+
+/// The most links of one pass. Fixed ones by fours, which share textures.
+fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, SubsurfaceCardError> {
+    let limits = &profile.limits;
+    let samplers = limits.samplers.unwrap_or(16).min(16);
+    let constants = limits.fragment_parameters.unwrap_or(64);
+    let instructions = limits.fragment_instructions.unwrap_or(1024) as usize;
+    let fits = |links: &usize| {
+        kernel.samplers(*links) <= samplers as usize
+            && kernel.constants(*links) <= constants as usize
+            && kernel.instructions(*links) <= instructions
+    };
+    let step = if kernel.layout == LinkLayout::Fixed { 4 } else { 1 };
+    let most = (1..=64).map(|count| count * step).take_while(fits).last();
+    most.ok_or_else(|| SubsurfaceCardError::NoRoom { device: profile.name.clone(), samplers, constants })
+}

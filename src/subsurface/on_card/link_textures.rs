@@ -1,0 +1,113 @@
+//! Links as the programs of pass 2 read them.
+
+use super::error::{SubsurfaceCardError, same};
+use super::options::FloatTexels;
+use crate::card::Texels;
+use crate::subsurface::factor::SurfaceMoments;
+use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
+use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
+
+/// The links of all texels as textures, not yet rounded.
+#[derive(Clone, Debug)]
+pub struct LinkTextures {
+    pub(super) side: u32,
+    /// The level of fixed links.
+    pub(super) level: Option<u32>,
+    pub(super) rgb: bool,
+    /// Links per texel.
+    pub(super) count: usize,
+    /// As [`EncodedLinks`] has them.
+    textures: Vec<Texels>,
+}
+
+impl LinkTextures {
+    /// Of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times area; with
+    /// [`MeanWeighting::Count`] texels of levels count by their number.
+    pub fn new(links: &Links, surface: &SurfaceMoments, weighting: MeanWeighting) -> Self {
+        let encoded = EncodedLinks::new(links, surface, weighting);
+        let level = match links.choice() {
+            LinkChoice::Fixed { level } => Some(level),
+            LinkChoice::Adaptive { .. } => None,
+        };
+        let textures = (0..encoded.texture_count()).map(|index| encoded.texture(index)).collect();
+        Self { side: links.side(), level, rgb: links.channels() == 3, count: links.per_texel(), textures }
+    }
+
+    /// Of textures laid out as those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each to
+    /// its own.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Size`] for another number of textures or texels.
+    pub fn from_textures(
+        side: u32,
+        level: Option<u32>,
+        rgb: bool,
+        count: usize,
+        textures: Vec<Texels>,
+    ) -> Result<Self, SubsurfaceCardError> {
+        let expected = match (level, rgb) {
+            (Some(_), false) => count.div_ceil(4),
+            (Some(_), true) => 3 * count.div_ceil(4),
+            (None, rgb) => count * if rgb { 2 } else { 1 },
+        };
+        same("textures of links", expected, textures.len())?;
+        for texture in &textures {
+            same("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
+        }
+        if let Some(level) = level {
+            let width = (side >> level.min(31)) as usize;
+            same("links to a level", width * width, count)?;
+        }
+        Ok(Self { side, level, rgb, count, textures })
+    }
+
+    /// How links are chosen, as programs see it.
+    pub fn layout(&self) -> LinkLayout {
+        if self.level.is_some() { LinkLayout::Fixed } else { LinkLayout::Adaptive }
+    }
+
+    /// Links per texel.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The program that follows the links in a map of this kind.
+    pub(super) fn kernel(&self, map: MapTexture, half: bool) -> GatherKernel {
+        GatherKernel { layout: self.layout(), rgb: self.rgb, map, half, continues: false }
+    }
+
+    /// The number of textures on the card.
+    pub(super) fn texture_count(&self) -> usize {
+        self.kernel(MapTexture::Leveled, false).samplers(self.count) - 1
+    }
+
+    /// Bytes of the textures on the card.
+    pub(super) fn bytes(&self, format: FloatTexels) -> u64 {
+        let texels = u64::from(self.side) * u64::from(self.side);
+        texels * self.texture_count() as u64 * format.format().bytes() as u64
+    }
+
+    /// A texture as [`GatherKernel`] reads it.
+    pub(super) fn on_card(&self, index: usize, map: MapTexture) -> Texels {
+        let size = [self.side as usize; 2];
+        let at = |texture: usize, x: usize, y: usize| self.textures[texture].row(y)[x];
+        match (self.level, self.rgb) {
+            (Some(_), false) => self.textures[index].clone(),
+            (Some(_), true) => {
+                // Four links: three textures of a channel each become three of a link each, with the fourth link in w.
+                let (group, link) = (index / 3 * 3, index % 3);
+                Texels::from_fn(size, |x, y| {
+                    let channels = [0, 1, 2].map(|channel| at(group + channel, x, y));
+                    let [r, g, b] = channels.map(|factors| factors[link]);
+                    [r, g, b, channels[link][3]]
+                })
+            }
+            (None, true) if index % 2 == 1 => self.textures[index].clone(),
+            (None, _) => Texels::from_fn(size, |x, y| {
+                let [u, v, factor, level] = at(index, x, y);
+                let width = (self.side >> (level as u32).min(31)) as f32;
+                [u, v, factor, if map == MapTexture::Leveled { 1.0 / width } else { width }]
+            }),
+        }
+    }
+}

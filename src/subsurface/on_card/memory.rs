@@ -1,0 +1,48 @@
+//! What the passes take of the card's memory.
+
+use super::error::SubsurfaceCardError;
+use super::levels::LeveledMap;
+use super::link_textures::LinkTextures;
+use super::options::{LightStage, SubsurfaceCardOptions};
+use refsim::device::Profile;
+
+/// Bytes of textures and targets by what they are for, without the picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CardMemory {
+    /// What, and how many bytes.
+    pub parts: Vec<(&'static str, u64)>,
+}
+
+impl CardMemory {
+    pub(super) fn new(links: &LinkTextures, options: &SubsurfaceCardOptions, gather_passes: usize) -> Self {
+        let texels = u64::from(links.side) * u64::from(links.side);
+        let [map, levels, row] = LeveledMap::bytes(options.map, links.side, links.layout());
+        let geometry = if options.light == LightStage::Texels { 2 * 16 * texels } else { 0 };
+        let scattered = texels * options.scattered.format().bytes() as u64 * gather_passes.min(2) as u64;
+        let parts = vec![
+            ("links", links.bytes(options.links)),
+            ("radiosity map", map),
+            ("levels", levels),
+            ("levels side by side", row),
+            ("scattered irradiance", scattered),
+            ("geometry image and normal map", geometry),
+        ];
+        Self { parts: parts.into_iter().filter(|part| part.1 > 0).collect() }
+    }
+
+    /// All of it.
+    pub fn bytes(&self) -> u64 {
+        self.parts.iter().map(|part| part.1).sum()
+    }
+
+    pub(super) fn check(&self, profile: &Profile, held: Option<u64>) -> Result<(), SubsurfaceCardError> {
+        match held {
+            Some(held) if self.bytes() > held => {
+                let parts: Vec<String> = self.parts.iter().map(|(what, bytes)| format!("{what} {bytes}")).collect();
+                let (device, needed) = (profile.name.clone(), self.bytes());
+                Err(SubsurfaceCardError::Memory { device, needed, held, parts: parts.join(", ") })
+            }
+            _ => Ok(()),
+        }
+    }
+}

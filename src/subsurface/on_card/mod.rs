@@ -1,0 +1,242 @@
+//! The three passes of section 4.2 on an emulated card.
+//!
+//! A [`SubsurfaceCard`] holds links, geometry and maps of one model. [`SubsurfaceCard::light`] runs passes 1 and 2 for
+//! new lights, [`SubsurfaceCard::view`] pass 3 for a new camera: links stay, and a view needs no new light.
+
+mod error;
+mod gather;
+mod levels;
+mod light;
+mod link_textures;
+mod memory;
+mod model;
+mod options;
+pub mod order;
+mod pass;
+mod radiosity_map;
+mod time;
+mod view;
+
+use std::sync::Arc;
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, Machine};
+use refsim::texture::TexelFormat;
+
+pub use error::SubsurfaceCardError;
+pub use gather::GatherProgram;
+pub use light::Light;
+pub use link_textures::LinkTextures;
+pub use memory::CardMemory;
+pub use model::CardModel;
+pub use options::{FloatTexels, LightStage, MapFormat, SubsurfaceCardOptions};
+pub use time::{PassEvent, PassKind, PassTime, pass_times};
+pub use view::View;
+
+use crate::card::Texels;
+use crate::picture::Picture;
+use error::{has_programs, same};
+use gather::Gather;
+use levels::LeveledMap;
+use light::CardLights;
+use radiosity_map::LightPass;
+use view::ViewPass;
+
+/// Texels per side where a device states no limit.
+const MAX_TEXELS: u32 = 16384;
+
+/// A model on a card, with its links. Dark at first.
+#[derive(Debug)]
+pub struct SubsurfaceCard {
+    machine: Machine,
+    options: SubsurfaceCardOptions,
+    model: CardModel,
+    memory: CardMemory,
+    map: LeveledMap,
+    light: LightPass,
+    gather: Gather,
+    view: ViewPass,
+    lights: CardLights,
+    /// The log by pass, while it is recorded.
+    log: Option<Vec<PassEvent>>,
+}
+
+impl SubsurfaceCard {
+    /// Uploads a model and its links. `eta` is the index of refraction.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError`] if the device has no such programs, an atlas or a program is too large for it, the links
+    /// are of another atlas, or a figure is out of its range.
+    pub fn new(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        model: CardModel,
+        links: &LinkTextures,
+        eta: f64,
+        options: SubsurfaceCardOptions,
+    ) -> Result<Self, SubsurfaceCardError> {
+        let profile = profile.into();
+        options.check()?;
+        same("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
+        Self::fits(&profile, links, &options)?;
+        let passes = gather::programs(&profile, links, &options)?.len();
+        let memory = CardMemory::new(links, &options, passes);
+        memory.check(&profile, options.memory)?;
+        let mut machine = executor.into().machine(profile)?;
+        let map = LeveledMap::new(&mut machine, options.map, model.side(), links.layout())?;
+        let light = LightPass::new(&mut machine, &model, (options.light, options.map), eta)?;
+        let gather = Gather::new(&mut machine, links, &options)?;
+        let view = ViewPass::new(&model, eta);
+        let lights = CardLights::default();
+        Ok(Self { machine, options, model, memory, map, light, gather, view, lights, log: None })
+    }
+
+    /// Checks the sizes before anything is made.
+    fn fits(
+        profile: &Profile,
+        links: &LinkTextures,
+        options: &SubsurfaceCardOptions,
+    ) -> Result<(), SubsurfaceCardError> {
+        if !has_programs(profile) {
+            return Err(SubsurfaceCardError::no_programs(profile));
+        }
+        let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
+        let limit = sides.min().unwrap_or(MAX_TEXELS);
+        let row = !options.map.is_leveled() && links.level.is_none();
+        let (what, width) = if row { ("the row of levels", 2 * links.side) } else { ("the atlas", links.side) };
+        if width > limit {
+            let (device, height) = (profile.name.clone(), links.side);
+            return Err(SubsurfaceCardError::TooLarge { device, what, width, height, limit });
+        }
+        Ok(())
+    }
+
+    /// The variants that it was made with.
+    pub fn options(&self) -> &SubsurfaceCardOptions {
+        &self.options
+    }
+
+    /// What the passes take of the card's memory.
+    pub fn memory(&self) -> &CardMemory {
+        &self.memory
+    }
+
+    /// The programs of pass 2, one per pass over links.
+    pub fn gather_programs(&self) -> &[GatherProgram] {
+        &self.gather.programs
+    }
+
+    /// Passes that pass 1 takes for so many lights beside skies.
+    pub fn light_passes(&self, lights: usize) -> usize {
+        self.light.passes(lights)
+    }
+
+    /// New lights: passes 1 and 2.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Light`], [`SubsurfaceCardError::Machine`].
+    pub fn light(&mut self, lights: &[Light]) -> Result<(), SubsurfaceCardError> {
+        self.lights = CardLights::new(lights, &self.model)?;
+        self.light.run(&mut self.machine, &self.lights, self.map.map)?;
+        self.scatter()
+    }
+
+    /// Irradiances of a table (equation 8: what has entered the surface), one per face, in place of pass 1; then pass 2.
+    /// There is no direct light then.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Size`], [`SubsurfaceCardError::Figure`], [`SubsurfaceCardError::Machine`].
+    pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
+        self.lights = CardLights::default();
+        self.light.fill_from_table(&mut self.machine, &self.model, by_face, self.map.map)?;
+        self.scatter()
+    }
+
+    /// Levels and pass 2.
+    fn scatter(&mut self) -> Result<(), SubsurfaceCardError> {
+        self.note(PassKind::RadiosityMap);
+        self.map.fill(&mut self.machine)?;
+        self.note(PassKind::Levels);
+        self.gather.run(&mut self.machine, &self.map)?;
+        self.note(PassKind::Gather);
+        Ok(())
+    }
+
+    /// The model from a camera: pass 3. Pixels that show nothing are 0.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Lights`], [`SubsurfaceCardError::Figure`], [`SubsurfaceCardError::Machine`].
+    pub fn view(&mut self, view: &View) -> Result<Picture, SubsurfaceCardError> {
+        let Texels { width, height, texels } = self.view_texels(view)?;
+        let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
+        Ok(Picture::rgb(width as u32, height as u32, &pixels))
+    }
+
+    /// As [`Self::view`], with an alpha of 1 where the model is.
+    ///
+    /// # Errors
+    /// As [`Self::view`].
+    pub fn view_texels(&mut self, view: &View) -> Result<Texels, SubsurfaceCardError> {
+        let scene = (&self.model, &self.lights);
+        let target = self.view.draw(&mut self.machine, scene, self.gather.scattered(), view)?;
+        self.note(PassKind::View);
+        let texels = Texels::read_back(&self.machine, target.color)?;
+        self.note(PassKind::View);
+        Ok(texels)
+    }
+
+    /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area over the mean
+    /// area, times the map's scale.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Machine`].
+    pub fn read_levels(&self) -> Result<Vec<Texels>, SubsurfaceCardError> {
+        self.map.read_back(&self.machine)
+    }
+
+    /// Reads the scattered irradiance: B of equation 9 per texel.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Machine`].
+    pub fn read_scattered(&self) -> Result<Texels, SubsurfaceCardError> {
+        Ok(Texels::read_back(&self.machine, self.gather.scattered())?)
+    }
+
+    /// How many channels of texels of the radiosity map are at its largest value, so that light may have been cut off.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Machine`].
+    pub fn saturated(&self) -> Result<usize, SubsurfaceCardError> {
+        let largest = self.options.map.largest();
+        let map = self.read_levels()?.swap_remove(0);
+        let channels = map.texels.iter().flat_map(|texel| &texel[..3]);
+        Ok(channels.filter(|value| **value >= largest).count())
+    }
+
+    /// The emulated card.
+    pub fn machine_mut(&mut self) -> &mut Machine {
+        &mut self.machine
+    }
+
+    /// Starts or stops recording the log.
+    pub fn record(&mut self, on: bool) {
+        self.machine.record(on);
+        self.machine.take_log();
+        self.log = on.then(Vec::new);
+    }
+
+    /// The log recorded since the last call, by pass.
+    pub fn take_log(&mut self) -> Vec<PassEvent> {
+        self.log.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Moves what the machine has recorded to a pass.
+    fn note(&mut self, pass: PassKind) {
+        if let Some(log) = &mut self.log {
+            log.extend(self.machine.take_log().into_iter().map(|event| PassEvent { pass, event }));
+        }
+    }
+}
+
+/// Formats of a picture that both cards of the paper draw into.
+pub const PICTURE_FORMATS: [TexelFormat; 3] = [TexelFormat::Bgra8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];

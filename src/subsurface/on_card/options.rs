@@ -1,0 +1,110 @@
+//! What the passes are made of: formats, stages, precision.
+
+use refsim::texture::TexelFormat;
+
+use super::error::SubsurfaceCardError;
+
+/// Floats of a texture or target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FloatTexels {
+    /// Four half floats.
+    Fp16,
+    /// Four single floats.
+    #[default]
+    Fp32,
+}
+
+impl FloatTexels {
+    /// The texel format.
+    pub fn format(self) -> TexelFormat {
+        match self {
+            Self::Fp16 => TexelFormat::Rgba16f,
+            Self::Fp32 => TexelFormat::Rgba32f,
+        }
+    }
+}
+
+/// The format of the radiosity map.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum MapFormat {
+    /// 8 bits per channel, with levels that the card makes itself.
+    Unorm8 {
+        /// What irradiance is multiplied by so that it fits 0 to 1; more is cut off.
+        scale: f64,
+    },
+    /// Half floats: a rectangle, with levels by passes.
+    Fp16,
+    /// Single floats: a rectangle, with levels by passes.
+    #[default]
+    Fp32,
+}
+
+impl MapFormat {
+    /// The texel format.
+    pub fn format(self) -> TexelFormat {
+        match self {
+            Self::Unorm8 { .. } => TexelFormat::Bgra8,
+            Self::Fp16 => TexelFormat::Rgba16f,
+            Self::Fp32 => TexelFormat::Rgba32f,
+        }
+    }
+
+    /// The largest value of the map.
+    pub fn largest(self) -> f32 {
+        match self {
+            Self::Unorm8 { .. } => 1.0,
+            Self::Fp16 => 65504.0,
+            Self::Fp32 => f32::MAX,
+        }
+    }
+
+    /// What the map holds in place of 1.
+    pub fn scale(self) -> f64 {
+        match self {
+            Self::Unorm8 { scale } => scale,
+            Self::Fp16 | Self::Fp32 => 1.0,
+        }
+    }
+
+    /// Whether the map has levels and filters.
+    pub(super) fn is_leveled(self) -> bool {
+        matches!(self, Self::Unorm8 { .. })
+    }
+}
+
+/// Where pass 1 computes light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightStage {
+    /// At the vertices of each face's rectangle, interpolated.
+    #[default]
+    Vertices,
+    /// At each texel, from a geometry image and a normal map.
+    Texels,
+}
+
+/// The variants of the three passes that hold from frame to frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SubsurfaceCardOptions {
+    /// Where pass 1 computes light.
+    pub light: LightStage,
+    /// The radiosity map.
+    pub map: MapFormat,
+    /// The textures of links.
+    pub links: FloatTexels,
+    /// The scattered irradiance, which pass 2 writes.
+    pub scattered: FloatTexels,
+    /// Whether pass 2 computes in half precision, but for places in a rectangle.
+    pub half: bool,
+    /// The card's memory in bytes, if it shall be an error to need more.
+    pub memory: Option<u64>,
+}
+
+impl SubsurfaceCardOptions {
+    pub(super) fn check(&self) -> Result<(), SubsurfaceCardError> {
+        let scale = self.map.scale();
+        if scale.is_finite() && scale > 0.0 && (scale as f32).is_normal() {
+            return Ok(());
+        }
+        Err(SubsurfaceCardError::Figure { what: "a scale of the 8-bit map above 0", found: scale })
+    }
+}

@@ -1,0 +1,258 @@
+//! Pass 1 (4.2.2): the light that enters each texel, times the texel's area over the mean area.
+
+use refsim::exec::Constants;
+use refsim::machine::{AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams};
+use refsim::raster::{PixelCenter, Primitive};
+use refsim::texture::{SamplerState, TexelFormat};
+
+use super::error::{SubsurfaceCardError, same};
+use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
+use super::model::{CardFace, CardModel};
+use super::options::{LightStage, MapFormat};
+use super::pass::{QuadPass, constants, nearest};
+use crate::card::{PingPong, Texels};
+use crate::subsurface::fresnel::mean_transmittance;
+use crate::subsurface::kernels::{self, LightKernel};
+
+/// Programs, geometry and targets of pass 1.
+#[derive(Debug)]
+pub(super) struct LightPass {
+    format: MapFormat,
+    eta: f64,
+    mean_transmittance: f64,
+    side: u32,
+    /// Lights per pass.
+    most: usize,
+    stage: StageData,
+    /// What passes before the last one write.
+    between: Option<PingPong>,
+    /// Irradiances of a table, one per texel.
+    table: Option<TextureId>,
+}
+
+#[derive(Debug)]
+enum StageData {
+    Vertices(RectangleVertices),
+    /// Positions and normals.
+    Texels([TextureId; 2]),
+}
+
+/// The corners of all faces' rectangles.
+#[derive(Debug)]
+struct RectangleVertices {
+    positions: Vec<[u32; 4]>,
+    normals: Vec<[u32; 4]>,
+    /// In clip space, and the area factor.
+    places: Vec<[u32; 4]>,
+    indices: Vec<u32>,
+}
+
+/// What tells a pass from the others of a frame.
+#[derive(Clone, Copy, Debug)]
+struct Part<'a> {
+    lights: &'a [CardLight],
+    sky: [f32; 4],
+    before: Option<TextureId>,
+    target: TextureId,
+    /// The largest value of the target.
+    largest: f32,
+}
+
+impl LightPass {
+    pub(super) fn new(
+        machine: &mut Machine,
+        model: &CardModel,
+        (stage, format): (LightStage, MapFormat),
+        eta: f64,
+    ) -> Result<Self, SubsurfaceCardError> {
+        if !(1.0..=1e6).contains(&eta) {
+            return Err(SubsurfaceCardError::Figure { what: "an index of refraction of 1 to 1000000", found: eta });
+        }
+        let most = lights_per_pass(machine, stage);
+        let stage = match stage {
+            LightStage::Vertices => StageData::Vertices(RectangleVertices::new(model)),
+            LightStage::Texels => {
+                let positions = model.positions.upload(machine, TexelFormat::Rgba32f)?;
+                StageData::Texels([positions, model.normals.upload(machine, TexelFormat::Rgba32f)?])
+            }
+        };
+        let mean_transmittance = mean_transmittance(eta);
+        Ok(Self { format, eta, mean_transmittance, side: model.side(), most, stage, between: None, table: None })
+    }
+
+    /// Passes for so many lights beside skies.
+    pub(super) fn passes(&self, lights: usize) -> usize {
+        lights.div_ceil(self.most).max(1)
+    }
+
+    /// Lights the map.
+    pub(super) fn run(
+        &mut self,
+        machine: &mut Machine,
+        lights: &CardLights,
+        map: TextureId,
+    ) -> Result<(), SubsurfaceCardError> {
+        let passes = self.passes(lights.list.len());
+        if passes > 1 && self.between.is_none() {
+            self.between = Some(PingPong::new(machine, TexelFormat::Rgba32f, [self.side as usize; 2])?);
+        }
+        let mut rest = &lights.list[..];
+        for pass in 0..passes {
+            let (now, later) = rest.split_at(self.most.min(rest.len()));
+            rest = later;
+            let (target, largest) = match self.between {
+                Some(between) if pass + 1 < passes => (between.written_by(pass), f32::MAX),
+                _ => (map, self.format.largest()),
+            };
+            let before = self.between.filter(|_| pass > 0).map(|between| between.read_by(pass));
+            let sky = match before {
+                None => lights.sky_irradiance(self.mean_transmittance, self.format.scale()),
+                Some(_) => [0.0; 4],
+            };
+            let part = Part { lights: now, sky, before, target, largest };
+            match &self.stage {
+                StageData::Vertices(vertices) => self.by_vertex(machine, vertices, part)?,
+                StageData::Texels(textures) => self.by_texel(machine, *textures, part)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 counts as a little more: the
+    /// program divides by what would be 0 along the surface.
+    fn refraction(&self) -> [f32; 4] {
+        let square = self.eta * self.eta;
+        [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32, LEAST_SQUARE]
+    }
+
+    /// The three constants of each light.
+    fn of_lights(&self, lights: &[CardLight]) -> impl Iterator<Item = [f32; 4]> {
+        let twice = 2.0 * self.format.scale();
+        let constants: Vec<[f32; 4]> = lights
+            .iter()
+            .flat_map(|light| [light.place, colored(light.color, |_| twice), light.attenuation])
+            .collect();
+        constants.into_iter()
+    }
+
+    fn by_vertex(
+        &self,
+        machine: &mut Machine,
+        vertices: &RectangleVertices,
+        part: Part<'_>,
+    ) -> Result<(), SubsurfaceCardError> {
+        let profile = machine.profile();
+        let program = kernels::VERTEX_LIGHTS.checked(profile, part.lights.len())?;
+        let pixel = if part.before.is_some() { kernels::LIT_NEXT } else { kernels::LIT }.checked(profile)?;
+        let head = [self.refraction(), part.sky, [0.0, 1.0, LEAST_LENGTH, 0.0]];
+        let lit = constants(head.into_iter().chain(self.of_lights(part.lights)));
+        let pixel_constants = constants([[part.largest; 4]]);
+        let source = VertexSource::Program { program: &program, constants: &lit, streams: vertices.streams() };
+        let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &pixel_constants, part.target);
+        call.indices = Some(&vertices.indices);
+        call.center = PixelCenter::OpenGl;
+        if let Some(before) = part.before {
+            call = call.with_texture(0, before, SamplerState::NEAREST_CLAMP);
+        }
+        machine.draw(&call)?;
+        Ok(())
+    }
+
+    fn by_texel(
+        &self,
+        machine: &mut Machine,
+        [positions, normals]: [TextureId; 2],
+        part: Part<'_>,
+    ) -> Result<(), SubsurfaceCardError> {
+        let kernel = kernels::TEXEL_LIGHTS[usize::from(part.before.is_some())];
+        let program = kernel.checked(machine.profile(), part.lights.len())?;
+        let [r, g, b, _] = part.sky;
+        let head = [self.refraction(), [r, g, b, part.largest]];
+        let constants = constants(head.into_iter().chain(self.of_lights(part.lights)));
+        let mut textures = nearest([positions, normals]).to_vec();
+        textures.extend(part.before.map(|before| (before, SamplerState::NEAREST_CLAMP)));
+        QuadPass { program: &program, constants: &constants, textures: &textures, target: part.target, part: None }
+            .draw(machine, [self.side; 2])
+    }
+
+    /// Fills the map from a table of irradiances (equation 8), one per face.
+    pub(super) fn fill_from_table(
+        &mut self,
+        machine: &mut Machine,
+        model: &CardModel,
+        irradiances: &[[f64; 3]],
+        map: TextureId,
+    ) -> Result<(), SubsurfaceCardError> {
+        same("irradiances, one per face", model.faces(), irradiances.len())?;
+        if let Some(&found) = irradiances.iter().flatten().find(|value| !(value.is_finite() && **value >= 0.0)) {
+            return Err(SubsurfaceCardError::Figure { what: "finite irradiances of at least 0", found });
+        }
+        let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
+        let side = self.side as usize;
+        let mut texels = Texels::from_fn([side; 2], |_, _| [0.0; 4]);
+        for (face, irradiance) in model.faces.iter().zip(irradiances) {
+            let [r, g, b] = irradiance.map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
+            let [x0, y0, x1, y1] = face.bounds.map(|bound| bound as usize);
+            for row in y0..=y1 {
+                texels.texels[row * side + x0..=row * side + x1].fill([r, g, b, 0.0]);
+            }
+        }
+        let table = match self.table {
+            Some(table) => {
+                texels.update(machine, table, TexelFormat::Rgba32f)?;
+                table
+            }
+            None => *self.table.insert(texels.upload(machine, TexelFormat::Rgba32f)?),
+        };
+        let program = kernels::COPY.checked(machine.profile())?;
+        let constants = Constants::default();
+        QuadPass { program: &program, constants: &constants, textures: &nearest([table]), target: map, part: None }
+            .draw(machine, [self.side; 2])
+    }
+}
+
+/// The most lights of one pass on a machine's device.
+fn lights_per_pass(machine: &Machine, stage: LightStage) -> usize {
+    let limits = &machine.profile().limits;
+    let most = |kernel: LightKernel, instructions: Option<u32>, constants: Option<u32>, usual: [usize; 2]| {
+        let of = |limit: Option<u32>, usual| limit.map_or(usual, |limit| limit as usize);
+        kernel.most_lights(of(instructions, usual[0]), of(constants, usual[1])).max(1)
+    };
+    match stage {
+        LightStage::Vertices => {
+            most(kernels::VERTEX_LIGHTS, limits.vertex_instructions, limits.vertex_constants, [256, 256])
+        }
+        LightStage::Texels => {
+            let [first, next] = kernels::TEXEL_LIGHTS
+                .map(|kernel| most(kernel, limits.fragment_instructions, limits.fragment_parameters, [1024, 64]));
+            first.min(next)
+        }
+    }
+}
+
+impl RectangleVertices {
+    fn new(model: &CardModel) -> Self {
+        let side = model.side() as f32;
+        let count = 4 * model.faces();
+        let [mut positions, mut normals, mut places] = [(); 3].map(|()| Vec::with_capacity(count));
+        let mut indices = Vec::with_capacity(6 * model.faces());
+        for face in &model.faces {
+            let first = positions.len() as u32;
+            indices.extend(CardFace::TRIANGLES.map(|corner| first + corner as u32));
+            for corner in 0..4 {
+                let [[px, py, pz], [nx, ny, nz]] = [face.positions[corner], face.normals[corner]];
+                let [x, y] = face.at[corner];
+                positions.push([px, py, pz, 1.0].map(f32::to_bits));
+                normals.push([nx, ny, nz, 0.0].map(f32::to_bits));
+                places.push([2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, face.area, 0.0].map(f32::to_bits));
+            }
+        }
+        Self { positions, normals, places, indices }
+    }
+
+    fn streams(&self) -> VertexStreams<'_> {
+        let streams = [&self.positions, &self.normals, &self.places].into_iter().enumerate();
+        let streams = streams.map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data });
+        VertexStreams { vertex_count: self.positions.len(), instance_count: 1, streams: streams.collect() }
+    }
+}

@@ -1,0 +1,88 @@
+//! The log of a frame by pass, and its time by the pipeline model.
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
+use strum::Display;
+
+/// A pass of the paper, and what is made between the first two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum PassKind {
+    /// Pass 1.
+    #[strum(to_string = "radiosity map")]
+    RadiosityMap,
+    /// The map's levels.
+    Levels,
+    /// Pass 2.
+    Gather,
+    /// Pass 3.
+    View,
+}
+
+impl PassKind {
+    /// All, in the order of a frame.
+    pub const ALL: [Self; 4] = [Self::RadiosityMap, Self::Levels, Self::Gather, Self::View];
+}
+
+/// An event of a pass.
+#[derive(Clone, Debug)]
+pub struct PassEvent {
+    /// The pass.
+    pub pass: PassKind,
+    /// What happened.
+    pub event: Event,
+}
+
+/// The modelled time of a pass: draws, generated levels, clears and changes of state one after the other; uploads and
+/// read-backs are not counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PassTime {
+    /// Draws.
+    pub draws: usize,
+    /// Its length.
+    pub time: Picoseconds,
+    /// What the longest draw waits for; `None` without draws.
+    pub bottleneck: Option<Bottleneck>,
+    /// Clocks of the texture units.
+    pub textures: u64,
+    /// Clocks of arithmetic.
+    pub arithmetic: u64,
+    /// Clocks of memory.
+    pub memory: u64,
+    /// Bytes between the card and its memory.
+    pub bytes: u64,
+}
+
+/// The times of a log's passes, in the order of [`PassKind::ALL`].
+///
+/// # Errors
+/// [`TimingError`] if the device's rates are not known.
+pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4], TimingError> {
+    let model = Model::new(Level::Pipeline, profile)?;
+    Ok(PassKind::ALL.map(|kind| {
+        let mut time = PassTime::default();
+        let mut longest = Picoseconds::ZERO;
+        for PassEvent { event, .. } in log.iter().filter(|event| event.pass == kind) {
+            match event {
+                Event::Draw(draw) => {
+                    let (cost, clocks) = (model.draw(draw), model.clocks(draw));
+                    time.draws += 1;
+                    time.time = time.time + cost.total;
+                    time.textures += clocks.textures.0;
+                    time.arithmetic += clocks.arithmetic.0;
+                    time.memory += clocks.memory.0;
+                    time.bytes += clocks.traffic.total();
+                    if cost.total >= longest {
+                        (longest, time.bottleneck) = (cost.total, Some(cost.bottleneck));
+                    }
+                }
+                Event::GenerateMipmaps(record) => time.time = time.time + model.mipmaps(record).total,
+                Event::StateChange { changes } => time.time = time.time + model.state_change(*changes),
+                Event::Clear { bytes, .. } => time.time = time.time + model.clear(*bytes),
+                _ => {}
+            }
+        }
+        time
+    }))
+}

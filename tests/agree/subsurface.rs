@@ -1,0 +1,200 @@
+//! The three passes of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
+
+use crossbar::atlas::Atlas;
+use crossbar::card::Texels;
+use crossbar::geom::Mesh;
+use crossbar::scene::Camera;
+use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
+use crossbar::subsurface::on_card::{
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View, order,
+};
+use refsim::device::Profile;
+#[cfg(feature = "wgpu")]
+use refsim::exec::gpu::testing;
+use refsim::machine::{Executor, ExecutorKind};
+use refsim::texture::TexelFormat;
+
+use crate::random::Random;
+
+const SIDE: u32 = 16;
+
+fn nv35() -> Profile {
+    Profile::named("nv35").expect("a card")
+}
+
+/// Every way to draw, by name; the scalar executor first.
+fn executors() -> Vec<(&'static str, Executor)> {
+    let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
+    #[cfg(feature = "wgpu")]
+    let all = all.into_iter().chain(on_gpu()).collect();
+    all
+}
+
+/// The adapter that there is; without one, nothing, except where that is a failure.
+#[cfg(feature = "wgpu")]
+fn on_gpu() -> Option<(&'static str, Executor)> {
+    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
+    Some(("wgpu", Executor::Gpu { gpu }))
+}
+
+/// An octahedron whose corners are not all alike.
+fn model() -> CardModel {
+    let corners = vec![[1.0, 0.0, 0.0], [-1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.2, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -0.8]];
+    let faces = vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+    let mesh = Mesh::new(corners, faces).expect("a mesh");
+    CardModel::new(&Atlas::new(&mesh, SIDE).expect("an atlas"))
+}
+
+fn random_texels(random: &mut Random, texel: impl Fn(&mut Random) -> [f32; 4]) -> Texels {
+    let side = SIDE as usize;
+    Texels { width: side, height: side, texels: (0..side * side).map(|_| texel(random)).collect() }
+}
+
+/// A factor below 1/8, one in sixteen of them 0.
+fn factor(random: &mut Random) -> f32 {
+    if random.below(16) == 0 { 0.0 } else { random.below(1 << 16) as f32 / (1 << 19) as f32 }
+}
+
+/// Links with random factors, and random places if `level` is none.
+fn links(level: Option<u32>, rgb: bool, count: usize) -> LinkTextures {
+    let mut random = Random::named("subsurface", count as u64);
+    let four = |r: &mut Random| [factor(r), factor(r), factor(r), factor(r)];
+    let textures = match (level, rgb) {
+        (Some(_), rgb) => {
+            (0..count.div_ceil(4) * if rgb { 3 } else { 1 }).map(|_| random_texels(&mut random, four)).collect()
+        }
+        (None, rgb) => (0..count)
+            .flat_map(|_| {
+                let link = random_texels(&mut random, |r| {
+                    let level = r.below(5) as u32;
+                    let width = SIDE >> level;
+                    let place = |r: &mut Random| (r.below(width as usize) as f32 + 0.5) / width as f32;
+                    [place(r), place(r), factor(r), level as f32]
+                });
+                [Some(link), rgb.then(|| random_texels(&mut random, four))].into_iter().flatten()
+            })
+            .collect(),
+    };
+    LinkTextures::from_textures(SIDE, level, rgb, count, textures).expect("links")
+}
+
+fn lights() -> Vec<Light> {
+    vec![
+        Light::Sky { radiance: [0.05, 0.06, 0.07] },
+        Light::Directional { towards: [1.0, 2.0, 3.0], irradiance: [0.5, 0.4, 0.3] },
+        Light::Point { position: [-2.0, 1.0, 0.5], intensity: [0.6, 0.7, 0.8], attenuation: [0.1, 0.2, 0.3] },
+    ]
+}
+
+fn view(kernel: ViewKernel, format: TexelFormat) -> View {
+    let camera = Camera::new([2.5, -3.0, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.4, 33, 27).expect("a camera");
+    let scattered = View::scattered(camera);
+    View { kernel, exposure: 1.5, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, format, ..scattered }
+}
+
+fn bits(texels: &Texels) -> Vec<[u32; 4]> {
+    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop.
+fn agrees(name: &str, links: &LinkTextures, options: SubsurfaceCardOptions, views: &[View], lights: &[Light]) {
+    let model = model();
+    let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
+    for (executor, how) in executors() {
+        let fail = |e: &dyn std::fmt::Display| panic!("{name}, {executor}: {e}");
+        let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options).unwrap_or_else(|e| fail(&e));
+        card.light(lights).unwrap_or_else(|e| fail(&e));
+        let levels = card.read_levels().unwrap_or_else(|e| fail(&e));
+        let scattered = card.read_scattered().unwrap_or_else(|e| fail(&e));
+        let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
+        let expected = order::gathered(&levels, links, (card.gather_programs(), half), &options).expect("an order");
+        assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
+        assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
+        let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
+        for view in views {
+            let picture = card.view_texels(view).unwrap_or_else(|e| fail(&e));
+            assert!(picture.texels.iter().any(|texel| texel[..3] != [0.0; 3]), "{name}: a black picture");
+            seen.push(bits(&picture));
+        }
+        assert!(reference.get_or_insert_with(|| seen.clone()) == &seen, "{name}: {executor} differs");
+    }
+}
+
+const MAPS: [MapFormat; 3] = [MapFormat::Unorm8 { scale: 0.75 }, MapFormat::Fp16, MapFormat::Fp32];
+
+#[test]
+fn fixed_links_are_the_hosts() {
+    for (level, count) in [(2, 16), (1, 64), (4, 1)] {
+        for rgb in [false, true] {
+            let links = links(Some(level), rgb, count);
+            for map in MAPS {
+                for half in [false, true] {
+                    let scattered = if half { FloatTexels::Fp16 } else { FloatTexels::Fp32 };
+                    let options = SubsurfaceCardOptions { map, half, scattered, ..SubsurfaceCardOptions::default() };
+                    agrees(&format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}"), &links, options, &[], &lights());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn adaptive_links_are_the_hosts() {
+    for count in [1, 16, 31] {
+        for rgb in [false, true] {
+            let links = links(None, rgb, count);
+            for map in MAPS {
+                for half in [false, true] {
+                    let format = if half { FloatTexels::Fp16 } else { FloatTexels::Fp32 };
+                    let options = SubsurfaceCardOptions {
+                        map,
+                        half,
+                        links: format,
+                        scattered: FloatTexels::Fp16,
+                        ..SubsurfaceCardOptions::default()
+                    };
+                    let name = format!("{count} adaptive links, rgb {rgb}, {map:?}, half {half}");
+                    agrees(&name, &links, options, &[], &lights());
+                }
+            }
+        }
+    }
+}
+
+/// More lights than a pass takes: by vertex and by texel, in every map.
+#[test]
+fn many_lights_are_the_same_everywhere() {
+    let links = links(Some(2), false, 16);
+    let mut many = lights();
+    for n in 0..29 {
+        let towards = [(n % 3) as f64 - 1.0, (n % 5) as f64 - 2.0, 1.0];
+        many.push(Light::Directional { towards, irradiance: [0.01, 0.02, 0.005 * n as f64] });
+    }
+    for light in [LightStage::Vertices, LightStage::Texels] {
+        for map in MAPS {
+            let options = SubsurfaceCardOptions { light, map, ..SubsurfaceCardOptions::default() };
+            agrees(&format!("30 lights, {light:?}, {map:?}"), &links, options, &[], &many);
+        }
+    }
+}
+
+#[test]
+fn every_view_is_the_same_everywhere() {
+    let links = links(Some(2), true, 16);
+    let views: Vec<View> = ViewKernel::all()
+        .into_iter()
+        .zip([TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Bgra8].into_iter().cycle())
+        .map(|(kernel, format)| view(kernel, format))
+        .collect();
+    assert_eq!(views.len(), 15);
+    let modulated = ViewKernel {
+        transmittance: EyeTransmittance::Table,
+        direct: DirectLight::ByFragment,
+        combine: Combine::Modulated,
+    };
+    assert!(views.iter().any(|view| view.kernel == modulated));
+    for light in [LightStage::Vertices, LightStage::Texels] {
+        let options = SubsurfaceCardOptions { light, scattered: FloatTexels::Fp16, ..SubsurfaceCardOptions::default() };
+        agrees(&format!("views, {light:?}"), &links, options, &views, &lights());
+    }
+}
