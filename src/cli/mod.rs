@@ -32,6 +32,7 @@ mod scene_name;
 mod shown;
 mod size;
 mod study;
+mod subsurface;
 mod switch;
 mod timeline;
 mod version;
@@ -112,6 +113,7 @@ enum Command {
     Reproduce(reproduce::Args),
     Run(run::Args),
     Scene(scene::Args),
+    Subsurface(subsurface::Args),
     Timeline(timeline::Args),
 }
 
@@ -174,6 +176,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, Cli::command(), out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
+        Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),
         Command::Reproduce(args) => reproduce::run(&args, command_line, out),
         Command::Run(args) => run::run(&args, out),

@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod error;
 pub mod gltf;
+pub mod irradiances;
 mod lines;
 pub mod model;
 mod number;
@@ -16,6 +17,7 @@ pub mod scene_obj;
 pub use atomic::{FileSet, WriteError, write_file};
 pub use error::{FilePlace, ModelError, ReadError};
 pub use gltf::parse_gltf;
+pub use irradiances::{IrradiancesError, load_irradiances, parse_irradiances};
 pub use model::{load_mesh, load_scene};
 pub use number::{NumberError, parse_f32, to_f32};
 pub use obj::{load_obj, parse_obj, write_obj};

@@ -8,6 +8,7 @@ pub mod picture_difference;
 pub mod radiosity;
 pub mod reproduce;
 pub mod shade;
+pub mod subsurface;
 pub mod timeline_trace;
 
 use crate::report::{Findings, Provenance};

@@ -1,10 +1,49 @@
 //! A timeline as a trace for a viewer.
 
+use miette::Diagnostic;
 use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::timing::replay::{Options, ReplayError, replay};
 use refsim::timing::timeline::{Segment, SpanKind, Timeline, Unit};
+use refsim::timing::{Level, Model, TimingError};
 use serde_json::{Map, Value, json};
+use thiserror::Error;
 
+use crate::report::ReportError;
 use crate::report::trace::{Arrow, Slice, Trace};
+
+/// Why a log has no timeline.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum TimelineError {
+    /// The timing model.
+    #[error(transparent)]
+    #[diagnostic(code(timeline::timing))]
+    Timing(#[from] TimingError),
+    /// The replay.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Replay(#[from] ReplayError),
+    /// The file.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
+}
+
+/// The timeline of a log by the pipeline model, as the bytes of a trace; `None` for devices without time. `what` says
+/// what was logged.
+pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u8>>, TimelineError> {
+    let model = match Model::new(Level::Pipeline, profile) {
+        Ok(model) => model,
+        Err(TimingError::Missing { .. }) => return Ok(None),
+        Err(error) => return Err(error.into()),
+    };
+    let replayed = replay(log, &model, &Options::of(Level::Pipeline))?;
+    let mut bytes = Vec::new();
+    let trace = trace(profile, "pipeline", what, &replayed.timeline);
+    trace.write(&mut bytes).map_err(|e| ReportError::Encode { format: "JSON", reason: e.to_string() })?;
+    Ok(Some(bytes))
+}
 
 /// Spans and waits on a lane per unit, arrows where the critical path goes from one to another. `model` made the
 /// timeline of what `what` names.

@@ -4,7 +4,6 @@ use miette::Diagnostic;
 use refsim::device::DeviceError;
 use refsim::machine::MachineError;
 use refsim::timing::TimingError;
-use refsim::timing::replay::ReplayError;
 use thiserror::Error;
 
 use crate::names::did_you_mean;
@@ -14,6 +13,7 @@ use crate::radiosity::rate::RateError;
 use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
 use crate::report::ReportError;
+use crate::study::timeline_trace::TimelineError;
 
 /// Why the study has no findings.
 #[non_exhaustive]
@@ -71,7 +71,7 @@ pub enum RadiosityError {
     /// The timeline.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Replay(#[from] ReplayError),
+    Timeline(#[from] TimelineError),
     /// A picture that cannot be shown.
     #[error(transparent)]
     #[diagnostic(transparent)]

@@ -1,17 +1,12 @@
 //! The study's page, tables, charts, pictures and trace.
 
-use refsim::timing::replay::{Options, replay};
-use refsim::timing::{Level, Model, TimingError};
-
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
 use super::{IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
-use crate::report::{
-    Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, ReportError, Scale, Series, Table, false_color,
-};
-use crate::study::timeline_trace::trace;
+use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};
+use crate::study::timeline_trace;
 
 pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, RadiosityError> {
     let mut found = Findings::new("Matrix radiosity");
@@ -201,15 +196,6 @@ fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Optio
     let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) else {
         return Ok(None);
     };
-    let model = match Model::new(Level::Pipeline, &parameters.profile) {
-        Ok(model) => model,
-        Err(TimingError::Missing { .. }) => return Ok(None),
-        Err(error) => return Err(error.into()),
-    };
-    let replayed = replay(&facts.log, &model, &Options::of(Level::Pipeline))?;
     let what = format!("{}: new emittance, 4 iterations, the room shown", row.label);
-    let trace = trace(&parameters.profile, "pipeline", &what, &replayed.timeline);
-    let mut bytes = Vec::new();
-    trace.write(&mut bytes).map_err(|e| ReportError::Encode { format: "JSON", reason: e.to_string() })?;
-    Ok(Some(bytes))
+    Ok(timeline_trace::file(&parameters.profile, &facts.log, &what)?)
 }

@@ -1,0 +1,163 @@
+//! The arguments of `crossbar subsurface`.
+
+use std::path::PathBuf;
+
+use super::values::{
+    ChannelsArg, ChoiceArg, CombineArg, FloatArg, FresnelArg, LightArg, MapArg, StageArg, coefficient, place,
+};
+use crate::cli::executor::{DeviceExecutor, GpuArgs};
+use crate::cli::scene_name::EyeArgs;
+use crate::cli::size::Size;
+use crate::cli::{number, switch};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10
+      a stand-in for the paper's head with 16 fixed links per texel, beside all pairs of texels, as one page
+  crossbar subsurface docs/examples/teapot.obj --material skin1 --mm-per-unit 8 --choice fixed --choice adaptive --links 4,16,64 --channels rgb
+      both choices of links, and how the error falls with their number
+  crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
+      the coefficients of the paper's Figure 7, in every format of map and links
+  crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light sky:0.1,0.1,0.2 --frames 8
+      a lamp and a sky, and the lamp carried round the model
+
+Written to --out: index.html (self-contained), rows.csv, faces.csv (area, E and B of every face in every way), probes.csv, study.json, \
+timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+
+/// Light below the surface of a model: links over an atlas, three passes on a card, all pairs beside them
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(in crate::cli) struct Args {
+    /// A Wavefront OBJ, PLY or glTF file, or a stand-in for a model of the paper: stand-in-head, stand-in-dolphin,
+    /// stand-in-bunny
+    #[arg(value_name = "MODEL")]
+    pub(super) model: PathBuf,
+
+    /// A published medium: see `crossbar materials`
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["sigma_s", "sigma_a", "eta"])]
+    pub(super) material: Option<String>,
+
+    /// Reduced scattering coefficient per mm, for all channels or as R,G,B
+    #[arg(long, value_name = "S", value_parser = coefficient, requires = "sigma_a", allow_hyphen_values = true)]
+    pub(super) sigma_s: Option<[f64; 3]>,
+
+    /// Absorption coefficient per mm, for all channels or as R,G,B
+    #[arg(long, value_name = "A", value_parser = coefficient, requires = "sigma_s", allow_hyphen_values = true)]
+    pub(super) sigma_a: Option<[f64; 3]>,
+
+    /// Index of refraction, with --sigma-s and --sigma-a [default: 1.3]
+    #[arg(long, value_name = "N", value_parser = number::positive, requires = "sigma_s")]
+    pub(super) eta: Option<f64>,
+
+    /// Millimeters of a unit of the model; never guessed
+    #[arg(long, value_name = "MM", value_parser = number::positive)]
+    pub(super) mm_per_unit: f64,
+
+    /// Texels along a side of the atlas: a power of two
+    #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(1..=8192))]
+    pub(super) atlas: u32,
+
+    /// Links per texel; for fixed ones 1, 4, 16, 64, ...
+    #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    pub(super) links: Vec<u32>,
+
+    /// Which links; may be repeated [default: fixed]
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(super) choice: Vec<ChoiceArg>,
+
+    /// Factors per link; may be repeated [default: rgb, or scalar for a medium of one color]
+    #[arg(long, value_enum, value_name = "C")]
+    pub(super) channels: Vec<ChannelsArg>,
+
+    /// What link textures hold; may be repeated [default: fp16]
+    #[arg(long, value_enum, value_name = "F")]
+    pub(super) link_format: Vec<FloatArg>,
+
+    /// The radiosity map; may be repeated [default: fp16]
+    #[arg(long, value_enum, value_name = "F")]
+    pub(super) map: Vec<MapArg>,
+
+    /// Let pass 2 compute in half precision
+    #[arg(long)]
+    pub(super) half: bool,
+
+    /// The largest relative error of factors
+    #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
+    pub(super) tolerance: f64,
+
+    /// sky:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated [default: from beside the
+    /// camera]
+    #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
+    pub(super) light: Vec<LightArg>,
+
+    /// In place of lights, what has entered each face: a table with the header r,g,b and a line per face
+    #[arg(long, value_name = "FACES.csv", conflicts_with = "light")]
+    pub(super) irradiance: Option<PathBuf>,
+
+    /// Where pass 1 computes light
+    #[arg(long, value_enum, value_name = "STAGE", default_value = "vertex")]
+    pub(super) pass_1: StageArg,
+
+    /// Where pass 3 computes direct light
+    #[arg(long, value_enum, value_name = "STAGE", default_value = "fragment")]
+    pub(super) direct: StageArg,
+
+    /// The Fresnel transmittance towards the eye
+    #[arg(long, value_enum, value_name = "HOW", default_value = "exact")]
+    pub(super) fresnel: FresnelArg,
+
+    /// How scattered and direct light make a color
+    #[arg(long, value_enum, value_name = "HOW", default_value = "added")]
+    pub(super) combine: CombineArg,
+
+    /// Diffuse reflectance for direct light, 0 to 1
+    #[arg(long, value_name = "X", default_value_t = 0.1, value_parser = number::not_negative)]
+    pub(super) diffuse: f64,
+
+    /// A point of the surface at which B is asked for; may be repeated
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
+    pub(super) probe: Vec<[f64; 3]>,
+
+    /// Gather over all pairs of texels too [default: for atlases up to 128]
+    #[arg(long, overrides_with = "no_all_pairs")]
+    pub(super) all_pairs: bool,
+
+    /// Do not gather over all pairs
+    #[arg(long)]
+    pub(super) no_all_pairs: bool,
+
+    /// The card
+    #[arg(long, value_name = "D", default_value = "nv35")]
+    pub(super) device: String,
+
+    /// A switch of the device; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
+    pub(super) switch: Vec<(String, String)>,
+
+    /// Which executor computes; the bits are the same
+    #[arg(long, value_enum, default_value = "batch")]
+    pub(super) executor: DeviceExecutor,
+
+    #[command(flatten)]
+    pub(super) gpu: GpuArgs,
+
+    /// Pictures of the first way with the lights turned round the model in so many steps
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
+    pub(super) frames: u32,
+
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "256x256", allow_hyphen_values = true)]
+    pub(super) size: Size,
+
+    #[command(flatten)]
+    pub(super) eye: EyeArgs,
+
+    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub(super) exposure: Option<f64>,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/subsurface")]
+    pub(super) out: PathBuf,
+}

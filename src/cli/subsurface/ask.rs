@@ -1,0 +1,137 @@
+//! What the options of `crossbar subsurface` ask for.
+
+use glam::DVec3;
+
+use super::args::Args;
+use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg};
+use crate::cli::Problem;
+use crate::geom::Mesh;
+use crate::io::{load_irradiances, load_mesh};
+use crate::names::did_you_mean;
+use crate::scene::Camera;
+use crate::scene::built::stand_ins;
+use crate::study::subsurface::{GatherWay, Lighting};
+use crate::subsurface::links::LinkChoice;
+use crate::subsurface::on_card::Light;
+use crate::subsurface::{Coefficients, Material, materials};
+
+/// Texels along a side up to which all pairs are gathered unasked.
+const ALL_PAIRS: u32 = 128;
+/// The most texels along a side for all pairs.
+const MOST_ALL_PAIRS: u32 = 512;
+/// The index of refraction where coefficients come without one.
+const ETA: f64 = 1.3;
+
+/// The model by its name or from its file.
+pub(super) fn mesh(args: &Args) -> miette::Result<Mesh> {
+    let name = args.model.to_str().unwrap_or_default();
+    if let Some(mesh) = stand_ins::build(name) {
+        return Ok(mesh);
+    }
+    // A word without a dot or a folder is a name, not a file.
+    if !args.model.exists() && args.model.components().count() == 1 && !name.contains('.') {
+        let names: Vec<&str> = stand_ins::names().collect();
+        let meant = did_you_mean(name, names.iter().copied());
+        let help = format!("{meant}the models are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
+        return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
+    }
+    Ok(load_mesh(&args.model)?)
+}
+
+/// A published medium, or coefficients.
+pub(super) fn material(args: &Args) -> miette::Result<Material> {
+    match (&args.material, args.sigma_s, args.sigma_a) {
+        (Some(name), ..) => match materials::named(name) {
+            Some(published) => Ok(published.material()),
+            None => {
+                let names: Vec<&str> = materials::MATERIALS.iter().map(|material| material.name).collect();
+                let meant = did_you_mean(name, names.iter().copied());
+                let help = format!("{meant}the materials are {}", names.join(", "));
+                Err(Problem::usage(format!("there is no material `{name}`"), help).into())
+            }
+        },
+        (None, Some(s), Some(a)) => {
+            let channel = |c: usize| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] };
+            let made = Material::new("the coefficients given", [0, 1, 2].map(channel), args.eta.unwrap_or(ETA));
+            made.map_err(|error| Problem::usage(error.to_string(), "coefficients are per mm").into())
+        }
+        _ => {
+            let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";
+            Err(Problem::usage("expected a medium", help).into())
+        }
+    }
+}
+
+/// Every combination of what may be repeated.
+pub(super) fn ways(args: &Args, material: &Material) -> Result<Vec<GatherWay>, Problem> {
+    let [r, g, b] = material.channels;
+    let usual = if r == g && g == b { ChannelsArg::Scalar } else { ChannelsArg::Rgb };
+    let choices = or(&args.choice, ChoiceArg::Fixed);
+    let (channels, formats) = (or(&args.channels, usual), or(&args.link_format, FloatArg::Fp16));
+    let maps = or(&args.map, MapArg::Fp16);
+    let mut ways = Vec::new();
+    for &choice in &choices {
+        for &links in &args.links {
+            let choice = link_choice(choice, links, args.atlas)?;
+            for &channels in &channels {
+                for &format in &formats {
+                    let rgb = channels == ChannelsArg::Rgb;
+                    let way = |&map: &MapArg| GatherWay {
+                        choice,
+                        rgb,
+                        links: format.into(),
+                        map: map.into(),
+                        half: args.half,
+                    };
+                    ways.extend(maps.iter().map(way));
+                }
+            }
+        }
+    }
+    Ok(ways)
+}
+
+fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for &one in asked {
+        if !all.contains(&one) {
+            all.push(one);
+        }
+    }
+    if all.is_empty() { vec![usual] } else { all }
+}
+
+fn link_choice(choice: ChoiceArg, links: u32, side: u32) -> Result<LinkChoice, Problem> {
+    match choice {
+        ChoiceArg::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
+        ChoiceArg::Fixed => {
+            let found = (0..=side.max(1).ilog2()).find(|&level| u64::from(side >> level).pow(2) == u64::from(links));
+            found.map(|level| LinkChoice::Fixed { level }).ok_or_else(|| {
+                let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
+                Problem::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
+            })
+        }
+    }
+}
+
+/// The light that was asked for; else a white one from above and beside the eye.
+pub(super) fn lighting(args: &Args, camera: &Camera) -> miette::Result<Lighting> {
+    if let Some(path) = &args.irradiance {
+        return Ok(Lighting::ByFace(load_irradiances(path)?));
+    }
+    if !args.light.is_empty() {
+        return Ok(Lighting::Lights(args.light.iter().map(|light| light.0).collect()));
+    }
+    let unit = |v: DVec3| v.normalize_or_zero();
+    let towards = unit(camera.up()) + unit(camera.right()) - 0.5 * unit(camera.forward());
+    Ok(Lighting::Lights(vec![Light::Directional { towards: towards.to_array(), irradiance: [1.0; 3] }]))
+}
+
+/// Whether all pairs are gathered.
+pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
+    if args.all_pairs && args.atlas > MOST_ALL_PAIRS {
+        let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MOST_ALL_PAIRS}");
+        return Err(Problem::usage(format!("all pairs of {0} x {0} texels would take hours", args.atlas), help));
+    }
+    Ok(args.all_pairs || (!args.no_all_pairs && args.atlas <= ALL_PAIRS))
+}

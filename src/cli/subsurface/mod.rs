@@ -1,0 +1,92 @@
+//! `crossbar subsurface`: links over an atlas, three passes on a card, all pairs beside them.
+
+mod args;
+mod ask;
+mod values;
+
+use std::path::Path;
+
+use super::Problem;
+use super::memory::{self, MemoryNeed};
+use super::study::StudyArgs;
+use crate::scene::built::stand_ins;
+use crate::study::subsurface::Parameters;
+use crate::subsurface::kernels::ViewKernel;
+
+pub(super) use args::Args;
+
+impl StudyArgs for Args {
+    type Study = Parameters;
+    const COMMAND: &'static str = "subsurface";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        let is_stand_in = stand_ins::names().any(|name| self.model == Path::new(name));
+        let model = (!is_stand_in).then_some(self.model.as_path());
+        model.into_iter().chain(self.irradiance.as_deref()).collect()
+    }
+
+    /// What the atlas, its links, the card's textures and the pictures of every way take.
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        const PER_TEXEL: u64 = 1000;
+        const PER_LINK: u64 = 80;
+        const PER_PIXEL_AND_PICTURE: u64 = 100;
+        let texels = u64::from(self.atlas) * u64::from(self.atlas);
+        let most = u64::from(self.links.iter().copied().max().unwrap_or(0));
+        let kinds = [self.choice.len(), self.channels.len(), self.link_format.len(), self.map.len(), self.links.len()];
+        let ways: u64 = kinds.into_iter().map(|count| count.max(1) as u64).product();
+        let pictures = 3 * ways + u64::from(self.frames);
+        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways);
+        Ok(Some(MemoryNeed {
+            what: format!(
+                "{0} x {0} texels with {most} links each, and {pictures} pictures of {1} pixels",
+                self.atlas, self.size
+            ),
+            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, maps),
+            help: "ask for a smaller `--atlas`, fewer `--links` or a smaller `--size`",
+        }))
+    }
+
+    fn study(&self) -> miette::Result<Parameters> {
+        if self.diffuse > 1.0 {
+            let help = "a surface reflects at most all of the light";
+            return Err(
+                Problem::usage(format!("expected a `--diffuse` from 0 to 1, found {}", self.diffuse), help).into()
+            );
+        }
+        let material = ask::material(self)?;
+        let ways = ask::ways(self, &material)?;
+        let reference = ask::all_pairs(self)?;
+        let profile = super::switch::device(&self.device, &self.switch)?;
+        let mesh = ask::mesh(self)?;
+        let camera = self.eye.framing(&mesh, self.size)?;
+        Ok(Parameters {
+            model: self.model.display().to_string(),
+            lighting: ask::lighting(self, &camera)?,
+            mm_per_unit: self.mm_per_unit,
+            side: self.atlas,
+            tolerance: self.tolerance,
+            stage: self.pass_1.into(),
+            probes: self.probe.clone(),
+            switches: self.switch.clone(),
+            executor: self.executor.open(&self.gpu)?,
+            view: ViewKernel {
+                transmittance: self.fresnel.into(),
+                direct: self.direct.into(),
+                combine: self.combine.into(),
+            },
+            diffuse: self.diffuse,
+            exposure: self.exposure,
+            frames: self.frames,
+            material,
+            ways,
+            reference,
+            profile,
+            mesh,
+            camera,
+        })
+    }
+}

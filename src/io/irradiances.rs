@@ -1,0 +1,107 @@
+//! Irradiances of faces as a comma-separated table: the header `r,g,b`, then a line per face in the order of the mesh.
+//! Numbers are finite and at least 0.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::error::ReadError;
+use super::{quoted, read_limited};
+
+/// Longest file that is read, in bytes (256 MiB).
+pub const MAX_BYTES: u64 = 1 << 28;
+
+/// Why a file is no table of irradiances. Lines count from 1, the header's.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum IrradiancesError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// The first line is not the header.
+    #[error("{}:1: expected the header `r,g,b`, found {found}", path.display())]
+    #[diagnostic(code(irradiances::header), help("a line `r,g,b`, then a line of three numbers per face"))]
+    Header { path: PathBuf, found: String },
+    /// A line is not three numbers.
+    #[error("{}:{line}: expected three finite numbers of at least 0 (r,g,b), found {found}", path.display())]
+    #[diagnostic(code(irradiances::numbers))]
+    Numbers { path: PathBuf, line: u64, found: String },
+    /// The table's syntax is broken.
+    #[error("{}: the table cannot be read: {reason}", path.display())]
+    #[diagnostic(code(irradiances::table))]
+    Table { path: PathBuf, reason: String },
+}
+
+/// Reads irradiances from a file, one per face.
+///
+/// # Errors
+/// [`IrradiancesError`], with the path, and the line where there is one.
+pub fn load_irradiances(path: &Path) -> Result<Vec<[f64; 3]>, IrradiancesError> {
+    let unreadable = |source| ReadError::Unreadable { what: "irradiances", path: path.into(), source };
+    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
+        Some(bytes) => parse_irradiances(&bytes, path),
+        None => Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into()),
+    }
+}
+
+/// Reads irradiances from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`IrradiancesError`], with the line where there is one.
+pub fn parse_irradiances(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, IrradiancesError> {
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let mut found = Vec::new();
+    for (at, record) in reader.byte_records().enumerate() {
+        let record =
+            record.map_err(|reason| IrradiancesError::Table { path: name.into(), reason: reason.to_string() })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let text = || quoted(&record.iter().collect::<Vec<_>>().join(&b','));
+        if at == 0 {
+            if !record.iter().eq(["r", "g", "b"].map(str::as_bytes)) {
+                return Err(IrradiancesError::Header { path: name.into(), found: text() });
+            }
+            continue;
+        }
+        let number = |field: &[u8]| -> Option<f64> {
+            let value: f64 = std::str::from_utf8(field).ok()?.parse().ok()?;
+            (value.is_finite() && value >= 0.0).then_some(value)
+        };
+        let numbers: Option<Vec<f64>> = record.iter().map(number).collect();
+        match numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()) {
+            Some(irradiance) => found.push(irradiance),
+            None => return Err(IrradiancesError::Numbers { path: name.into(), line, found: text() }),
+        }
+    }
+    if found.is_empty() && !bytes.starts_with(b"r") {
+        return Err(IrradiancesError::Header { path: name.into(), found: quoted(bytes) });
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Vec<[f64; 3]>, String> {
+        parse_irradiances(text.as_bytes(), Path::new("e.csv")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_line_is_a_face() {
+        assert_eq!(parse("r,g,b\n1, 0.5,0\n0,0,2e3\n"), Ok(vec![[1.0, 0.5, 0.0], [0.0, 0.0, 2000.0]]));
+        assert_eq!(parse("r,g,b\n"), Ok(vec![]));
+    }
+
+    #[test]
+    fn bad_tables_are_named() {
+        let numbers = "expected three finite numbers of at least 0 (r,g,b), found";
+        assert_eq!(parse("1,2,3\n"), Err("e.csv:1: expected the header `r,g,b`, found `1,2,3`".to_owned()));
+        assert_eq!(parse(""), Err("e.csv:1: expected the header `r,g,b`, found ``".to_owned()));
+        assert_eq!(parse("r,g,b\n1,2\n"), Err(format!("e.csv:2: {numbers} `1,2`")));
+        assert_eq!(parse("r,g,b\n1,2,-3\n"), Err(format!("e.csv:2: {numbers} `1,2,-3`")));
+        assert_eq!(parse("r,g,b\n1,2,nan\n"), Err(format!("e.csv:2: {numbers} `1,2,nan`")));
+    }
+}

@@ -1,0 +1,95 @@
+//! What the rows say, as sentences.
+
+use super::{Parameters, SubsurfaceOutcome, WayRow};
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::percent;
+use crate::report::{Findings, Tone};
+
+/// The error within which storage is judged.
+const ENOUGH: f64 = 0.01;
+
+/// Sentences, warnings and the tally.
+pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
+    let sentences = [accuracy(&outcome.rows), smallest(&outcome.rows), speed(parameters, &outcome.rows)];
+    let warnings = [coarse(outcome), thin(outcome)];
+    sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
+    let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
+    let judged = outcome.rows.iter().filter(|row| row.error.is_some()).count() as u64;
+    let good = outcome.rows.iter().filter(within).count() as u64;
+    found.tally(good, ["way within 1 % of all pairs", "ways within 1 % of all pairs"], Tone::Good);
+    found.tally(judged - good, ["way beyond 1 %", "ways beyond 1 %"], Tone::Bad);
+}
+
+fn accuracy(rows: &[WayRow]) -> Option<String> {
+    let error = |row: &WayRow| row.error.map(|error| error.rms);
+    let judged = || rows.iter().filter(|row| row.error.is_some());
+    let best = judged().min_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
+    let worst = judged().max_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
+    let (least, most) = (percent(error(best)?), percent(error(worst)?));
+    Some(if best.label == worst.label {
+        format!(
+            "{} is off by {least} of all pairs (root mean square); its links alone account for {}.",
+            best.label,
+            percent(best.links_error.map_or(0.0, |error| error.rms))
+        )
+    } else {
+        format!(
+            "{} is nearest to all pairs, off by {least} (root mean square); {} is farthest, off by {most}.",
+            best.label, worst.label
+        )
+    })
+}
+
+/// The smallest storage within [`ENOUGH`].
+fn smallest(rows: &[WayRow]) -> Option<String> {
+    if rows.iter().all(|row| row.error.is_none()) {
+        return None;
+    }
+    let within = rows.iter().filter(|row| row.error.is_some_and(|error| error.rms <= ENOUGH));
+    Some(match within.min_by_key(|row| row.memory[0]) {
+        Some(row) => {
+            let size = shown(row.memory[0] as f64 / 1e6, Quantity::Measured);
+            format!("The smallest storage within 1 % is that of {}, {size} MB.", row.label)
+        }
+        None => "No way is within 1 % of all pairs.".to_owned(),
+    })
+}
+
+fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
+    let gather = |row: &&WayRow| row.times.map(|times| times[2].time);
+    let timed = || rows.iter().filter(|row| row.times.is_some());
+    let (fast, slow) = (timed().min_by_key(gather)?, timed().max_by_key(gather)?);
+    let ms = |row: &WayRow| shown(row.times.map_or(0.0, |times| times[2].time.seconds() * 1e3), Quantity::Measured);
+    let on = &parameters.profile.title;
+    Some(if fast.label == slow.label {
+        format!("Pass 2 takes {} ms on the {on}.", ms(fast))
+    } else {
+        format!("Pass 2 takes from {} ms ({}) to {} ms ({}) on the {on}.", ms(fast), fast.label, ms(slow), slow.label)
+    })
+}
+
+/// Where texels are longer than the mean free path, peaks of R_d fall between them.
+fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
+    let lengths = &outcome.lengths;
+    (lengths.coarse > 0.0).then(|| {
+        format!(
+            "On {} of the surface texels are longer than the shortest mean free path ({} mm): what is finer than a \
+             texel is not seen there; a larger atlas would show it.",
+            percent(lengths.coarse),
+            shown(lengths.mean_free_path, Quantity::Measured),
+        )
+    })
+}
+
+/// The dipole is made for a half space.
+fn thin(outcome: &SubsurfaceOutcome) -> Option<String> {
+    let lengths = &outcome.lengths;
+    (lengths.shortest_side < 2.0 * lengths.diffusion_length).then(|| {
+        format!(
+            "The model is thinner ({} mm) than two diffusion lengths ({} mm): the dipole, which is made for a half \
+             space, is wrong there.",
+            shown(lengths.shortest_side, Quantity::Measured),
+            shown(2.0 * lengths.diffusion_length, Quantity::Measured),
+        )
+    })
+}

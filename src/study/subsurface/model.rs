@@ -1,0 +1,79 @@
+//! The model as an atlas: faces, probes, and how its lengths compare with the medium's.
+
+use glam::DVec3;
+
+use super::{Parameters, SubsurfaceError};
+use crate::atlas::Atlas;
+use crate::subsurface::Dipole;
+
+/// Lengths of the model beside those of the medium, in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelLengths {
+    /// Side of a square of the mean area of texels.
+    pub texel: f64,
+    /// Area of the surface whose texels are longer than the shortest mean free path of a channel, as a share.
+    pub coarse: f64,
+    /// The shortest mean free path of a channel.
+    pub mean_free_path: f64,
+    /// The longest diffusion length of a channel.
+    pub diffusion_length: f64,
+    /// The diagonal of the bounds.
+    pub diagonal: f64,
+    /// The shortest side of the bounds.
+    pub shortest_side: f64,
+}
+
+impl ModelLengths {
+    pub(super) fn of(atlas: &Atlas, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
+        let mm = parameters.mm_per_unit;
+        let mean_free_path = dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min);
+        let coarse = |area: f64| area.sqrt() * mm > mean_free_path;
+        let of_coarse: f64 = atlas.texels().iter().map(|t| t.area).filter(|&area| coarse(area)).sum();
+        let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
+            (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
+        });
+        Self {
+            texel: atlas.mean_texel_area().sqrt() * mm,
+            coarse: if atlas.area() > 0.0 { of_coarse / atlas.area() } else { 0.0 },
+            mean_free_path,
+            diffusion_length: dipoles.iter().map(Dipole::diffusion_length).fold(0.0, f64::max),
+            diagonal: extent.length(),
+            shortest_side: extent.min_element(),
+        }
+    }
+}
+
+/// Means over each face's texels, which share its area evenly.
+pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let side = atlas.side() as usize;
+    let mean = |place: &crate::atlas::FacePlace| {
+        let mut sum = DVec3::ZERO;
+        for y in place.y..place.y + place.height {
+            let row = y as usize * side;
+            texels[row + place.x as usize..][..place.width as usize].iter().for_each(|&b| sum += DVec3::from(b));
+        }
+        (sum / f64::from(place.texels())).to_array()
+    };
+    atlas.places().iter().map(mean).collect()
+}
+
+/// The value of each face at all of its texels.
+pub(super) fn by_texel(atlas: &Atlas, faces: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    atlas.texels().iter().map(|texel| faces[texel.face as usize]).collect()
+}
+
+/// The texel whose mean point is nearest to each probe.
+pub(super) fn probe_texels(
+    atlas: &Atlas,
+    parameters: &Parameters,
+    diagonal: f64,
+) -> Result<Vec<usize>, SubsurfaceError> {
+    let nearest = |&[x, y, z]: &[f64; 3]| {
+        let probe = DVec3::new(x, y, z);
+        let distance = |texel: usize| atlas.texels()[texel].point.distance_squared(probe);
+        let nearest = (0..atlas.texels().len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+        let near = |&texel: &usize| distance(texel).sqrt() * parameters.mm_per_unit <= diagonal;
+        nearest.filter(near).ok_or(SubsurfaceError::Probe { x, y, z })
+    };
+    parameters.probes.iter().map(nearest).collect()
+}

@@ -1,0 +1,127 @@
+//! What the study is asked.
+
+use std::fmt;
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+
+use crate::geom::Mesh;
+use crate::scene::Camera;
+use crate::subsurface::Material;
+use crate::subsurface::kernels::ViewKernel;
+use crate::subsurface::links::LinkChoice;
+use crate::subsurface::on_card::{FloatTexels, Light, LightStage};
+
+/// A model of a medium, its lights, and the ways in which the card gathers.
+#[derive(Debug)]
+pub struct Parameters {
+    /// The model's name.
+    pub model: String,
+    /// Its surface.
+    pub mesh: Mesh,
+    /// Millimeters of a unit of the mesh.
+    pub mm_per_unit: f64,
+    /// What it is made of.
+    pub material: Material,
+    /// Texels along a side of the atlas.
+    pub side: u32,
+    /// How light is gathered: a row of the table for each.
+    pub ways: Vec<GatherWay>,
+    /// The largest relative error of factors.
+    pub tolerance: f64,
+    /// The light.
+    pub lighting: Lighting,
+    /// Where pass 1 computes light.
+    pub stage: LightStage,
+    /// Points of the model, in its units, at which radiosity is asked for.
+    pub probes: Vec<[f64; 3]>,
+    /// Whether to gather over all pairs of texels too.
+    pub reference: bool,
+    /// The card.
+    pub profile: Profile,
+    /// The switches of the card that were set.
+    pub switches: Vec<(String, String)>,
+    /// The executor of the card.
+    pub executor: Executor,
+    /// The camera of the pictures.
+    pub camera: Camera,
+    /// Pass 3.
+    pub view: ViewKernel,
+    /// Diffuse reflectance for direct light.
+    pub diffuse: f64,
+    /// What radiance is multiplied by in pictures; `None` for auto-exposure: 18 % grey on average.
+    pub exposure: Option<f64>,
+    /// Pictures with the lights turned all the way round the model in so many steps.
+    pub frames: u32,
+}
+
+/// The light on the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lighting {
+    /// Lights, by pass 1.
+    Lights(Vec<Light>),
+    /// What has entered each face, per area: E of equation 8.
+    ByFace(Vec<[f64; 3]>),
+}
+
+/// The format of the radiosity map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapBits {
+    /// 8 bits per channel, scaled so that the brightest texel is 1.
+    Eight,
+    /// Floats.
+    Float(FloatTexels),
+}
+
+/// One way of gathering.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GatherWay {
+    /// Links per texel, and which.
+    pub choice: LinkChoice,
+    /// A factor per channel, or green's for all.
+    pub rgb: bool,
+    /// The textures of links.
+    pub links: FloatTexels,
+    /// The radiosity map.
+    pub map: MapBits,
+    /// Whether pass 2 computes in half precision.
+    pub half: bool,
+}
+
+impl GatherWay {
+    /// Links per texel on an atlas of `side` texels along a side.
+    pub fn links_per_texel(&self, side: u32) -> u64 {
+        match self.choice {
+            LinkChoice::Fixed { level } => u64::from(side >> level.min(31)).pow(2),
+            LinkChoice::Adaptive { count } => count as u64,
+        }
+    }
+
+    /// A name for tables and files.
+    pub fn label(&self, side: u32) -> String {
+        let choice = match self.choice {
+            LinkChoice::Fixed { .. } => "fixed",
+            LinkChoice::Adaptive { .. } => "adaptive",
+        };
+        let channels = if self.rgb { "-rgb" } else { "" };
+        let half = if self.half { "-half" } else { "" };
+        format!("{choice}-{}{channels}-{}-map-{}{half}", self.links_per_texel(side), name(self.links), self.map)
+    }
+}
+
+impl fmt::Display for MapBits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Eight => f.write_str("8bit"),
+            Self::Float(texels) => f.write_str(name(*texels)),
+        }
+    }
+}
+
+/// The name of a float format.
+pub(super) fn name(texels: FloatTexels) -> &'static str {
+    match texels {
+        FloatTexels::Fp16 => "fp16",
+        FloatTexels::Fp32 => "fp32",
+    }
+}

@@ -1,0 +1,102 @@
+//! Pictures: the model, and the maps of the passes (Figures 5 to 7).
+
+use super::{Parameters, SubsurfaceError, SubsurfaceOutcome, WayRow};
+use crate::picture::display::encode;
+use crate::picture::{Picture, RgbImage, rgb8};
+use crate::report::digits::{Quantity, shown};
+use crate::report::{NamedPicture, false_color};
+
+/// Linear light seen as halfway between black and white.
+const MIDDLE_GREY: f64 = 0.18;
+
+/// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
+pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, SubsurfaceError> {
+    if let Some(exposure) = parameters.exposure {
+        return Ok(exposure);
+    }
+    let Some(first) = outcome.rows.first() else { return Ok(1.0) };
+    let shown = first.picture.linear()?;
+    let lit: Vec<f64> =
+        shown.iter().map(|p| p.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0).filter(|&l| l > 0.0).collect();
+    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
+    Ok(if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 })
+}
+
+/// Figure 7: the first way with and without scattered light, and what is scattered alone.
+pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+    let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
+    let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();
+    let (width, height) = row.picture.display(exposure)?.dimensions();
+    let direct = Picture::rgb(width, height, &direct).display(exposure)?;
+    Ok(vec![
+        NamedPicture::new("direct", direct, "without subsurface scattering: the difference of the other two"),
+        NamedPicture::new(
+            "whole",
+            row.picture.display(exposure)?,
+            format!("{}: direct and scattered light", row.label),
+        ),
+        NamedPicture::new("scattered", row.scattered.display(exposure)?, "scattered light alone"),
+    ])
+}
+
+/// The scattered light of each way.
+pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+    let picture = |row: &WayRow| {
+        let image = row.scattered.display(exposure)?;
+        Ok(NamedPicture::new(format!("{}-scattered", row.label), image, format!("{}: scattered light", row.label)))
+    };
+    rows.iter().map(picture).collect()
+}
+
+/// Frames of turned lights.
+pub(super) fn frames(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+    let frames = rows.first().map_or(&[][..], |row| &row.frames);
+    let picture = |(at, frame): (usize, &Picture)| {
+        let turn = 360.0 * at as f64 / frames.len() as f64;
+        let caption = format!("lights turned by {} degrees", shown(turn, Quantity::Measured));
+        Ok(NamedPicture::new(format!("frame-{at}"), frame.display(exposure)?, caption))
+    };
+    frames.iter().enumerate().map(picture).collect()
+}
+
+/// The atlas after passes 1 and 2 (Figure 6), each map with its brightest channel at white.
+pub(super) fn maps(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
+    let Some(first) = outcome.rows.first() else { return Vec::new() };
+    let picture = |name: &str, values: &[[f64; 3]], what: &str| {
+        NamedPicture::new(name, atlas(outcome.atlas.side(), values), what)
+    };
+    vec![
+        picture("pass-1", &first.irradiance, "pass 1: what enters each texel, E"),
+        picture("pass-2", &first.radiosity, "pass 2: what is scattered to it, B"),
+    ]
+}
+
+fn atlas(side: u32, values: &[[f64; 3]]) -> RgbImage {
+    let most = values.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);
+    rgb8(side, side, values.iter().map(|value| value.map(|channel| encode(channel / most))))
+}
+
+/// B of each way against all pairs, on the atlas, in false colors of one scale.
+pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
+    let Some(truth) = &outcome.truth else { return Vec::new() };
+    let most = truth.texels.iter().flatten().copied().fold(0.0, f64::max);
+    let error = |row: &WayRow| -> Vec<f64> {
+        let texel = |(b, t): (&[f64; 3], &[f64; 3])| {
+            let channel = (0..3).max_by(|&i, &j| (b[i] - t[i]).abs().total_cmp(&(b[j] - t[j]).abs())).unwrap_or(0);
+            (b[channel] - t[channel]) / most
+        };
+        row.radiosity.iter().zip(&truth.texels).map(texel).collect()
+    };
+    let errors: Vec<(&str, Vec<f64>)> = outcome.rows.iter().map(|row| (row.label.as_str(), error(row))).collect();
+    let scale = errors.iter().flat_map(|(_, error)| error).fold(0.0, |most: f64, e| most.max(e.abs()));
+    if scale == 0.0 {
+        return Vec::new();
+    }
+    let ends = shown(100.0 * scale, Quantity::Percent);
+    let picture = |(label, error): (&str, Vec<f64>)| {
+        let caption =
+            format!("{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %");
+        NamedPicture::new(format!("{label}-error"), false_color::signed(outcome.atlas.side(), &error, scale), caption)
+    };
+    errors.into_iter().map(picture).collect()
+}

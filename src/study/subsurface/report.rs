@@ -1,0 +1,105 @@
+//! The study's page, tables, charts, pictures and trace.
+
+use super::conclusion::conclude;
+use super::{Parameters, SubsurfaceError, SubsurfaceOutcome, WayRow, pictures, tables};
+use crate::report::words::counted;
+use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
+use crate::study::timeline_trace;
+use crate::subsurface::links::LinkChoice;
+
+pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, SubsurfaceError> {
+    let mut found = Findings::new("Subsurface scattering");
+    found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));
+    if let Some(row) = outcome.rows.first() {
+        let what = format!("{}: light, levels, gather, view", row.label);
+        if let Some(bytes) = timeline_trace::file(&parameters.profile, &row.log, &what)? {
+            found.keep_file("timeline.json", bytes);
+        }
+        found.keep_layers("whole", row.picture.clone());
+    }
+    conclude(&mut found, parameters, outcome);
+    let exposure = pictures::exposure(parameters, outcome)?;
+    if let Some(row) = outcome.rows.first() {
+        found.pictures(pictures::lead(row, exposure)?);
+    }
+    found.paragraph(format!(
+        "{}, {}, of {}, by the three passes of Carr, Hall and Hart (2003, section 4) on the emulated {}. Pictures are \
+         radiance times {}, with the sRGB curve.",
+        parameters.model,
+        counted(parameters.mesh.len() as u64, "face", "faces"),
+        parameters.material.name,
+        parameters.profile.title,
+        Cell::ratio(exposure).text(),
+    ));
+    found.heading("Model and medium");
+    found.table(FoundTable::from(tables::model(parameters, outcome)).field("model"));
+    found.explained_table(FoundTable::from(tables::medium(parameters, outcome)).field("medium"), MEDIUM);
+    found.heading("The maps of passes 1 and 2");
+    found.pictures(pictures::maps(outcome));
+    found.heading("Ways of gathering");
+    found.explained_table(FoundTable::from(tables::errors(outcome)).csv("rows").field("ways"), ERRORS);
+    error_chart(parameters, outcome).into_iter().for_each(|chart| found.chart(chart));
+    found.pictures(pictures::ways(&outcome.rows, exposure)?);
+    found.pictures(pictures::errors(outcome));
+    found.heading("On the card");
+    found.explained_table(FoundTable::from(tables::storage(outcome)).field("storage"), STORAGE);
+    let has_rows = |table: &Table| !table.rows().is_empty();
+    found.explained_table(FoundTable::from(tables::times(outcome)).field("times"), TIMES);
+    let frames = pictures::frames(&outcome.rows, exposure)?;
+    if !frames.is_empty() {
+        found.heading("Lights turned round");
+        found.pictures(frames);
+    }
+    let probes = tables::probes(parameters, outcome);
+    if has_rows(&probes) {
+        found.heading("Probes");
+    }
+    found.table(FoundTable::from(probes).csv("probes").field("probes"));
+    Ok(found)
+}
+
+const MEDIUM: &str = "The diffusion length is 1 over the effective transport coefficient sigma_tr; total_R_d is the share of light that a flat half \
+    space gives back.";
+
+const ERRORS: &str = "links: the host's sum over the links, in double precision, against that over all pairs of texels; plain means: the same with means \
+    of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
+    against all pairs. Without all pairs (atlases above 128 x 128, unless asked for) there is nothing to compare links with.";
+
+const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
+    lost to 0 are smaller than the format's least number. Instructions are of all programs of pass 2 together, samplers of the largest.";
+
+const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
+
+/// The error against the number of links, a line per choice; `None` for fewer than two numbers.
+fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<NamedChart> {
+    let mut lines: Vec<Series> = Vec::new();
+    for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
+        let label = line(row);
+        let point = (row.way.links_per_texel(parameters.side) as f64, 100.0 * error.rms);
+        match lines.iter_mut().find(|line| line.label == label) {
+            Some(line) => line.points.push(point),
+            None => lines.push(Series { label, points: vec![point] }),
+        }
+    }
+    let numbers = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
+    let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
+    (most > least).then(|| {
+        let x_scale = Scale::fitting(numbers());
+        let (title, x, y) = ("Error of B against all pairs", "links per texel", "root mean square error, %");
+        let (title, x, y) = (title.to_owned(), x.to_owned(), y.to_owned());
+        let chart =
+            Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines: lines.clone(), ..Chart::default() };
+        let caption = "Links and card together.".to_owned();
+        NamedChart { name: "error".to_owned(), chart, caption }
+    })
+}
+
+/// The way without its number of links.
+fn line(row: &WayRow) -> String {
+    let choice = match row.way.choice {
+        LinkChoice::Fixed { .. } => "fixed",
+        LinkChoice::Adaptive { .. } => "adaptive",
+    };
+    let channels = if row.way.rgb { ", RGB" } else { "" };
+    format!("{choice}{channels}, {} links, {} map", super::parameters::name(row.way.links), row.way.map)
+}

@@ -1,0 +1,161 @@
+//! The tables of the study.
+
+use super::{Parameters, RadiosityError, SubsurfaceOutcome, WayRow, model};
+use crate::report::{Cell, Table};
+use crate::subsurface::on_card::PassKind;
+
+/// Model and medium.
+pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "The model in mm, and the medium's lengths",
+        "faces atlas area_mm2 diagonal_mm shortest_side_mm texel_mm shortest_mean_free_path_mm longest_diffusion_length_mm \
+         coarse_texels_%",
+    );
+    let lengths = &outcome.lengths;
+    let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+    table.push([
+        parameters.mesh.len().into(),
+        format!("{0} x {0}", parameters.side).into(),
+        Cell::measured(outcome.atlas.area() * scale),
+        Cell::measured(lengths.diagonal),
+        Cell::measured(lengths.shortest_side),
+        Cell::measured(lengths.texel),
+        Cell::measured(lengths.mean_free_path),
+        Cell::measured(lengths.diffusion_length),
+        Cell::percent(100.0 * lengths.coarse),
+    ]);
+    table
+}
+
+/// A row per channel of the medium.
+pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        format!("{}: coefficients per mm, lengths in mm", parameters.material.name),
+        "channel sigma_s_prime sigma_a eta mean_free_path diffusion_length total_R_d",
+    );
+    for (channel, dipole) in ["red", "green", "blue"].into_iter().zip(&outcome.dipoles) {
+        let of = dipole.coefficients();
+        table.push([
+            channel.into(),
+            of.sigma_s_prime.into(),
+            of.sigma_a.into(),
+            dipole.eta().into(),
+            Cell::measured(dipole.mean_free_path()),
+            Cell::measured(dipole.diffusion_length()),
+            Cell::decimals(dipole.total(), 6),
+        ]);
+    }
+    table
+}
+
+/// Errors, a row per way.
+pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B",
+        "way links_rms_% links_largest_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
+    );
+    let rms = |error: RadiosityError| Cell::percent(100.0 * error.rms);
+    let largest = |error: RadiosityError| Cell::percent(100.0 * error.largest);
+    let or_empty = |error: Option<RadiosityError>, of: fn(RadiosityError) -> Cell| error.map_or(Cell::Empty, of);
+    for row in &outcome.rows {
+        table.push([
+            row.label.as_str().into(),
+            or_empty(row.links_error, rms),
+            or_empty(row.links_error, largest),
+            or_empty(row.plain_error, rms),
+            rms(row.card_error),
+            largest(row.card_error),
+            or_empty(row.error, rms),
+            or_empty(row.error, largest),
+        ]);
+    }
+    table
+}
+
+/// What ways take of the card, a row each.
+pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "What ways take of the card; reads and instructions per texel of pass 2",
+        "way link_MB memory_MB passes link_reads map_reads instructions samplers factors lost_to_0 denormal map_saturated",
+    );
+    for row in &outcome.rows {
+        let sum = |of: usize| row.programs.iter().map(|program| program[of]).sum::<usize>();
+        table.push([
+            row.label.as_str().into(),
+            Cell::measured(row.memory[1] as f64 / 1e6),
+            Cell::measured(row.memory[0] as f64 / 1e6),
+            row.programs.len().into(),
+            row.lookups[0].into(),
+            row.lookups[1].into(),
+            sum(0).into(),
+            row.programs.iter().map(|program| program[1]).max().unwrap_or(0).into(),
+            row.lost.factors.into(),
+            row.lost.flushed.into(),
+            row.lost.denormal.into(),
+            row.saturated.into(),
+        ]);
+    }
+    table
+}
+
+/// Modelled times, a row per way with time.
+pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "A frame with a new light, as the pipeline model has it; a new view is pass 3 alone",
+        "way pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s pass_2_bound_by",
+    );
+    for (row, times) in outcome.rows.iter().filter_map(|row| Some((row, row.times?))) {
+        let ms = |at: usize| times[at].time.seconds() * 1e3;
+        let frame: f64 = (0..PassKind::ALL.len()).map(ms).sum();
+        table.push([
+            row.label.as_str().into(),
+            Cell::measured(ms(0)),
+            Cell::measured(ms(1)),
+            Cell::measured(ms(2)),
+            Cell::measured(ms(3)),
+            Cell::measured(frame),
+            Cell::measured(1e3 / frame),
+            times[2].bottleneck.map_or(Cell::Empty, |bound| bound.to_string().into()),
+        ]);
+    }
+    table
+}
+
+/// B at each probe.
+pub(super) fn probes(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of("B at the probes", "probe x y z way r g b");
+    for (at, (&place, &texel)) in parameters.probes.iter().zip(&outcome.probe_texels).enumerate() {
+        let mut add = |way: &str, value: [f64; 3]| {
+            let head: [Cell; 5] = [at.into(), place[0].into(), place[1].into(), place[2].into(), way.into()];
+            table.push(head.into_iter().chain(value.map(Cell::measured)));
+        };
+        if let Some(truth) = &outcome.truth {
+            add("all pairs", truth.probes[at]);
+        }
+        outcome.rows.iter().for_each(|row| add(&row.label, row.radiosity[texel]));
+    }
+    table
+}
+
+/// A row per face: its area, what entered it, and B in every way.
+pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let atlas = &outcome.atlas;
+    let truth = outcome.truth.as_ref().map(|truth| ("all_pairs", &truth.texels));
+    let ways = outcome.rows.iter().map(|row: &WayRow| (row.label.as_str(), &row.radiosity));
+    let columns: Vec<(&str, Vec<[f64; 3]>)> =
+        truth.into_iter().chain(ways).map(|(label, texels)| (label, model::by_face(atlas, texels))).collect();
+    let entered = model::by_face(atlas, &outcome.irradiance);
+    let mut headings = ["face", "area_mm2", "E_r", "E_g", "E_b"].map(str::to_owned).to_vec();
+    for (label, _) in &columns {
+        headings.extend(["r", "g", "b"].map(|c| format!("{label}_{c}")));
+    }
+    let mut table = Table::new("Faces", &headings);
+    let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+    for (face, entered) in entered.iter().enumerate() {
+        let area = parameters.mesh.area(face as u32) * scale;
+        let head: [Cell; 2] = [face.into(), area.into()];
+        let found = columns.iter().flat_map(|(_, values)| values[face]);
+        table.push(head.into_iter().chain(entered.iter().copied().chain(found).map(Cell::from)));
+    }
+    table
+}

@@ -1,0 +1,239 @@
+//! One way of gathering: links, the three passes, and what they cost.
+
+use glam::{DQuat, DVec3};
+use refsim::event::Event;
+use refsim::num::Format;
+use refsim::timing::TimingError;
+
+use super::truth::{RadiosityError, Truth};
+use super::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceError};
+use crate::atlas::Atlas;
+use crate::picture::Picture;
+use crate::study::ProgressFn;
+use crate::subsurface::Dipole;
+use crate::subsurface::factor::SurfaceMoments;
+use crate::subsurface::kernels::{DirectLight, ViewKernel};
+use crate::subsurface::links::{
+    EncodedLinks, IrradianceMeans, LinkChoice, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
+};
+use crate::subsurface::on_card::{
+    CardModel, FloatTexels, Light, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
+    pass_times,
+};
+
+/// What all ways share.
+pub(super) struct Scene<'a> {
+    pub(super) parameters: &'a Parameters,
+    pub(super) atlas: &'a Atlas,
+    pub(super) surface: &'a SurfaceMoments,
+    pub(super) model: &'a CardModel,
+    pub(super) dipoles: &'a [Dipole; 3],
+    /// Per texel, by the host.
+    pub(super) irradiance: &'a [[f64; 3]],
+    pub(super) truth: Option<&'a Truth>,
+}
+
+/// What a way of gathering found.
+#[derive(Debug)]
+pub struct WayRow {
+    /// Its name.
+    pub label: String,
+    /// The way.
+    pub way: GatherWay,
+    /// Textures of links, and reads of links and of the map per texel.
+    pub lookups: [usize; 2],
+    /// The card's memory: all of it, and of links alone, in bytes.
+    pub memory: [u64; 2],
+    /// Instructions and samplers of each program of pass 2.
+    pub programs: Vec<[usize; 2]>,
+    /// Factors that the format of the links loses.
+    pub lost: LostFactors,
+    /// Texel channels of the map at its largest value.
+    pub saturated: usize,
+    /// The links' own error: the host's sum over them against all pairs.
+    pub links_error: Option<RadiosityError>,
+    /// The same with means by number of texels.
+    pub plain_error: Option<RadiosityError>,
+    /// The card's own error: against the host's sum over the same links.
+    pub card_error: RadiosityError,
+    /// Both together: the card against all pairs.
+    pub error: Option<RadiosityError>,
+    /// Modelled times of the passes; `None` for devices without time.
+    pub times: Option<[PassTime; 4]>,
+    /// B of every texel, by the card.
+    pub radiosity: Vec<[f64; 3]>,
+    /// The irradiance map, by the card: E of every texel.
+    pub irradiance: Vec<[f64; 3]>,
+    /// Scattered and direct light.
+    pub picture: Picture,
+    /// Scattered light alone.
+    pub scattered: Picture,
+    /// Of the first way, the lights turned.
+    pub frames: Vec<Picture>,
+    pub(super) log: Vec<Event>,
+}
+
+/// Runs one way; frames of turned lights if it is the first.
+pub(super) fn run(
+    scene: &Scene<'_>,
+    way: GatherWay,
+    first: bool,
+    progress: &mut ProgressFn<'_>,
+) -> Result<WayRow, SubsurfaceError> {
+    let parameters = scene.parameters;
+    let label = way.label(parameters.side);
+    progress(&format!("links: {label}"), 0, 3);
+    let dipoles = if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
+    let links = Links::new(scene.surface, dipoles, way.choice, parameters.tolerance, &|_, _| {})?;
+    let host = |weighting| -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+        Ok(links.gather(&IrradianceMeans::new(scene.surface, scene.irradiance, weighting)?))
+    };
+    let (summed, plain) = (host(MeanWeighting::Area)?, host(MeanWeighting::Count)?);
+    let lost = EncodedLinks::new(&links, scene.surface, MeanWeighting::Area).lost(format(way.links));
+    let textures = LinkTextures::new(&links, scene.surface, MeanWeighting::Area);
+    drop(links);
+    progress(&format!("passes: {label}"), 1, 3);
+    let options = SubsurfaceCardOptions {
+        light: parameters.stage,
+        map: map_format(scene, way.map),
+        links: way.links,
+        scattered: way.links,
+        half: way.half,
+        memory: None,
+    };
+    let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
+    let profile = parameters.profile.clone();
+    let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), &textures, eta, options)?;
+    drop(textures);
+    card.record(true);
+    light(&mut card, &parameters.lighting)?;
+    let picture = card.view(&view(parameters, parameters.view.direct))?;
+    let events = card.take_log();
+    card.record(false);
+    let times = match pass_times(&parameters.profile, &events) {
+        Ok(times) => Some(times),
+        Err(TimingError::Missing { .. }) => None,
+        Err(error) => return Err(error.into()),
+    };
+    let scattered = card.view(&view(parameters, DirectLight::None))?;
+    let radiosity: Vec<[f64; 3]> =
+        card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
+    let irradiance = entered(scene, &card, options.map.scale())?;
+    let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| RadiosityError::between(scene.atlas, found, expected);
+    let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, &truth.texels));
+    let programs = card.gather_programs();
+    let row = WayRow {
+        lookups: lookups(way, parameters.side),
+        memory: [card.memory().bytes(), card.memory().parts.iter().filter(|part| part.0 == "links").map(|p| p.1).sum()],
+        programs: programs.iter().map(|program| [program.instructions(), program.samplers()]).collect(),
+        lost,
+        saturated: card.saturated()?,
+        links_error: against_truth(&summed),
+        plain_error: against_truth(&plain),
+        card_error: off(&radiosity, &summed),
+        error: against_truth(&radiosity),
+        times,
+        irradiance,
+        picture,
+        scattered,
+        log: events.into_iter().map(|event| event.event).collect(),
+        frames: if first { frames(scene, &mut card, progress)? } else { Vec::new() },
+        radiosity,
+        way,
+        label,
+    };
+    Ok(row)
+}
+
+fn format(texels: FloatTexels) -> Format {
+    match texels {
+        FloatTexels::Fp16 => Format::FP16,
+        FloatTexels::Fp32 => Format::FP32,
+    }
+}
+
+/// The map's format; 8 bits hold the brightest texel of the host as 1.
+fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
+    match map {
+        MapBits::Float(FloatTexels::Fp16) => MapFormat::Fp16,
+        MapBits::Float(FloatTexels::Fp32) => MapFormat::Fp32,
+        MapBits::Eight => {
+            let mean = scene.atlas.mean_texel_area();
+            let stored = scene.atlas.texels().iter().zip(scene.irradiance);
+            let most = stored.flat_map(|(t, e)| e.map(|e| e * t.area / mean)).fold(0.0, f64::max);
+            MapFormat::Unorm8 { scale: if most > 0.0 { 1.0 / most } else { 1.0 } }
+        }
+    }
+}
+
+/// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
+fn lookups(way: GatherWay, side: u32) -> [usize; 2] {
+    let links = way.links_per_texel(side) as usize;
+    let channels = if way.rgb { 3 } else { 1 };
+    match way.choice {
+        LinkChoice::Fixed { .. } => [links.div_ceil(4) * channels, links],
+        LinkChoice::Adaptive { .. } => [links * if way.rgb { 2 } else { 1 }, links],
+    }
+}
+
+fn light(card: &mut SubsurfaceCard, lighting: &Lighting) -> Result<(), SubsurfaceError> {
+    match lighting {
+        Lighting::Lights(lights) => card.light(lights)?,
+        Lighting::ByFace(values) => card.irradiate(values)?,
+    }
+    Ok(())
+}
+
+fn view(parameters: &Parameters, direct: DirectLight) -> View {
+    let kernel = ViewKernel { direct, ..parameters.view };
+    View { kernel, diffuse: [parameters.diffuse; 3], ..View::scattered(parameters.camera) }
+}
+
+/// E of every texel as the map has it; 0 where a texel has no area.
+fn entered(scene: &Scene<'_>, card: &SubsurfaceCard, scale: f64) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+    let map = card.read_levels()?.swap_remove(0);
+    let mean = scene.atlas.mean_texel_area();
+    let texel = |(&[r, g, b, _], texel): (&[f32; 4], &crate::atlas::Texel)| {
+        let factor = if texel.area > 0.0 { mean / (texel.area * scale) } else { 0.0 };
+        [r, g, b].map(|value| f64::from(value) * factor)
+    };
+    Ok(map.texels.iter().zip(scene.atlas.texels()).map(texel).collect())
+}
+
+/// The lights turned about the camera's up direction through the middle of the model: a new light is all three passes.
+fn frames(
+    scene: &Scene<'_>,
+    card: &mut SubsurfaceCard,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<Picture>, SubsurfaceError> {
+    let parameters = scene.parameters;
+    let (count, Lighting::Lights(lights)) = (parameters.frames, &parameters.lighting) else { return Ok(Vec::new()) };
+    let middle = parameters
+        .mesh
+        .bounds()
+        .map_or(DVec3::ZERO, |[low, high]| (DVec3::from(low.map(f64::from)) + DVec3::from(high.map(f64::from))) / 2.0);
+    let axis = parameters.camera.up().normalize_or(DVec3::Z);
+    let mut frames = Vec::new();
+    for frame in 0..count {
+        progress("frames", frame.into(), count.into());
+        let [cos, sin] = crate::elementary::on_circle(f64::from(frame) / f64::from(count) / 2.0);
+        let turn = DQuat::from_vec4((axis * sin).extend(cos));
+        let lights: Vec<Light> = lights.iter().map(|light| turned(*light, turn, middle)).collect();
+        card.light(&lights)?;
+        frames.push(card.view(&view(parameters, parameters.view.direct))?);
+    }
+    Ok(frames)
+}
+
+fn turned(light: Light, turn: DQuat, middle: DVec3) -> Light {
+    match light {
+        Light::Directional { towards, irradiance } => {
+            Light::Directional { towards: (turn * DVec3::from(towards)).to_array(), irradiance }
+        }
+        Light::Point { position, intensity, attenuation } => {
+            let position = (middle + turn * (DVec3::from(position) - middle)).to_array();
+            Light::Point { position, intensity, attenuation }
+        }
+        sky @ Light::Sky { .. } => sky,
+    }
+}
