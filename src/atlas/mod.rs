@@ -31,7 +31,7 @@ pub mod tree;
 
 pub use atlas::{Atlas, MAX_SIDE};
 pub use census::Census;
-pub use drawn::{DrawnFace, DrawnVertex};
+pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 pub use error::AtlasError;
 pub use part::TexelPart;
 pub use place::FacePlace;
