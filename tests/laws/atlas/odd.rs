@@ -2,6 +2,7 @@
 
 use crossbar::atlas::{Atlas, AtlasError, AtlasQuality, Census, MAX_SIDE};
 use crossbar::geom::Mesh;
+use crossbar::geom::random::CounterRng;
 use crossbar::scene::built::stand_ins;
 use glam::DVec3;
 use proptest::prelude::*;
@@ -62,6 +63,39 @@ fn oddities_are_counted() {
     assert!(!expected.is_sound());
     assert!(atlas.places().iter().all(|place| place.texels() >= 1));
     assert!(AtlasQuality::of(&atlas).used < 1.0);
+}
+
+/// Sizes at the ends of what f32 holds.
+#[test]
+fn the_ends_of_f32_do_no_harm() {
+    for size in [f32::MAX, 1e30, 1e-30, f32::MIN_POSITIVE, f32::from_bits(2), f32::from_bits(1)] {
+        let corners = vec![[-size, -size, size], [size, -size, size], [0.0, size, size], [0.0, 0.0, -size]];
+        let mesh = Mesh::new(corners, vec![[0, 1, 2], [2, 1, 3], [0, 3, 1], [0, 2, 3]]).expect("a mesh");
+        let atlas = Atlas::new(&mesh, 16).expect("an atlas");
+        assert!(atlas.census().is_sound());
+        assert!(atlas.texels().iter().all(|texel| texel.point.is_finite() && texel.area > 0.0), "{size}");
+        let top = atlas.cluster(4, 0, 0);
+        assert!(top.radius.is_finite() && top.radius >= f64::from(size), "{size}: {top:?}");
+        assert_eq!(AtlasQuality::of(&atlas).used, 1.0);
+    }
+}
+
+/// Thousands of faces on one edge, in one place, or without any neighbor.
+#[test]
+fn crowds_are_mapped() {
+    let random = CounterRng::new(5);
+    let place = |index: u64| [0, 1, 2].map(|axis| random.unit(index, 0, axis) as f32);
+    let crowd = |corners: &dyn Fn(u32) -> [u32; 3]| {
+        let positions = (0..9000).map(place).collect();
+        Mesh::new(positions, (0..3000).map(corners).collect()).expect("a mesh")
+    };
+    let fan = crowd(&|face| [0, 1, 2 + face]);
+    let heap = crowd(&|_| [0, 1, 2]);
+    let loose = crowd(&|face| [3 * face, 3 * face + 1, 3 * face + 2]);
+    for (mesh, parts) in [(fan, 1), (heap, 1), (loose, 3000)] {
+        let atlas = Atlas::new(&mesh, 64).expect("an atlas");
+        assert_eq!((atlas.census().parts, atlas.tree().nodes().len()), (parts, 5999));
+    }
 }
 
 /// Vertices that a file repeats, because normals jump there, do not tear the surface.
