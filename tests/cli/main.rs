@@ -12,6 +12,7 @@ mod examples;
 mod help;
 mod hostile;
 mod interrupted;
+mod materials;
 mod memory;
 mod program;
 mod radiosity;
