@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::quadrature::SIXTEEN;
 use crossbar::subsurface::fresnel::mean_transmittance;
-use crossbar::subsurface::walk::{self, Entry, Tally, Walk};
+use crossbar::subsurface::walk::{self, PhotonEntry, PhotonWalk, WalkTally};
 use crossbar::subsurface::{Coefficients, Dipole};
 use crossbar::tracer::{CastError, Caster};
 use glam::DVec3;
@@ -14,13 +14,13 @@ use std::f64::consts::PI;
 /// Fixed seeds give fixed verdicts; of what is true, one in 10^4 lies farther off than this many half widths.
 const FAR: f64 = 2.3;
 
-fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> Walk {
+fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> PhotonWalk {
     let full = if std::env::var_os("CROSSBAR_FULL").is_some() { 50 } else { 1 };
-    let walk = Walk::new(Coefficients { sigma_s_prime, sigma_a }, eta).unwrap();
-    Walk { photons: photons * full, max_steps: 100_000, ..walk }
+    let walk = PhotonWalk::new(Coefficients { sigma_s_prime, sigma_a }, eta).unwrap();
+    PhotonWalk { photons: photons * full, max_steps: 100_000, ..walk }
 }
 
-fn balanced(tally: &Tally, walk: &Walk) {
+fn balanced(tally: &WalkTally, walk: &PhotonWalk) {
     assert_eq!(tally.entered(), walk.photons);
     assert_eq!(tally.left() + tally.absorbed() + tally.cut() + tally.lost(), walk.photons);
 }
@@ -64,7 +64,7 @@ fn half_space_albedo(albedo: f64, mu: f64) -> f64 {
 fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
     assert_relative_eq!(half_space_albedo(1.0, 0.5), 1.0);
     for (albedo, mu) in [(0.5, 1.0), (0.9, 0.3), (0.99, 0.8)] {
-        let walk = Walk { entry: Entry::Beam(mu), ..medium(albedo, 1.0 - albedo, 1.0, 50_000) };
+        let walk = PhotonWalk { entry: PhotonEntry::Beam(mu), ..medium(albedo, 1.0 - albedo, 1.0, 50_000) };
         let tally = walk::half_space(&walk, &[1.0, 10.0]);
         balanced(&tally, &walk);
         let (total, exact) = (tally.total(), half_space_albedo(albedo, mu));
@@ -76,7 +76,7 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
 
 #[test]
 fn the_step_limit_is_counted() {
-    let walk = Walk { max_steps: 10, ..medium(1.0, 0.0, 1.3, 5_000) };
+    let walk = PhotonWalk { max_steps: 10, ..medium(1.0, 0.0, 1.3, 5_000) };
     let tally = walk::half_space(&walk, &[]);
     balanced(&tally, &walk);
     assert!(tally.cut() > 1000 && tally.absorbed() == 0, "{}", tally.cut());
@@ -90,7 +90,7 @@ fn bits_do_not_depend_on_threads() {
         pool.install(|| walk::half_space(&walk, &[1.0, 5.0]))
     };
     assert_eq!(on(1), on(3));
-    assert_ne!(on(1), walk::half_space(&Walk { seed: 2, ..walk }, &[1.0, 5.0]));
+    assert_ne!(on(1), walk::half_space(&PhotonWalk { seed: 2, ..walk }, &[1.0, 5.0]));
 }
 
 fn rayon_pool(threads: usize) -> rayon::ThreadPool {
@@ -101,7 +101,7 @@ fn rayon_pool(threads: usize) -> rayon::ThreadPool {
 /// paths, what leaves in them after a million photons of another seed, and the dipole's part.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
-    let walk = Walk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };
+    let walk = PhotonWalk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };
     let dipole = Dipole::new(walk.coefficients, walk.eta).unwrap();
     let printed = [
         (0.25, 0.0644, 0.0157),
@@ -148,7 +148,7 @@ fn first(corners: &[[DVec3; 3]], ray: &Ray) -> Option<Hit> {
 }
 
 /// A box of these sides with the corner at the origin, faces counter-clockwise from outside.
-fn cuboid([x, y, z]: [f32; 3]) -> Mesh {
+pub(crate) fn cuboid([x, y, z]: [f32; 3]) -> Mesh {
     let corners = (0..8u8).map(|i| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { [x, y, z][axis] } else { 0.0 }));
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
