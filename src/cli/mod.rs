@@ -18,6 +18,7 @@ mod interrupt;
 mod intersect;
 mod leaky_teapot;
 mod man;
+mod materials;
 mod memory;
 mod number;
 mod out;
@@ -110,6 +111,7 @@ enum Command {
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
+    Materials(materials::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -178,6 +180,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, Cli::command(), out),
+        Command::Materials(args) => materials::run(&args, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

@@ -7,7 +7,7 @@ pub const MIN_SCATTERING: f64 = 1e-30;
 /// The largest coefficient, per mm.
 pub const MAX_COEFFICIENT: f64 = 1e30;
 /// The largest index of refraction. The polynomial for the internal reflectance, fitted to common dielectrics, is
-/// 0.0003 off at 1.3, 0.016 at 3, and exceeds 1 from 3.95.
+/// 0.0003 off at 1.3, 0.016 at 3, and exceeds 1 from 3.85.
 pub const MAX_ETA: f64 = 3.0;
 
 /// Why there is no such medium.

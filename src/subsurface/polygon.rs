@@ -61,7 +61,7 @@ fn side(dipole: &Dipole, normal: DVec3, height: f64, a: DVec3, b: DVec3) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subsurface::Coefficients;
+    use crate::subsurface::material::Coefficients;
 
     #[test]
     fn what_has_no_area_has_no_factor() {

@@ -3,8 +3,8 @@
 use crate::crossbar;
 
 /// All commands, in the order of the help.
-pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices diff intersect leaky-teapot man radiosity \
-                        render reproduce run scene timeline";
+pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices diff intersect leaky-teapot man materials \
+                        radiosity render reproduce run scene subsurface timeline";
 
 #[test]
 fn program() {

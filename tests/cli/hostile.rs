@@ -44,6 +44,7 @@ const COMMANDS: &[(&str, &str)] = &[
         "--size --tessellation --device --format --out --rays-per-edge --seed --sides --executor --adapter",
     ),
     ("man nowhere", "--out"),
+    ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \

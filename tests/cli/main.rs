@@ -13,6 +13,7 @@ mod examples;
 mod help;
 mod hostile;
 mod interrupted;
+mod materials;
 mod memory;
 mod program;
 mod radiosity;

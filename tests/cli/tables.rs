@@ -23,13 +23,15 @@ fn fixture(path: &str) -> String {
 #[test]
 fn tables_fit_the_terminal() {
     let (case, square) = (fixture("cases/modulate.toml"), fixture("models/square.obj"));
-    let commands: [&[&str]; 11] = [
+    let commands: [&[&str]; 13] = [
         &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
         &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep", "30"],
         &["reproduce", "--list"],
         &["reproduce", "equation-11"],
         &["devices"],
         &["devices", "r200"],
+        &["materials"],
+        &["materials", "Chicken1"],
         &["compare", &case, "--right-format", "s3.8"],
         &["run", &case],
         &["run", &case, "--trace", "1,1"],

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::boundary::reflected;
-use super::tally::{BATCHES, BatchCounts, Tally};
-use super::{PhotonRng, Walk};
+use super::boundary::{PhotonRng, reflected};
+use super::settings::PhotonWalk;
+use super::tally::{BATCHES, BatchCounts, WalkTally};
 
 /// A body in mean free paths, entered at its origin along +z.
 trait Body: Copy + Sync {
@@ -58,14 +58,14 @@ impl Body for Sphere {
 
 /// Follows photons that enter a half space at a point. Bins are the rings between ascending `radii` in mm, the first
 /// of which is a disc.
-pub fn half_space(walk: &Walk, radii: &[f64]) -> Tally {
+pub fn half_space(walk: &PhotonWalk, radii: &[f64]) -> WalkTally {
     let areas = rings(radii);
     follow(walk, HalfSpace, radii, areas)
 }
 
 /// Follows photons that enter a sphere of this radius (mm) at a point. Bins are the rings between ascending chords in
 /// mm from that point.
-pub fn sphere(walk: &Walk, radius: f64, chords: &[f64]) -> Tally {
+pub fn sphere(walk: &PhotonWalk, radius: f64, chords: &[f64]) -> WalkTally {
     // A ring between two chords has the area of the flat one.
     let chords: Vec<f64> = chords.iter().map(|chord| chord.min(2.0 * radius)).collect();
     let areas = rings(&chords);
@@ -77,7 +77,7 @@ fn rings(radii: &[f64]) -> Vec<f64> {
     inner.zip(radii).map(|(inner, outer)| PI * (outer - inner) * (outer + inner)).collect()
 }
 
-fn follow(walk: &Walk, body: impl Body, radii: &[f64], areas: Vec<f64>) -> Tally {
+fn follow(walk: &PhotonWalk, body: impl Body, radii: &[f64], areas: Vec<f64>) -> WalkTally {
     let sigma_t = walk.coefficients.sigma_t_prime();
     let squares: Vec<f64> = radii.iter().map(|radius| (radius * sigma_t) * (radius * sigma_t)).collect();
     let batches = (0..BATCHES).into_par_iter().map(|batch| {
@@ -96,7 +96,7 @@ fn follow(walk: &Walk, body: impl Body, radii: &[f64], areas: Vec<f64>) -> Tally
         }
         counts
     });
-    Tally::new(areas, batches.collect(), 1.0 / sigma_t)
+    WalkTally::new(areas, batches.collect(), 1.0 / sigma_t)
 }
 
 enum Fate {
@@ -105,7 +105,7 @@ enum Fate {
     Cut,
 }
 
-fn one(walk: &Walk, body: impl Body, rng: &mut PhotonRng, path: &mut f64) -> Fate {
+fn one(walk: &PhotonWalk, body: impl Body, rng: &mut PhotonRng, path: &mut f64) -> Fate {
     let alpha = walk.coefficients.alpha_prime();
     let mut at = DVec3::ZERO;
     let mut direction = rng.enter(walk.entry, walk.eta, DVec3::Z);

@@ -6,11 +6,14 @@ use glam::DVec3;
 
 use crate::elementary::{ln, sin_cos};
 use crate::geom::random::CounterRng;
-use crate::subsurface::fresnel_transmittance;
+use crate::subsurface::fresnel::fresnel_transmittance;
+
+/// Tries for a direction that passes the boundary.
+const MAX_TRIES: u32 = 1000;
 
 /// How photons enter. All counts are per photon that has passed the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entry {
+pub enum PhotonEntry {
     /// Equal radiance from all directions outside, refracted.
     Diffuse,
     /// A beam from outside at this cosine of the angle of incidence, refracted, at random around the normal.
@@ -57,17 +60,17 @@ impl PhotonRng {
     }
 
     /// The direction of a photon that enters, for the unit normal that points inwards.
-    pub(super) fn enter(&mut self, entry: Entry, eta: f64, inwards: DVec3) -> DVec3 {
-        let outside = match entry {
-            Entry::Beam(cosine) => cosine,
-            Entry::Diffuse => loop {
+    pub(super) fn enter(&mut self, entry: PhotonEntry, eta: f64, inwards: DVec3) -> DVec3 {
+        let outside: Option<f64> = match entry {
+            PhotonEntry::Beam(cosine) => Some(cosine),
+            // At least a third of what is tried passes: the limit is for indices that are no numbers.
+            PhotonEntry::Diffuse => (0..MAX_TRIES).find_map(|_| {
                 let [u, v] = self.pair();
                 let cosine = u.sqrt();
-                if v < fresnel_transmittance(eta, cosine) {
-                    break cosine;
-                }
-            },
+                (v < fresnel_transmittance(eta, cosine)).then_some(cosine)
+            }),
         };
+        let outside = outside.unwrap_or(1.0);
         let sine = (1.0 - outside * outside).max(0.0).sqrt() / eta;
         let [turn, _] = self.pair();
         around(inwards, (1.0 - sine * sine).sqrt(), turn)

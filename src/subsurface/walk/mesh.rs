@@ -3,9 +3,9 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use super::boundary::reflected;
-use super::tally::{BATCHES, BatchCounts, Tally};
-use super::{PhotonRng, Walk};
+use super::boundary::{PhotonRng, reflected};
+use super::settings::PhotonWalk;
+use super::tally::{BATCHES, BatchCounts, WalkTally};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::tracer::{CastError, Caster};
@@ -39,12 +39,12 @@ pub enum MeshWalkError {
 /// # Errors
 /// [`MeshWalkError`]: scale or fluxes make no sense, or the caster fails.
 pub fn mesh(
-    walk: &Walk,
+    walk: &PhotonWalk,
     mesh: &Mesh,
     mm_per_unit: f64,
     flux: &[f64],
     caster: &mut dyn Caster,
-) -> Result<Tally, MeshWalkError> {
+) -> Result<WalkTally, MeshWalkError> {
     if !(mm_per_unit > 0.0 && mm_per_unit.is_finite()) {
         return Err(MeshWalkError::Scale { found: mm_per_unit });
     }
@@ -56,7 +56,7 @@ pub fn mesh(
     let batches: Result<Vec<_>, _> = (0..BATCHES).map(|batch| waves.batch(batch, &sources)).collect();
     let scale = mm_per_unit * mm_per_unit;
     let areas = (0..mesh.len() as u32).map(|face| mesh.area(face) * scale).collect();
-    Ok(Tally::new(areas, batches?, 1.0 / sigma_t))
+    Ok(WalkTally::new(areas, batches?, 1.0 / sigma_t))
 }
 
 /// Where photons enter.
@@ -91,7 +91,7 @@ struct Photon {
 }
 
 struct Waves<'a> {
-    walk: &'a Walk,
+    walk: &'a PhotonWalk,
     mesh: &'a Mesh,
     clearance: f64,
     /// Per unit of the mesh.

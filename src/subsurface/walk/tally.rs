@@ -8,14 +8,14 @@ const STUDENT: f64 = 2.0395;
 
 /// A mean over batches and the half width of its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
+pub struct WalkEstimate {
     /// The mean.
     pub mean: f64,
     /// Half of the interval's width.
     pub half_width: f64,
 }
 
-impl Estimate {
+impl WalkEstimate {
     /// The mean of the batches' values.
     pub fn of(values: [f64; BATCHES]) -> Self {
         let count = BATCHES as f64;
@@ -57,14 +57,14 @@ impl BatchCounts {
 
 /// What became of all photons.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tally {
+pub struct WalkTally {
     /// Areas of the bins, in mm^2.
     areas: Vec<f64>,
     batches: Vec<BatchCounts>,
     mean_free_path: f64,
 }
 
-impl Tally {
+impl WalkTally {
     pub(super) fn new(areas: Vec<f64>, batches: Vec<BatchCounts>, mean_free_path: f64) -> Self {
         Self { areas, batches, mean_free_path }
     }
@@ -74,12 +74,12 @@ impl Tally {
     }
 
     /// An estimate of a value per photon that entered.
-    fn estimate(&self, of: impl Fn(&BatchCounts) -> f64) -> Estimate {
+    fn estimate(&self, of: impl Fn(&BatchCounts) -> f64) -> WalkEstimate {
         let mut values = [0.0; BATCHES];
         for (value, batch) in values.iter_mut().zip(&self.batches) {
             *value = of(batch) / batch.entered.max(1) as f64;
         }
-        Estimate::of(values)
+        WalkEstimate::of(values)
     }
 
     /// Photons that entered.
@@ -113,27 +113,27 @@ impl Tally {
     }
 
     /// The fraction of photons that left.
-    pub fn total(&self) -> Estimate {
+    pub fn total(&self) -> WalkEstimate {
         self.estimate(|batch| batch.left.iter().sum::<u64>() as f64)
     }
 
     /// The fraction that left in a bin.
-    pub fn fraction(&self, bin: usize) -> Estimate {
+    pub fn fraction(&self, bin: usize) -> WalkEstimate {
         self.estimate(|batch| batch.left[bin] as f64)
     }
 
     /// The fraction that left in the first bins, up to `bins` of them.
-    pub fn fraction_below(&self, bins: usize) -> Estimate {
+    pub fn fraction_below(&self, bins: usize) -> WalkEstimate {
         self.estimate(|batch| batch.left[..bins].iter().sum::<u64>() as f64)
     }
 
     /// The mean exitance in a bin, per mm^2, for one photon.
-    pub fn exitance(&self, bin: usize) -> Estimate {
+    pub fn exitance(&self, bin: usize) -> WalkEstimate {
         self.fraction(bin).times(1.0 / self.areas[bin])
     }
 
     /// The mean length of a path in mm, of all photons that entered.
-    pub fn mean_path(&self) -> Estimate {
+    pub fn mean_path(&self) -> WalkEstimate {
         self.estimate(|batch| batch.path).times(self.mean_free_path)
     }
 }

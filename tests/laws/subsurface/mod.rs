@@ -2,4 +2,5 @@
 
 mod physics;
 mod physics_bodies;
+mod physics_traced;
 mod physics_walk;

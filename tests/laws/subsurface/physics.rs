@@ -116,6 +116,7 @@ fn discs_and_the_plane_are_integrals_of_r_d() {
             assert_abs_diff_eq!(outside, dipole.disc(radius), epsilon = 1e-14);
         }
         assert_relative_eq!(dipole.total(), dipole.beyond(0.0), max_relative = 1e-13);
+        assert_relative_eq!(dipole.total(), dipole.integrated_total(), max_relative = 1e-12);
         if dipole.coefficients().sigma_a == 0.0 {
             assert_relative_eq!(dipole.total(), 1.0, max_relative = 1e-15);
         }

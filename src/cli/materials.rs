@@ -1,0 +1,260 @@
+//! `crossbar materials`: published media, and what the dipole makes of a medium.
+
+use serde_json::{Value, json};
+
+use super::{Out, Problem, Verdict, number};
+use crate::names::did_you_mean;
+use crate::report::{Cell, Table};
+use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
+use crate::subsurface::{Coefficients, Dipole, Material, MaterialError};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar materials
+      the published media: coefficients, mean free paths, diffuse reflectances
+  crossbar materials marble
+      lengths and reflectances of marble, and where its coefficients are from
+  crossbar materials skin1 --at 0,0.5,1,2,5
+      how much light leaves at these distances (mm) from where it entered
+  crossbar materials --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3
+      a medium of one's own; one number for all channels, or R,G,B
+  crossbar materials ketchup --eta 1.5 --json
+      published coefficients behind another boundary, for machines";
+
+/// Distances that are shown without `--at`, in mean free paths of the longest.
+const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
+/// Fractions of the light whose radii are shown.
+const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
+
+/// Show media: coefficients, lengths, and how much light leaves at which distance
+///
+/// Coefficients are per mm, lengths in mm. The dipole is that of Jensen, Marschner, Levoy and Hanrahan 2001.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A published medium; all of them if left out
+    #[arg(conflicts_with_all = ["sigma_s", "sigma_a"])]
+    name: Option<String>,
+
+    /// Distances in mm at which R_d is shown [default: 0 to 10 of the longest mean free path]
+    #[arg(long, value_name = "MM,...", value_delimiter = ',', value_parser = number::not_negative)]
+    at: Vec<f64>,
+
+    /// Reduced scattering coefficient per mm, one number or R,G,B
+    #[arg(long, value_name = "PER_MM", value_parser = channels, requires = "sigma_a", allow_hyphen_values = true)]
+    sigma_s: Option<Channels>,
+
+    /// Absorption coefficient per mm, one number or R,G,B
+    #[arg(long, value_name = "PER_MM", value_parser = channels, requires = "sigma_s", allow_hyphen_values = true)]
+    sigma_a: Option<Channels>,
+
+    /// Index of refraction, 1 to 3 [default: the published one; 1.3 for a medium of one's own]
+    #[arg(long, value_name = "ETA", value_parser = number::finite)]
+    eta: Option<f64>,
+}
+
+/// One number per channel.
+#[derive(Clone, Copy, Debug)]
+struct Channels([f64; 3]);
+
+fn channels(text: &str) -> Result<Channels, String> {
+    let numbers: Vec<f64> = text.split(',').map(number::finite).collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [all] => Ok(Channels([all; 3])),
+        [red, green, blue] => Ok(Channels([red, green, blue])),
+        _ => Err(format!("expected one number, or three as R,G,B, found `{text}`")),
+    }
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let own = match (args.sigma_s, args.sigma_a) {
+        (Some(Channels(s)), Some(Channels(a))) => {
+            let channels = [0, 1, 2].map(|c| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] });
+            Some(Material::new("own", channels, args.eta.unwrap_or(1.3)).map_err(refused)?)
+        }
+        _ => None,
+    };
+    let published = args.name.as_deref().map(published).transpose()?;
+    let material = own.or_else(|| published.map(PublishedMaterial::material));
+    match material {
+        Some(material) => {
+            let eta = args.eta.unwrap_or(material.eta);
+            let material = Material::new(material.name, material.channels, eta).map_err(refused)?;
+            one(&Shown::new(&material, &args.at).map_err(refused)?, published, out)?;
+        }
+        None if args.eta.is_some() || !args.at.is_empty() => {
+            let help = "name a medium, or give `--sigma-s` and `--sigma-a`; `crossbar materials` lists the names";
+            return Err(Problem::usage("`--eta` and `--at` are about one medium", help).into());
+        }
+        None => all(out)?,
+    }
+    Ok(Verdict::Done)
+}
+
+fn refused(error: MaterialError) -> Problem {
+    Problem::usage(error.to_string(), "coefficients are per mm; `crossbar materials` shows published ones")
+}
+
+fn published(name: &str) -> Result<&'static PublishedMaterial, Problem> {
+    named(name).ok_or_else(|| {
+        let names = MATERIALS.map(|material| material.name);
+        let meant = did_you_mean(name, names);
+        let help = format!("{meant}the media are {}; `--sigma-s` and `--sigma-a` make others", names.join(", "));
+        Problem::usage(format!("there is no medium `{name}`"), help)
+    })
+}
+
+/// A medium with its dipoles and distances.
+struct Shown {
+    name: String,
+    eta: f64,
+    dipoles: [Dipole; 3],
+    at: Vec<f64>,
+}
+
+impl Shown {
+    fn new(material: &Material, at: &[f64]) -> Result<Self, MaterialError> {
+        let [red, green, blue] = material.channels.map(|channel| Dipole::new(channel, material.eta));
+        let dipoles = [red?, green?, blue?];
+        let longest = dipoles.iter().map(Dipole::mean_free_path).fold(0.0, f64::max);
+        let at = if at.is_empty() { PATHS.map(|paths| paths * longest).to_vec() } else { at.to_vec() };
+        Ok(Self { name: material.name.clone(), eta: material.eta, dipoles, at })
+    }
+
+    fn each(&self, of: impl Fn(&Dipole) -> f64) -> [f64; 3] {
+        self.dipoles.each_ref().map(of)
+    }
+}
+
+const RGB: [&str; 3] = ["red", "green", "blue"];
+
+/// The published media side by side.
+fn all(out: &mut Out) -> miette::Result<()> {
+    let mut rows = Vec::new();
+    for material in &MATERIALS {
+        rows.push((material, Shown::new(&material.material(), &[]).map_err(refused)?));
+    }
+    if out.json() {
+        let rows: Vec<Value> = rows.iter().map(|(material, shown)| document(shown, Some(material))).collect();
+        return Ok(out.document(&rows)?);
+    }
+    let columns =
+        ["medium", "channel", "sigma'_s (1/mm)", "sigma_a (1/mm)", "eta", "path (mm)", "R_d total", "R_d printed"];
+    let mut table = Table::new("Published media", &columns);
+    for (material, shown) in &rows {
+        for (c, dipole) in shown.dipoles.iter().enumerate() {
+            let printed = material.reflectance.map_or(Cell::Empty, |figure| Cell::decimals(figure.value[c], 2));
+            table.push([
+                shown.name.as_str().into(),
+                RGB[c].into(),
+                dipole.coefficients().sigma_s_prime.into(),
+                dipole.coefficients().sigma_a.into(),
+                shown.eta.into(),
+                Cell::measured(dipole.mean_free_path()),
+                Cell::decimals(dipole.total(), 4),
+                printed,
+            ]);
+        }
+    }
+    out.table(&table)?;
+    out.line("")?;
+    out.sentence("`crossbar materials NAME` shows lengths, R_d by distance and sources of one.")?;
+    Ok(())
+}
+
+/// Everything about one medium.
+fn one(shown: &Shown, published: Option<&PublishedMaterial>, out: &mut Out) -> miette::Result<()> {
+    if out.json() {
+        return Ok(out.document(&document(shown, published))?);
+    }
+    out.line(format_args!("{}: index of refraction {}", shown.name, shown.eta))?;
+    out.line("")?;
+    out.table(&lengths(shown))?;
+    out.line("")?;
+    out.sentence("R_d: exitance at a distance from where a flux of 1 enters, per mm^2.")?;
+    let mut table = Table::new("R_d by distance", &["distance (mm)", "red", "green", "blue"]);
+    for &r in &shown.at {
+        let [red, green, blue] = shown.each(|dipole| dipole.r_d(r)).map(Cell::measured);
+        table.push([r.into(), red, green, blue]);
+    }
+    out.table(&table)?;
+    if let Some(published) = published {
+        out.line("")?;
+        out.table(&sources(published))?;
+    }
+    Ok(())
+}
+
+fn lengths(shown: &Shown) -> Table {
+    let mut table = Table::new("Coefficients, lengths and totals", &["quantity", "unit", "red", "green", "blue"]);
+    let mut row = |name: &str, unit: &str, values: [f64; 3], cell: fn(f64) -> Cell| {
+        let [red, green, blue] = values.map(cell);
+        table.push([name.into(), unit.into(), red, green, blue]);
+    };
+    row("sigma'_s, scattering", "1/mm", shown.each(|dipole| dipole.coefficients().sigma_s_prime), Cell::from);
+    row("sigma_a, absorption", "1/mm", shown.each(|dipole| dipole.coefficients().sigma_a), Cell::from);
+    row("alpha', albedo", "", shown.each(Dipole::alpha_prime), |value| Cell::decimals(value, 6));
+    row("mean free path, z_r", "mm", shown.each(Dipole::mean_free_path), Cell::measured);
+    row("diffusion length, 1 / sigma_tr", "mm", shown.each(Dipole::diffusion_length), Cell::measured);
+    row("z_v, virtual source", "mm", shown.each(Dipole::z_v), Cell::measured);
+    row("R_d, total in closed form", "", shown.each(Dipole::total), |value| Cell::decimals(value, 6));
+    row("R_d, integrated", "", shown.each(Dipole::integrated_total), |value| Cell::decimals(value, 6));
+    for fraction in FRACTIONS {
+        let name = format!("radius that holds {} %", fraction * 100.0);
+        row(&name, "mm", shown.each(|dipole| dipole.radius_of(fraction)), Cell::measured);
+    }
+    table
+}
+
+fn sources(material: &PublishedMaterial) -> Table {
+    let mut table = Table::new("Sources", &["figure", "value", "confidence", "source"]);
+    let list = |figure: PublishedFigure<[f64; 3]>| figure.value.map(|value| value.to_string()).join(", ");
+    let mut row = |name: &str, value: String, confidence: &str, source: &str| {
+        table.push([name.into(), value.into(), confidence.into(), source.into()]);
+    };
+    for (name, figure) in [("sigma'_s", material.sigma_s_prime), ("sigma_a", material.sigma_a)] {
+        row(name, list(figure), figure.confidence.word(), figure.source);
+    }
+    row("eta", material.eta.value.to_string(), material.eta.confidence.word(), material.eta.source);
+    if let Some(figure) = material.reflectance {
+        row("R_d printed", list(figure), figure.confidence.word(), figure.source);
+    }
+    table
+}
+
+fn document(shown: &Shown, published: Option<&PublishedMaterial>) -> Value {
+    let radii: Vec<Value> = FRACTIONS
+        .iter()
+        .map(|&fraction| json!({ "fraction": fraction, "mm": shown.each(|dipole| dipole.radius_of(fraction)) }))
+        .collect();
+    let r_d: Vec<Value> =
+        shown.at.iter().map(|&r| json!({ "mm": r, "per_mm2": shown.each(|dipole| dipole.r_d(r)) })).collect();
+    json!({
+        "name": shown.name,
+        "eta": shown.eta,
+        "sigma_s_prime_per_mm": shown.each(|dipole| dipole.coefficients().sigma_s_prime),
+        "sigma_a_per_mm": shown.each(|dipole| dipole.coefficients().sigma_a),
+        "alpha_prime": shown.each(Dipole::alpha_prime),
+        "mean_free_path_mm": shown.each(Dipole::mean_free_path),
+        // Without absorption it is infinite, which JSON calls null.
+        "diffusion_length_mm": shown.each(Dipole::diffusion_length),
+        "z_r_mm": shown.each(Dipole::z_r),
+        "z_v_mm": shown.each(Dipole::z_v),
+        "total": shown.each(Dipole::total),
+        "total_integrated": shown.each(Dipole::integrated_total),
+        "radii": radii,
+        "r_d": r_d,
+        "sources": published.map(source_document),
+    })
+}
+
+fn source_document(material: &PublishedMaterial) -> Value {
+    let figure = |value: Value, source: &str, confidence: &str| json!({ "value": value, "source": source, "confidence": confidence });
+    let triple = |it: PublishedFigure<[f64; 3]>| figure(json!(it.value), it.source, it.confidence.word());
+    json!({
+        "sigma_s_prime": triple(material.sigma_s_prime),
+        "sigma_a": triple(material.sigma_a),
+        "eta": figure(json!(material.eta.value), material.eta.source, material.eta.confidence.word()),
+        "reflectance": material.reflectance.map(triple),
+    })
+}

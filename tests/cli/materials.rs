@@ -1,0 +1,78 @@
+//! `crossbar materials`: published media with sources, media of one's own, errors that say what was meant.
+
+use serde_json::Value;
+
+use crate::crossbar;
+
+fn json(arguments: &[&str]) -> Value {
+    let ran = crossbar(arguments, "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn a_medium_as_it_is_read() {
+    insta::assert_snapshot!(
+        "materials_chicken1",
+        crossbar(&["materials", "chicken1", "--at", "0,1,5"], "").transcript()
+    );
+}
+
+#[test]
+fn all_published_media_have_sources_and_the_totals_of_their_integrals() {
+    let all = json(&["materials", "--json"]);
+    let all = all.as_array().expect("a list");
+    assert_eq!(all.len(), 14);
+    for medium in all {
+        for channel in 0..3 {
+            let [total, sum] = ["total", "total_integrated"].map(|key| number(&medium[key][channel]));
+            assert!((total - sum).abs() < 1e-12, "{}: {total}, {sum}", medium["name"]);
+            let radii: Vec<f64> = (0..3).map(|i| number(&medium["radii"][i]["mm"][channel])).collect();
+            assert!(radii[0] < radii[1] && radii[1] < radii[2], "{radii:?}");
+        }
+        for figure in ["sigma_s_prime", "sigma_a", "eta"] {
+            assert!(medium["sources"][figure]["source"].as_str().is_some_and(|source| !source.is_empty()));
+        }
+    }
+    let spectralon = all.iter().find(|medium| medium["name"] == "Spectralon").expect("listed");
+    assert_eq!(spectralon["diffusion_length_mm"][0], Value::Null);
+}
+
+#[test]
+fn own_coefficients_are_those_of_figure_7() {
+    let own = json(&["materials", "--sigma-s", "2.21", "--sigma-a", "0.0012", "--eta", "1.3", "--json"]);
+    let published = json(&["materials", "figure7", "--json"]);
+    for key in ["total", "radii", "r_d", "z_v_mm"] {
+        assert_eq!(own[key], published[key], "{key}");
+    }
+    assert!((number(&own["total"][1]) - 0.897_233).abs() < 1e-6);
+    assert_eq!(own["sources"], Value::Null);
+    let colored = json(&["materials", "--sigma-s", "1,2,3", "--sigma-a", "0,0.1,0.2", "--at", "0.5", "--json"]);
+    assert_eq!(colored["sigma_s_prime_per_mm"], serde_json::json!([1.0, 2.0, 3.0]));
+    assert_eq!(colored["r_d"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn what_is_no_medium_is_refused_with_what_was_meant() {
+    for (arguments, said) in [
+        (&["materials", "chiken1"][..], "did you mean `Chicken1`?"),
+        (&["materials", "butter"], "the media are Apple"),
+        (&["materials", "--sigma-s", "1", "--sigma-a", "-1"], "expected at least 0 for the absorption"),
+        (&["materials", "--sigma-s", "0", "--sigma-a", "1"], "without scattering"),
+        (&["materials", "--sigma-s", "1,2", "--sigma-a", "1"], "expected one number, or three"),
+        (&["materials", "--sigma-s", "1"], "--sigma-a"),
+        (&["materials", "marble", "--eta", "0.9"], "expected an index of refraction from 1 to 3"),
+        (&["materials", "marble", "--sigma-s", "1", "--sigma-a", "1"], "cannot be used with"),
+        (&["materials", "--at", "1"], "are about one medium"),
+        (&["materials", "marble", "--at", "-1"], "expected a number not below 0"),
+    ] {
+        let ran = crossbar(arguments, "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}");
+        let text = ran.stderr.split_whitespace().filter(|word| *word != "|").collect::<Vec<_>>().join(" ");
+        assert!(text.contains(said), "{arguments:?}: {}", ran.stderr);
+    }
+}
