@@ -3,6 +3,9 @@
 use refsim::device::{DeviceError, Profile};
 use refsim::num::Format;
 
+/// Switches that only generated mip levels ask. Studies whose cards generate none leave them out.
+const MIPMAP_SWITCHES: [&str; 1] = ["mipmap-rounding"];
+
 /// A device as one row of a study sees it.
 #[derive(Clone, Debug)]
 pub struct Configuration {
@@ -44,7 +47,8 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// A device, and then the same device with each of its open switches turned to each other value, one at a time.
+    /// A device, and then the same device with each of its open switches turned to each other value, one at a time;
+    /// without those of generated mip levels.
     ///
     /// # Errors
     /// If there is no such device.
@@ -58,13 +62,13 @@ impl Configuration {
     }
 
     /// This configuration, and then the same with each open switch of its device turned to each other value, one at a
-    /// time.
+    /// time; without those of generated mip levels.
     ///
     /// # Errors
     /// If a switch does not take one of its own values.
     pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
         let mut all = vec![self.clone()];
-        for switch in self.profile.switches() {
+        for switch in self.profile.switches().iter().filter(|s| !MIPMAP_SWITCHES.contains(&s.name.as_str())) {
             for value in switch.values.iter().filter(|v| **v != switch.current) {
                 let mut turned = self.clone();
                 turned.profile.set_switch(&switch.name, value)?;

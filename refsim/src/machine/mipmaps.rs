@@ -7,8 +7,8 @@ use crate::texture::{Image, MipmapRules, TexelFormat, TextureKind, texels_under}
 
 impl Machine {
     /// Makes a colour target with mip levels, all of zero bytes: draws go into level 0, samplers and
-    /// [`Machine::read_back`] see all levels, and [`Machine::generate_mipmaps`] fills those below. `levels` counts level
-    /// 0; [`Image::most_levels`] says how many there can be.
+    /// [`Machine::read_back`] see all levels, and [`Machine::generate_mipmaps`] fills the others. `levels` counts
+    /// level 0; [`Image::most_levels`] says how many there can be.
     ///
     /// # Errors
     /// As [`Machine::create_target`], and if the device has no levels of the format or there can't be so many.
