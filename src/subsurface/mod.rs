@@ -4,15 +4,22 @@
 //!
 //! - [`Coefficients`], [`Material`]: what the medium is made of, per mm;
 //! - [`Dipole`]: the diffuse reflectance R_d of equation 7 by distance, its integrals over discs and the plane;
-//! - [`fresnel`]: transmittance of the boundary and its means.
+//! - [`fresnel`]: transmittance of the boundary and its means;
+//! - [`factor`]: throughput factors, equation 10;
+//! - [`links`]: which clusters a texel gathers from, and how textures hold them;
+//! - [`Reference`]: equation 9 over all pairs of texels;
 //! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card.
 
 mod dipole;
+pub mod factor;
 pub mod fresnel;
 pub mod kernels;
+pub mod links;
 mod material;
 pub mod on_card;
+mod reference;
 
 pub use dipole::{Dipole, InternalReflection};
 pub use fresnel::fresnel_transmittance;
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
+pub use reference::Reference;

@@ -1,0 +1,273 @@
+//! R_d as a function of the squared distance, tabulated, and its means over pairs of far pieces of surface.
+//!
+//! A source at depth z contributes `alpha' z / (4 pi) psi_1(d)` with d^2 = r^2 + z^2 and
+//! `psi_1 = (sigma_tr + 1/d) e^(-sigma_tr d) / d^2`. With psi_0 = e^(-sigma_tr d) / d and
+//! `psi_(n+1) = ((2 n + 1) psi_n + sigma_tr^2 psi_(n-1)) / d^2`, the derivative of psi_n by d^2 is -psi_(n+1) / 2. So
+//! R_d is completely monotone in r^2: its derivatives alternate in sign and decrease in magnitude, and the error of a
+//! cubic Hermite polynomial on an interval of length h is between 0 and h^4 / 384 times the fourth derivative at the
+//! interval's left end.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::moments::Covariance;
+use crate::elementary::exp;
+use crate::subsurface::Dipole;
+
+/// The largest relative error of the table where light still matters, see [`Kernel::interpolation_error`].
+const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
+/// Beyond this many diffusion lengths the relative error is not asked for: e^-25 is 1e-11.
+const MATTERS: f64 = 25.0;
+/// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
+const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
+/// The logarithmic derivative of R_d is at most this over d, plus sigma_tr.
+const SLOPE: f64 = 3.0;
+/// Two pieces are far enough at a tolerance of 1 % if the root of their radii's squares, times the logarithmic derivative,
+/// is below this: measured, see tests/laws/subsurface/links_factors.rs.
+const FAR: f64 = 1.0;
+/// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
+/// total over the plane.
+pub(super) const FLOOR: f64 = 1e-5;
+
+/// R_d of N channels on intervals of the squared distance.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel<const N: usize> {
+    dipoles: [Dipole; N],
+    /// The least depth of a source, squared, and its reciprocal.
+    unit: f64,
+    per_unit: f64,
+    /// Bits of a number to drop for its interval.
+    shift: u32,
+    intervals: Vec<Interval<N>>,
+    interpolation_error: f64,
+}
+
+/// One interval of v = 1 + r^2 / unit.
+#[derive(Clone, Copy, Debug)]
+struct Interval<const N: usize> {
+    /// Per channel, coefficients of powers of v less the interval's left end.
+    cubic: [[f64; 4]; N],
+    /// Pieces whose squared radii sum to at most this are far.
+    reach: f64,
+    /// Pieces whose squared radii sum to at most this are negligible.
+    negligible: f64,
+}
+
+/// Value, first and fourth derivative of R_d by v.
+struct Derivatives {
+    value: f64,
+    first: f64,
+    fourth: f64,
+}
+
+impl<const N: usize> Kernel<N> {
+    /// For pieces at most `diameter` apart of a surface of an area, in mm.
+    pub(super) fn new(dipoles: [Dipole; N], diameter: f64, area: f64, tolerance: f64) -> Self {
+        let depth = dipoles.iter().map(Dipole::z_r).fold(f64::INFINITY, f64::min);
+        let unit = depth * depth;
+        let mut kernel = Self {
+            dipoles,
+            unit,
+            per_unit: 1.0 / unit,
+            shift: 0,
+            intervals: Vec::new(),
+            interpolation_error: f64::INFINITY,
+        };
+        let end = 1.0 + diameter * diameter / unit;
+        for bits in RESOLUTION {
+            kernel.tabulate(52 - bits, end);
+            if kernel.interpolation_error <= MAX_INTERPOLATION_ERROR {
+                break;
+            }
+        }
+        kernel.set_reaches(area, tolerance);
+        kernel
+    }
+
+    /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
+    pub(super) fn interpolation_error(&self) -> f64 {
+        self.interpolation_error
+    }
+
+    fn tabulate(&mut self, shift: u32, end: f64) {
+        self.shift = shift;
+        self.intervals.clear();
+        self.interpolation_error = 0.0;
+        let mut left = self.dipoles.map(|dipole| derivatives(&dipole, self.unit, 1.0));
+        loop {
+            let [from, to] = [self.left_end(self.intervals.len()), self.left_end(self.intervals.len() + 1)];
+            let right = self.dipoles.map(|dipole| derivatives(&dipole, self.unit, to));
+            let width = to - from;
+            let mut interval = Interval { cubic: [[0.0; 4]; N], reach: 0.0, negligible: 0.0 };
+            for (channel, cubic) in interval.cubic.iter_mut().enumerate() {
+                let (l, r) = (&left[channel], &right[channel]);
+                let slope = (r.value - l.value) / width;
+                let second = (3.0 * slope - 2.0 * l.first - r.first) / width;
+                let third = (l.first + r.first - 2.0 * slope) / (width * width);
+                *cubic = [l.value, l.first, second, third];
+                let distance = ((to - 1.0) * self.unit).sqrt();
+                if self.dipoles[channel].sigma_tr() * distance <= MATTERS && r.value > 0.0 {
+                    let bound = l.fourth * width * width * width * width / 384.0 / r.value;
+                    self.interpolation_error = self.interpolation_error.max(bound);
+                }
+            }
+            self.intervals.push(interval);
+            if to > end {
+                return;
+            }
+            left = right;
+        }
+    }
+
+    /// How large pieces at each distance may be.
+    fn set_reaches(&mut self, area: f64, tolerance: f64) {
+        // The error grows with the fourth power of the radius (odd moments mostly cancel).
+        let far = FAR * (tolerance / 0.01).sqrt().sqrt();
+        let light = |interval: &Interval<N>| {
+            let relative = |(cubic, dipole): (&[f64; 4], &Dipole)| cubic[0] * area / dipole.total();
+            interval.cubic.iter().zip(&self.dipoles).map(relative).fold(0.0, f64::max)
+        };
+        let dark = self.intervals.iter().position(|interval| light(interval) <= tolerance * FLOOR);
+        let left_ends: Vec<f64> = (0..self.intervals.len()).map(|k| self.left_end(k)).collect();
+        let distance = |k: usize| ((left_ends[k] - 1.0) * self.unit).sqrt();
+        let dark_from = dark.map_or(f64::INFINITY, distance);
+        for k in 0..self.intervals.len() {
+            let r = distance(k);
+            let reach = |dipole: &Dipole| {
+                let d = (r * r + dipole.z_r() * dipole.z_r()).sqrt();
+                far * d / (SLOPE + dipole.sigma_tr() * d)
+            };
+            let reach = self.dipoles.iter().map(reach).fold(f64::INFINITY, f64::min);
+            let interval = &mut self.intervals[k];
+            interval.reach = reach * reach;
+            // The nearest points of both are at least r less the radii apart; (a + b)^2 <= 2 (a^2 + b^2).
+            let spare = (r - dark_from).max(0.0);
+            interval.negligible = 0.5 * spare * spare;
+        }
+    }
+
+    /// The left end of an interval.
+    fn left_end(&self, interval: usize) -> f64 {
+        f64::from_bits(((1.0_f64.to_bits() >> self.shift) + interval as u64) << self.shift)
+    }
+
+    /// The interval of a squared distance, and how far into it v is.
+    #[inline]
+    fn find(&self, squared: f64) -> (&Interval<N>, f64) {
+        let v = 1.0 + squared * self.per_unit;
+        let bits = v.to_bits() >> self.shift;
+        let interval = (bits - (1.0_f64.to_bits() >> self.shift)) as usize;
+        (&self.intervals[interval.min(self.intervals.len() - 1)], v - f64::from_bits(bits << self.shift))
+    }
+
+    /// R_d at a squared distance.
+    #[inline]
+    pub(super) fn at(&self, squared: f64) -> [f64; N] {
+        let (interval, t) = self.find(squared);
+        interval.cubic.map(|[c0, c1, c2, c3]| c0 + t * (c1 + t * (c2 + t * c3)))
+    }
+
+    /// The mean of R_d over pairs of points, whose difference has a mean and a covariance, of two pieces whose squared
+    /// radii have a sum; `None` if they are too near. To second order: with g(r^2) = R_d,
+    /// g + g' trace(C) + 2 g'' x^T C x.
+    #[inline]
+    pub(super) fn mean(&self, apart: DVec3, covariance: &Covariance, radii_squared: f64) -> Option<[f64; N]> {
+        let squared = apart.length_squared();
+        let (interval, t) = self.find(squared);
+        if radii_squared <= interval.reach {
+            let across = covariance.trace() * self.per_unit;
+            let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
+            return Some(interval.cubic.map(|[c0, c1, c2, c3]| {
+                let value = c0 + t * (c1 + t * (c2 + t * c3));
+                let first = c1 + t * (2.0 * c2 + 3.0 * t * c3);
+                let second = 2.0 * c2 + 6.0 * t * c3;
+                value + first * across + second * along
+            }));
+        }
+        (radii_squared <= interval.negligible).then(|| self.at(squared))
+    }
+
+    /// The mean of R_d over a disc of an area, from its center.
+    pub(super) fn disc(&self, area: f64) -> [f64; N] {
+        let radius = (area / PI).sqrt();
+        std::array::from_fn(|channel| {
+            if area > 0.0 { self.dipoles[channel].disc(radius) / area } else { self.dipoles[channel].r_d(0.0) }
+        })
+    }
+
+    /// How many times pieces whose squared radii sum to `radii_squared` are to be halved to be far at distance 0.
+    pub(super) fn halvings(&self, radii_squared: f64) -> u32 {
+        let mut count = 0;
+        let mut left = radii_squared;
+        while left > self.intervals[0].reach && count < u32::BITS {
+            left *= 0.25;
+            count += 1;
+        }
+        count
+    }
+}
+
+/// The derivatives of R_d by v = 1 + r^2 / unit.
+fn derivatives(dipole: &Dipole, unit: f64, v: f64) -> Derivatives {
+    // Lengths in roots of the unit.
+    let length = unit.sqrt();
+    let sigma = dipole.sigma_tr() * length;
+    let scale = dipole.alpha_prime() / (4.0 * PI) / unit;
+    let mut sum = Derivatives { value: 0.0, first: 0.0, fourth: 0.0 };
+    for z in [dipole.z_r(), dipole.z_v()].map(|z| z / length) {
+        let squared = (v - 1.0) + z * z;
+        let d = squared.sqrt();
+        let mut psi = [exp(-sigma * d) / d; 6];
+        psi[1] = (sigma * d + 1.0) * psi[0] / squared;
+        for n in 1..5 {
+            psi[n + 1] = ((2 * n + 1) as f64 * psi[n] + sigma * sigma * psi[n - 1]) / squared;
+        }
+        sum.value += scale * z * psi[1];
+        sum.first -= scale * z * psi[2] / 2.0;
+        sum.fourth += scale * z * psi[5] / 16.0;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subsurface::Coefficients;
+
+    fn dipole(sigma_s_prime: f64, sigma_a: f64) -> Dipole {
+        Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).expect("a medium")
+    }
+
+    #[test]
+    fn the_table_keeps_its_bound_and_is_never_below_r_d() {
+        for medium in [dipole(2.21, 0.0012), dipole(0.68, 0.9), dipole(1.0, 0.0), dipole(40.0, 7.0)] {
+            let kernel = Kernel::new([medium], 300.0, 1e4, 0.01);
+            let bound = kernel.interpolation_error();
+            assert!(bound > 0.0 && bound <= MAX_INTERPOLATION_ERROR, "{bound}");
+            let mut worst: f64 = 0.0;
+            for k in 0..20_000 {
+                let r = 300.0 * (f64::from(k) / 20_000.0).powi(3);
+                if medium.sigma_tr() * r > MATTERS {
+                    break;
+                }
+                let (exact, [found]) = (medium.r_d(r), kernel.at(r * r));
+                let error = (found - exact) / exact;
+                assert!(error <= 1e-12 && error >= -bound - 1e-12, "at {r}: {error} against {bound}");
+                worst = worst.max(-error);
+            }
+            assert!(worst > 0.05 * bound, "the bound {bound} is far from {worst}");
+        }
+    }
+
+    #[test]
+    fn extreme_media_have_tables() {
+        for (s, a) in [(1e-30, 0.0), (1e-30, 1e30), (1e30, 0.0), (1e30, 1e30), (1.0, 1e-300)] {
+            let kernel = Kernel::new([dipole(s, a)], 1e20, 1e40, 0.01);
+            for r in [0.0, 1e-20, 1.0, 1e20] {
+                let [value] = kernel.at(r * r);
+                assert!(value.is_finite() && value >= 0.0, "{s} {a} {r}: {value}");
+            }
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Throughput factors, equation 10: F_iC is 1 / A_i times the integral of R_d over a texel i and a cluster C.
+//!
+//! - [`SurfaceMoments`]: area, mean point and covariance of every cluster of an atlas;
+//! - [`Factors`]: descends from a cluster until its pieces are small against their distance and the dipole's lengths, and
+//!   takes the mean of R_d over each to second order; near texels are divided further.
+//!
+//! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
+
+mod error;
+mod face_map;
+mod integrate;
+mod kernel;
+mod moments;
+mod near;
+mod surface;
+
+pub use error::FactorError;
+pub(super) use integrate::Branch;
+pub use integrate::Factors;
+pub use surface::{ClusterId, SurfaceMoments};
+
+/// The default tolerance of a factor, relative.
+pub const TOLERANCE: f64 = 0.01;
+/// The least tolerance.
+pub const MIN_TOLERANCE: f64 = 1e-5;
+/// The largest tolerance.
+pub const MAX_TOLERANCE: f64 = 0.1;

@@ -1,0 +1,90 @@
+//! Area, mean point and second moments of a piece of surface: what a far receiver sees of it.
+
+use glam::DVec3;
+
+/// The moments of a piece of surface. Lengths in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Moments {
+    /// Its area.
+    pub(super) area: f64,
+    /// Its mean point.
+    pub(super) point: DVec3,
+    /// Its covariance about the mean point.
+    pub(super) covariance: Covariance,
+    /// The squared radius of a ball about the mean point that holds all of it.
+    pub(super) radius_squared: f64,
+}
+
+/// A symmetric matrix of mean products of coordinates: xx, yy, zz, xy, xz, yz.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Covariance(pub(super) [f64; 6]);
+
+impl Covariance {
+    /// The sum of `factor v v^T` over the given vectors.
+    pub(super) fn of<const K: usize>(terms: [(f64, DVec3); K]) -> Self {
+        let mut sum = [0.0; 6];
+        for (factor, v) in terms {
+            let products = [v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.x * v.z, v.y * v.z];
+            sum.iter_mut().zip(products).for_each(|(sum, product)| *sum += factor * product);
+        }
+        Self(sum)
+    }
+
+    /// The covariance of the difference of two independent points is the sum of theirs.
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        let (a, b) = (&self.0, &other.0);
+        Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]])
+    }
+
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self(self.0.map(|value| factor * value))
+    }
+
+    /// The mean squared distance from the mean point.
+    pub(super) fn trace(&self) -> f64 {
+        self.0[0] + self.0[1] + self.0[2]
+    }
+
+    /// v^T C v.
+    pub(super) fn along(&self, v: DVec3) -> f64 {
+        let [xx, yy, zz, xy, xz, yz] = self.0;
+        v.x * v.x * xx + v.y * v.y * yy + v.z * v.z * zz + 2.0 * (v.x * v.y * xy + v.x * v.z * xz + v.y * v.z * yz)
+    }
+}
+
+impl Moments {
+    /// Of four pieces together, but for the radius, which is 0. Pieces count alike if none has an area.
+    pub(super) fn together(parts: &[Self; 4]) -> Self {
+        let area: f64 = parts.iter().map(|part| part.area).sum();
+        let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };
+        let point = parts.iter().map(|part| weight(part) * part.point).sum::<DVec3>();
+        let mut covariance = Covariance::default();
+        for part in parts {
+            let offset = part.point - point;
+            let about = part.covariance.plus(&Covariance::of([(1.0, offset)]));
+            covariance = covariance.plus(&about.times(weight(part)));
+        }
+        Self { area, point, covariance, radius_squared: 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn four_squares_make_a_square() {
+        let square = |x: f64, y: f64| Moments {
+            area: 1.0,
+            point: DVec3::new(x, y, 2.0),
+            covariance: Covariance::of([(1.0 / 12.0, DVec3::X), (1.0 / 12.0, DVec3::Y)]),
+            radius_squared: 0.5,
+        };
+        let all = Moments::together(&[square(0.0, 0.0), square(1.0, 0.0), square(0.0, 1.0), square(1.0, 1.0)]);
+        assert_eq!((all.area, all.point), (4.0, DVec3::new(0.5, 0.5, 2.0)));
+        assert_relative_eq!(all.covariance.0[0], 4.0 / 12.0, max_relative = 1e-15);
+        assert_relative_eq!(all.covariance.along(DVec3::new(1.0, 1.0, 5.0)), 8.0 / 12.0, max_relative = 1e-15);
+        assert_relative_eq!(all.covariance.trace(), 8.0 / 12.0, max_relative = 1e-15);
+    }
+}

@@ -1,0 +1,175 @@
+//! The moments of every cluster of an atlas, in mm.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::error::FactorError;
+use super::face_map::{FaceMap, Window};
+use super::moments::Moments;
+use crate::atlas::Atlas;
+
+/// A cluster of an atlas: the texel in column x, row y of a level; level 0 is the finest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ClusterId {
+    /// The level.
+    pub level: u32,
+    /// The row.
+    pub y: u32,
+    /// The column.
+    pub x: u32,
+}
+
+/// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level stand in Morton
+/// order, so that the children of cluster k of a level are the clusters 4 k to 4 k + 3 of the level below.
+#[derive(Clone, Debug)]
+pub struct SurfaceMoments {
+    side: u32,
+    levels: Vec<Vec<Moments>>,
+    faces: Vec<FaceMap>,
+    /// The face of each texel, in Morton order.
+    texel_faces: Vec<u32>,
+}
+
+impl SurfaceMoments {
+    /// The moments of the clusters of an atlas.
+    ///
+    /// # Errors
+    /// [`FactorError::Scale`] if the scale is not a positive number.
+    pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, FactorError> {
+        if !(mm_per_unit > 0.0 && mm_per_unit.is_finite()) {
+            return Err(FactorError::Scale { found: mm_per_unit });
+        }
+        let in_mm = |corner: DVec3| mm_per_unit * corner;
+        let faces: Vec<FaceMap> = (0..)
+            .zip(atlas.places())
+            .map(|(face, &place)| FaceMap::new(place.in_turn(atlas.corners(face)).map(in_mm), place))
+            .collect();
+        let side = atlas.side();
+        let texels = side as usize * side as usize;
+        let texel = |k: usize| &atlas.texels()[row_major(k, side)];
+        let texel_faces: Vec<u32> = (0..texels).into_par_iter().map(|k| texel(k).face).collect();
+        let finest = (0..texels).into_par_iter().map(|k| {
+            let (x, y) = from_morton(k);
+            let face = &faces[texel(k).face as usize];
+            face.moments(face.window(x, y), texel(k).area * mm_per_unit * mm_per_unit)
+        });
+        let mut levels: Vec<Vec<Moments>> = vec![finest.collect()];
+        while let Some(below) = levels.last().filter(|level| level.len() > 1) {
+            let level = below.par_chunks_exact(4).map(|four| Moments::together(&[four[0], four[1], four[2], four[3]]));
+            let level = level.collect();
+            levels.push(level);
+        }
+        for (level, clusters) in (1..).zip(&mut levels[1..]) {
+            set_radii(clusters, level, atlas, mm_per_unit);
+        }
+        Ok(Self { side, levels, faces, texel_faces })
+    }
+
+    /// Texels along a side of the atlas.
+    pub fn side(&self) -> u32 {
+        self.side
+    }
+
+    /// The number of levels.
+    pub fn level_count(&self) -> u32 {
+        self.levels.len() as u32
+    }
+
+    /// The area of the surface, in mm^2.
+    pub fn area(&self) -> f64 {
+        self.root().area
+    }
+
+    /// The area of a cluster, in mm^2.
+    ///
+    /// # Panics
+    /// If there is no such cluster.
+    pub fn cluster_area(&self, cluster: ClusterId) -> f64 {
+        self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
+    }
+
+    /// The mean texel area of the atlas over that of a cluster: what a factor is multiplied by where plain means of
+    /// levels weigh texels by their number. 0 for a cluster without area.
+    pub(in crate::subsurface) fn area_ratio(&self, cluster: ClusterId) -> f64 {
+        let texels = (1_u64 << (2 * cluster.level)) as f64;
+        let all = f64::from(self.side) * f64::from(self.side);
+        let area = self.cluster_area(cluster);
+        if area > 0.0 { (self.area() / all) / (area / texels) } else { 0.0 }
+    }
+
+    pub(super) fn level(&self, level: u32) -> &[Moments] {
+        &self.levels[level as usize]
+    }
+
+    pub(super) fn root(&self) -> &Moments {
+        &self.levels[self.levels.len() - 1][0]
+    }
+
+    /// No two points of the surface are farther apart than this, in mm.
+    pub(super) fn diameter(&self) -> f64 {
+        2.0 * self.root().radius_squared.sqrt()
+    }
+
+    /// The face of a texel and the texel's window in it; texels by Morton index.
+    pub(super) fn window(&self, texel: usize) -> (&FaceMap, Window) {
+        let face = &self.faces[self.texel_faces[texel] as usize];
+        let (x, y) = from_morton(texel);
+        (face, face.window(x, y))
+    }
+}
+
+/// Takes the atlas's balls, which are tight.
+fn set_radii(clusters: &mut [Moments], level: u32, atlas: &Atlas, mm_per_unit: f64) {
+    clusters.par_iter_mut().enumerate().for_each(|(k, moments)| {
+        let (x, y) = from_morton(k);
+        let cluster = atlas.cluster(level, x, y);
+        // The two mean points may differ by rounding.
+        let radius = mm_per_unit * cluster.radius + (mm_per_unit * cluster.point - moments.point).length();
+        moments.radius_squared = radius * radius;
+    });
+}
+
+fn row_major(texel: usize, side: u32) -> usize {
+    let (x, y) = from_morton(texel);
+    y as usize * side as usize + x as usize
+}
+
+/// The place in Morton order of column x, row y.
+pub(super) fn to_morton(x: u32, y: u32) -> usize {
+    let spread = |value: u32| {
+        let mut v = u64::from(value);
+        v = (v | (v << 16)) & 0x0000_ffff_0000_ffff;
+        v = (v | (v << 8)) & 0x00ff_00ff_00ff_00ff;
+        v = (v | (v << 4)) & 0x0f0f_0f0f_0f0f_0f0f;
+        v = (v | (v << 2)) & 0x3333_3333_3333_3333;
+        (v | (v << 1)) & 0x5555_5555_5555_5555
+    };
+    (spread(x) | (spread(y) << 1)) as usize
+}
+
+/// Column and row of a place in Morton order.
+pub(super) fn from_morton(place: usize) -> (u32, u32) {
+    let gather = |value: u64| {
+        let mut v = value & 0x5555_5555_5555_5555;
+        v = (v | (v >> 1)) & 0x3333_3333_3333_3333;
+        v = (v | (v >> 2)) & 0x0f0f_0f0f_0f0f_0f0f;
+        v = (v | (v >> 4)) & 0x00ff_00ff_00ff_00ff;
+        v = (v | (v >> 8)) & 0x0000_ffff_0000_ffff;
+        (v | (v >> 16)) as u32
+    };
+    (gather(place as u64), gather(place as u64 >> 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn morton_order_keeps_children_together() {
+        for (x, y) in [(0, 0), (1, 0), (0, 1), (5, 9), (1023, 512), (65535, 65534)] {
+            let place = to_morton(x, y);
+            assert_eq!(from_morton(place), (x, y));
+            assert_eq!(to_morton(x / 2, y / 2), place / 4);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Links as texels of textures for the card's pass 2.
+//!
+//! The card's map holds E_t a_t / (mean texel area of the atlas), so that plain means of its levels weigh by area. The
+//! factor of a link to cluster C is stored as F_iC times (mean texel area of the atlas) / (mean texel area of C). Where
+//! the map holds plain irradiance ([`MeanWeighting::Count`]), it is F_iC.
+//!
+//! | choice, channels | textures | a texel |
+//! |---|---|---|
+//! | fixed, 1 | L / 4 | factors of links 4 k to 4 k + 3 |
+//! | fixed, 3 | 3 L / 4 | texture 3 k + c: factors of channel c of links 4 k to 4 k + 3 |
+//! | adaptive, 1 | L | u, v, factor, level |
+//! | adaptive, 3 | 2 L | texture 2 k: u, v, red factor, level; texture 2 k + 1: red, green, blue factor, 0 |
+//!
+//! If L is not a multiple of 4, the last texels are filled with factors 0. A place (u, v) is the center of the cluster in
+//! the atlas, whose sides are 1.
+
+use refsim::num::{Format, FormatKind, ops, power_of_two};
+
+use super::super::factor::{ClusterId, SurfaceMoments};
+use super::{LinkChoice, Links, MeanWeighting};
+use crate::card::Texels;
+
+/// Where a link reads the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkPlace {
+    /// The center of the cluster, from 0 to 1.
+    pub u: f32,
+    /// The center of the cluster, from 0 to 1.
+    pub v: f32,
+    /// The cluster's level.
+    pub level: f32,
+}
+
+impl LinkPlace {
+    /// The place of a cluster in an atlas of `side` texels along a side. Exact in fp32. In fp16, which has 11 bits, exact
+    /// up to 1024 texels: the odd multiples of 1/2048. At 2048 every other half of the texel centers is rounded.
+    pub fn new(side: u32, ClusterId { level, y, x }: ClusterId) -> Self {
+        let center = |at: u32| ((2 * at + 1) as f64 / (2 * (side >> level)) as f64) as f32;
+        Self { u: center(x), v: center(y), level: level as f32 }
+    }
+}
+
+/// How many factors a format loses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LostFactors {
+    /// Factors of links that are used: above 0.
+    pub factors: usize,
+    /// Of them, those that round to 0.
+    pub flushed: usize,
+    /// Those that are denormal, which a card may flush to 0.
+    pub denormal: usize,
+}
+
+/// Links with the factors that a card stores, texture by texture.
+#[derive(Clone, Copy, Debug)]
+pub struct EncodedLinks<'a> {
+    links: &'a Links,
+    surface: &'a SurfaceMoments,
+    weighting: MeanWeighting,
+}
+
+impl<'a> EncodedLinks<'a> {
+    /// For a map whose plain means weigh texels as `weighting` says.
+    pub fn new(links: &'a Links, surface: &'a SurfaceMoments, weighting: MeanWeighting) -> Self {
+        Self { links, surface, weighting }
+    }
+
+    /// Places of fixed links, which are constants of the program; none of adaptive ones. As many as links.
+    pub fn places(&self) -> Vec<LinkPlace> {
+        self.links.fixed_clusters().into_iter().map(|cluster| LinkPlace::new(self.links.side(), cluster)).collect()
+    }
+
+    /// The number of textures.
+    pub fn texture_count(&self) -> usize {
+        let channels = self.links.channels();
+        match self.links.choice() {
+            LinkChoice::Fixed { .. } => self.links.per_texel().div_ceil(4) * channels,
+            LinkChoice::Adaptive { .. } => self.links.per_texel() * if channels == 1 { 1 } else { 2 },
+        }
+    }
+
+    /// A texture, not yet rounded to its format.
+    ///
+    /// # Panics
+    /// If there is no such texture.
+    pub fn texture(&self, index: usize) -> Texels {
+        assert!(index < self.texture_count(), "there is no texture {index}");
+        let side = self.links.side() as usize;
+        let texel = |x: usize, y: usize| match self.links.choice() {
+            LinkChoice::Fixed { .. } => self.four_factors(x, y, index),
+            LinkChoice::Adaptive { .. } => self.one_link(x, y, index),
+        };
+        Texels::from_fn([side, side], texel)
+    }
+
+    fn four_factors(&self, x: usize, y: usize, index: usize) -> [f32; 4] {
+        let channels = self.links.channels();
+        let [group, channel] = [index / channels, index % channels];
+        let mut links = self.links.of([x as u32, y as u32]).skip(4 * group);
+        std::array::from_fn(|_| links.next().map_or(0.0, |(cluster, factors)| self.stored(cluster, factors[channel])))
+    }
+
+    fn one_link(&self, x: usize, y: usize, index: usize) -> [f32; 4] {
+        let channels = self.links.channels();
+        let link = if channels == 1 { index } else { index / 2 };
+        let Some((cluster, factors)) = self.links.of([x as u32, y as u32]).nth(link) else { return [0.0; 4] };
+        if channels == 3 && index % 2 == 1 {
+            let [red, green, blue] = [0, 1, 2].map(|channel| self.stored(cluster, factors[channel]));
+            return [red, green, blue, 0.0];
+        }
+        let LinkPlace { u, v, level } = LinkPlace::new(self.links.side(), cluster);
+        [u, v, self.stored(cluster, factors[0]), level]
+    }
+
+    /// The factor as the card stores it.
+    fn stored(&self, cluster: ClusterId, factor: f32) -> f32 {
+        match self.weighting {
+            MeanWeighting::Area => (f64::from(factor) * self.surface.area_ratio(cluster)) as f32,
+            MeanWeighting::Count => factor,
+        }
+    }
+
+    /// How many factors a format loses.
+    pub fn lost(&self, format: Format) -> LostFactors {
+        let mut lost = LostFactors::default();
+        let least_normal = least_normal(format);
+        let side = self.links.side();
+        for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+            for (cluster, factors) in self.links.of([x, y]) {
+                for &factor in factors.iter().filter(|factor| **factor > 0.0) {
+                    let stored = self.stored(cluster, factor);
+                    let bits = ops::convert(&Format::FP32, format, stored.to_bits()).bits;
+                    lost.factors += 1;
+                    lost.flushed += usize::from(bits == 0);
+                    lost.denormal += usize::from(bits != 0 && f64::from(stored) < least_normal);
+                }
+            }
+        }
+        lost
+    }
+}
+
+/// The least number of a format that has all its bits.
+fn least_normal(format: Format) -> f64 {
+    match format.kind {
+        FormatKind::Float { exp_bits, .. } => power_of_two(2 - (1 << (exp_bits - 1))),
+        FormatKind::Fixed { .. } => 0.0,
+    }
+}

@@ -1,0 +1,108 @@
+//! Pass 2 on the host, in f64: radiosity as the sum of factor times mean irradiance.
+
+use rayon::prelude::*;
+
+use super::super::factor::{ClusterId, FactorError, SurfaceMoments};
+use super::Links;
+
+/// How texels count in the mean irradiance of a cluster.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeanWeighting {
+    /// By their areas: links to every texel give equation 9.
+    #[default]
+    Area,
+    /// All alike, as plain mipmaps of the irradiance have it.
+    Count,
+}
+
+/// The mean irradiance, in three channels, of every cluster of an atlas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IrradianceMeans {
+    side: u32,
+    /// Per level, row by row.
+    levels: Vec<Vec<[f64; 3]>>,
+}
+
+impl IrradianceMeans {
+    /// The means of the irradiances of all texels, row by row.
+    ///
+    /// # Errors
+    /// [`FactorError::Values`] if there is not one per texel.
+    pub fn new(
+        surface: &SurfaceMoments,
+        irradiances: &[[f64; 3]],
+        weighting: MeanWeighting,
+    ) -> Result<Self, FactorError> {
+        let side = surface.side();
+        let texels = side as usize * side as usize;
+        if irradiances.len() != texels {
+            return Err(FactorError::Values { found: irradiances.len(), texels });
+        }
+        let mut levels = vec![irradiances.to_vec()];
+        for level in 1..surface.level_count() {
+            let finer = &levels[level as usize - 1];
+            let width = side >> level;
+            let mean = |k: usize| {
+                let [x, y] = [k as u32 % width, k as u32 / width];
+                mean_of_children(surface, finer, ClusterId { level, y, x }, weighting)
+            };
+            levels.push((0..width as usize * width as usize).into_par_iter().map(mean).collect());
+        }
+        Ok(Self { side, levels })
+    }
+
+    /// The mean irradiance of a cluster.
+    ///
+    /// # Panics
+    /// If there is no such cluster.
+    pub fn of(&self, ClusterId { level, y, x }: ClusterId) -> [f64; 3] {
+        self.levels[level as usize][y as usize * (self.side >> level) as usize + x as usize]
+    }
+}
+
+fn mean_of_children(
+    surface: &SurfaceMoments,
+    finer: &[[f64; 3]],
+    cluster: ClusterId,
+    weighting: MeanWeighting,
+) -> [f64; 3] {
+    let ClusterId { level, y, x } = cluster;
+    let finer_width = (surface.side() >> (level - 1)) as usize;
+    let area = surface.cluster_area(cluster);
+    let mut sum = [0.0; 3];
+    for [down, right] in [[0, 0], [0, 1], [1, 0], [1, 1]] {
+        let [cx, cy] = [2 * x + right, 2 * y + down];
+        let weight = match weighting {
+            MeanWeighting::Area if area > 0.0 => {
+                surface.cluster_area(ClusterId { level: level - 1, y: cy, x: cx }) / area
+            }
+            _ => 0.25,
+        };
+        let value = finer[cy as usize * finer_width + cx as usize];
+        sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += weight * value);
+    }
+    sum
+}
+
+impl Links {
+    /// The radiosity of every texel, row by row: the sum over its links of factor times mean irradiance. A scalar factor
+    /// serves all three channels.
+    ///
+    /// # Panics
+    /// If the means are of an atlas of another size.
+    pub fn gather(&self, means: &IrradianceMeans) -> Vec<[f64; 3]> {
+        assert_eq!(self.side, means.side, "links and irradiance are of one atlas");
+        let side = self.side as usize;
+        let texel = |k: usize| {
+            let mut sum = [0.0; 3];
+            for (cluster, factors) in self.of([(k % side) as u32, (k / side) as u32]) {
+                let mean = means.of(cluster);
+                for (channel, sum) in sum.iter_mut().enumerate() {
+                    *sum += f64::from(factors[channel % factors.len()]) * mean[channel];
+                }
+            }
+            sum
+        };
+        (0..side * side).into_par_iter().map(texel).collect()
+    }
+}
