@@ -8,7 +8,10 @@
 //! - [`factor`]: throughput factors, equation 10;
 //! - [`links`]: which clusters a texel gathers from, and how textures hold them;
 //! - [`Reference`]: equation 9 over all pairs of texels;
-//! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card.
+//! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card;
+//! - [`point_to_polygon`], [`uniform_sphere`], [`SphereSeries`]: exact answers for polygons and spheres;
+//! - [`materials`]: the published media, each figure with its source;
+//! - [`walk`]: photons followed through the medium, for the dipole's own error.
 
 mod dipole;
 pub mod factor;
@@ -16,10 +19,16 @@ pub mod fresnel;
 pub mod kernels;
 pub mod links;
 mod material;
+pub mod materials;
 pub mod on_card;
+mod polygon;
 mod reference;
+mod sphere;
+pub mod walk;
 
 pub use dipole::{Dipole, InternalReflection};
 pub use fresnel::fresnel_transmittance;
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
+pub use polygon::point_to_polygon;
 pub use reference::Reference;
+pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};

@@ -1,1 +1,5 @@
 //! Laws of system 3.
+
+mod physics;
+mod physics_bodies;
+mod physics_walk;
