@@ -15,8 +15,8 @@ mod nearest;
 mod pass;
 mod texels;
 
-pub(crate) use kernel::{checked, kernels};
 pub use kernel::{KernelError, KernelText};
+pub(crate) use kernel::{checked, kernels};
 pub use levels::Levels;
 pub use nearest::NearestTarget;
 pub use pass::{FullScreenPass, PingPong};

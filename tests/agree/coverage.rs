@@ -306,8 +306,17 @@ fn every_suite_is_a_test_and_the_other_way_round() {
     let names: BTreeSet<&str> = suites.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names.len(), suites.len(), "two suites have one name");
     assert!(names.len() >= 150, "{} suites", names.len());
-    let own =
-        ["constants::", "coverage::", "fuzz::", "mipmaps::", "planted::", "radiosity::", "steps::", "subsurface::", "traces::"];
+    let own = [
+        "constants::",
+        "coverage::",
+        "fuzz::",
+        "mipmaps::",
+        "planted::",
+        "radiosity::",
+        "steps::",
+        "subsurface::",
+        "traces::",
+    ];
     let suites_of_tests: BTreeSet<&str> = tests.into_iter().filter(|t| !own.iter().any(|o| t.starts_with(o))).collect();
     assert_eq!(suites_of_tests, names);
 }

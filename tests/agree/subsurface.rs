@@ -6,7 +6,8 @@ use crossbar::geom::Mesh;
 use crossbar::scene::Camera;
 use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View, order,
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View,
+    order,
 };
 use refsim::device::Profile;
 #[cfg(feature = "wgpu")]
@@ -39,7 +40,8 @@ fn on_gpu() -> Option<(&'static str, Executor)> {
 
 /// An octahedron whose corners are not all alike.
 fn model() -> CardModel {
-    let corners = vec![[1.0, 0.0, 0.0], [-1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.2, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -0.8]];
+    let corners =
+        vec![[1.0, 0.0, 0.0], [-1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.2, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -0.8]];
     let faces = vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
     let mesh = Mesh::new(corners, faces).expect("a mesh");
     CardModel::new(&Atlas::new(&mesh, SIDE).expect("an atlas"))
@@ -101,18 +103,19 @@ fn agrees(name: &str, links: &LinkTextures, options: SubsurfaceCardOptions, view
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
     for (executor, how) in executors() {
-        let fail = |e: &dyn std::fmt::Display| panic!("{name}, {executor}: {e}");
-        let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options).unwrap_or_else(|e| fail(&e));
-        card.light(lights).unwrap_or_else(|e| fail(&e));
-        let levels = card.read_levels().unwrap_or_else(|e| fail(&e));
-        let scattered = card.read_scattered().unwrap_or_else(|e| fail(&e));
+        let what = format!("{name}, {executor}");
+        let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)
+            .unwrap_or_else(|e| panic!("{what}: {e}"));
+        card.light(lights).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let levels = card.read_levels().unwrap_or_else(|e| panic!("{what}: {e}"));
+        let scattered = card.read_scattered().unwrap_or_else(|e| panic!("{what}: {e}"));
         let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
         let expected = order::gathered(&levels, links, (card.gather_programs(), half), &options).expect("an order");
         assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
         assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
         let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
         for view in views {
-            let picture = card.view_texels(view).unwrap_or_else(|e| fail(&e));
+            let picture = card.view_texels(view).unwrap_or_else(|e| panic!("{what}: {e}"));
             assert!(picture.texels.iter().any(|texel| texel[..3] != [0.0; 3]), "{name}: a black picture");
             seen.push(bits(&picture));
         }
@@ -131,7 +134,13 @@ fn fixed_links_are_the_hosts() {
                 for half in [false, true] {
                     let scattered = if half { FloatTexels::Fp16 } else { FloatTexels::Fp32 };
                     let options = SubsurfaceCardOptions { map, half, scattered, ..SubsurfaceCardOptions::default() };
-                    agrees(&format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}"), &links, options, &[], &lights());
+                    agrees(
+                        &format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}"),
+                        &links,
+                        options,
+                        &[],
+                        &lights(),
+                    );
                 }
             }
         }

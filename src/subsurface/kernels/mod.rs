@@ -39,9 +39,9 @@ pub fn programs() -> Vec<(String, String)> {
     let files = FILES.iter().map(|file| (file.name.to_owned(), file.text.to_owned()));
     let lights = [VERTEX_LIGHTS, TEXEL_LIGHTS[0], TEXEL_LIGHTS[1], VIEW_LIGHTS];
     let lights = lights.into_iter().map(|kernel| (format!("{}, 3 lights", kernel.kernel.name), kernel.text(3)));
-    let gathers = GatherKernel::all().into_iter().flat_map(|kernel| {
-        [1, 6].map(|links| (format!("{}, {links} links", kernel.name()), kernel.text(links)))
-    });
+    let gathers = GatherKernel::all()
+        .into_iter()
+        .flat_map(|kernel| [1, 6].map(|links| (format!("{}, {links} links", kernel.name()), kernel.text(links))));
     let views = ViewKernel::all().into_iter().map(|kernel| (kernel.name(), kernel.text(2)));
     files.chain(lights).chain(gathers).chain(views).collect()
 }
@@ -95,9 +95,12 @@ mod tests {
     #[test]
     fn the_most_lights_are_what_the_card_takes() {
         let nv35 = Profile::named("nv35").expect("a card");
-        for (kernel, instructions, constants) in
-            [(VERTEX_LIGHTS, 256, 256), (VIEW_LIGHTS, 256, 256), (TEXEL_LIGHTS[0], 1024, 64), (TEXEL_LIGHTS[1], 1024, 64)]
-        {
+        for (kernel, instructions, constants) in [
+            (VERTEX_LIGHTS, 256, 256),
+            (VIEW_LIGHTS, 256, 256),
+            (TEXEL_LIGHTS[0], 1024, 64),
+            (TEXEL_LIGHTS[1], 1024, 64),
+        ] {
             let most = kernel.most_lights(instructions, constants);
             kernel.checked(&nv35, most).unwrap_or_else(|e| panic!("{e}"));
             assert!(kernel.checked(&nv35, most + 1).is_err(), "{}: {most} is not the most", kernel.kernel.name);

@@ -14,7 +14,9 @@ use crate::card::KernelError;
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SubsurfaceCardError {
     /// The card has no programs of this kind.
-    #[error("device `{device}` runs no `!!FP1.0` and `vs_2_0` programs, in which the passes are written; expected one of {have}")]
+    #[error(
+        "device `{device}` runs no `!!FP1.0` and `vs_2_0` programs, in which the passes are written; expected one of {have}"
+    )]
     NoPrograms { device: String, have: String },
     /// A texture that the card does not have.
     #[error("device `{device}` has textures of at most {limit}x{limit} texels, {what} needs {width}x{height}")]

@@ -40,7 +40,8 @@ impl CardModel {
     pub fn new(atlas: &Atlas) -> Self {
         let drawn: Vec<DrawnFace> = (0..atlas.places().len() as u32).map(|face| atlas.drawn(face)).collect();
         let corners = drawn.iter().flat_map(|face| face.triangles.iter().flatten().map(|vertex| vertex.position));
-        let (low, high) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) =
+            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let center = low / 2.0 + high / 2.0;
         let unit = power_of_two_above((high / 2.0 - low / 2.0).length());
         let side = atlas.side();

@@ -128,10 +128,8 @@ impl LightPass {
     /// The three constants of each light.
     fn of_lights(&self, lights: &[CardLight]) -> impl Iterator<Item = [f32; 4]> {
         let twice = 2.0 * self.format.scale();
-        let constants: Vec<[f32; 4]> = lights
-            .iter()
-            .flat_map(|light| [light.place, colored(light.color, |_| twice), light.attenuation])
-            .collect();
+        let constants: Vec<[f32; 4]> =
+            lights.iter().flat_map(|light| [light.place, colored(light.color, |_| twice), light.attenuation]).collect();
         constants.into_iter()
     }
 

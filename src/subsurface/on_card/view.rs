@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use refsim::machine::{
-    AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams,
-};
+use refsim::machine::{AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams};
 use refsim::num::Format;
 use refsim::output::DepthFormat;
 use refsim::raster::Primitive;
@@ -53,13 +51,12 @@ impl View {
     }
 
     fn check(&self) -> Result<(), SubsurfaceCardError> {
-        let figures = [
-            ("an exposure of 0 to 1e30", self.exposure, 1e30),
-            ("a shininess of 0 to 128", self.shininess, 128.0),
-        ];
+        let figures =
+            [("an exposure of 0 to 1e30", self.exposure, 1e30), ("a shininess of 0 to 128", self.shininess, 128.0)];
         let colors = self.diffuse.iter().map(|&value| ("a diffuse reflectance of 0 to 1", value, 1.0));
         let shine = self.specular.iter().map(|&value| ("a specular coefficient of 0 to 1e30", value, 1e30));
-        let wrong = figures.into_iter().chain(colors).chain(shine).find(|(_, value, most)| !(0.0..=*most).contains(value));
+        let wrong =
+            figures.into_iter().chain(colors).chain(shine).find(|(_, value, most)| !(0.0..=*most).contains(value));
         wrong.map_or(Ok(()), |(what, found, _)| Err(SubsurfaceCardError::Figure { what, found }))
     }
 }
@@ -273,9 +270,7 @@ impl ViewConstants<'_> {
         let shininess = self.view.shininess as f32;
         let square = self.eta * self.eta;
         let (factor, [x, y, z]) = match self.view.kernel.transmittance {
-            EyeTransmittance::Exact => {
-                (2.0, [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32])
-            }
+            EyeTransmittance::Exact => (2.0, [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32]),
             EyeTransmittance::Table => {
                 let texels = TABLE as f32;
                 (1.0, [(texels - 1.0) / texels, 0.5 / texels, 0.0])
@@ -283,12 +278,8 @@ impl ViewConstants<'_> {
             EyeTransmittance::Mean => (mean_transmittance(self.eta), [0.0; 3]),
         };
         let factor = (factor * self.view.exposure / PI) as f32;
-        let mut all = vec![
-            [factor, factor, factor, LEAST_SQUARE],
-            self.eye(LEAST_LENGTH),
-            [x, y, z, shininess],
-            self.ambient(),
-        ];
+        let mut all =
+            vec![[factor, factor, factor, LEAST_SQUARE], self.eye(LEAST_LENGTH), [x, y, z, shininess], self.ambient()];
         for light in self.direct {
             let [diffuse, specular] = self.colors(light);
             all.extend([light.place, light.attenuation, diffuse, specular]);
