@@ -2,6 +2,7 @@
 
 use crossbar::atlas::Atlas;
 use crossbar::card::Texels;
+use crossbar::elementary;
 use crossbar::geom::Mesh;
 use crossbar::geom::vector::wide;
 use crossbar::scene::Camera;
@@ -65,7 +66,104 @@ fn no_face_reads_another() {
 /// Thin triangles around an axis, of very different sizes.
 fn slivers() -> Mesh {
     let mut positions = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let around = [[1.0, 0.0], [0.99, 0.05], [0.0, 1.0], [-0.6, 0.9], [-1.0, -0.2], [0.1, -0.3]];
+    positions.extend(around.map(|[x, y]| [x, y, 0.1 * x]));
+    let faces = (0..6).flat_map(|n| [[0, 2 + n, 2 + (n + 1) % 6], [1, 2 + (n + 1) % 6, 2 + n]]).collect();
+    Mesh::new(positions, faces).expect("a mesh")
+}
+
+/// What pass 3 computes on a flat face, in f64.
+struct Host<'a> {
+    atlas: &'a Atlas,
+    mesh: &'a Mesh,
+    scattered: Texels,
+    view: View,
+    lights: &'a [Light],
+}
+
+impl Host<'_> {
+    /// The color at a point of the picture if a face is seen there.
+    fn color(&self, x: f64, y: f64, face: u32) -> Option<[f64; 3]> {
+        let (eye, direction) = (wide(self.view.camera.eye()), self.view.camera.direction_at(x, y));
+        let [a, b, c] = self.mesh.corners(face)?.map(wide);
+        let normal = (b - a).cross(c - a);
+        let t = normal.dot(a - eye) / normal.dot(direction);
+        let point = eye + t * direction;
+        let weight = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.dot(normal);
+        let weights = [weight(b, c), weight(c, a), weight(a, b)];
+        if t <= 0.0 || normal.dot(direction) >= 0.0 || weights.iter().any(|weight| *weight < 0.0) {
+            return None;
+        }
+        let (normal, to_eye) = (normal.normalize(), (eye - point).normalize());
+        let transmittance = match self.view.kernel.transmittance {
+            EyeTransmittance::Mean => mean_transmittance(ETA),
+            EyeTransmittance::Exact | EyeTransmittance::Table => fresnel_transmittance(ETA, normal.dot(to_eye)),
+        };
+        let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.exposure);
+        let exposure = if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.exposure };
+        let direct = self.direct(point, normal, to_eye).map(|value| value * exposure);
+        Some([0, 1, 2].map(|c| match (self.view.kernel.direct, self.view.kernel.combine) {
+            (DirectLight::None, _) => scattered[c],
+            (_, Combine::Added) => scattered[c] + direct[c],
+            (_, Combine::Modulated) => scattered[c] * direct[c],
+        }))
+    }
+
+    fn bilinear(&self, face: u32, weights: [f64; 3]) -> [f64; 3] {
+        let place = self.atlas.places()[face as usize];
+        let [x0, y0, x1, y1] = place.bounds();
+        let [x, y] = place.coordinates(weights);
+        let [x, y] = [x.clamp(x0, x1) - 0.5, y.clamp(y0, y1) - 0.5];
+        let at = |column: f64, row: f64| {
+            let [column, row] = [column.min(x1 - 0.5), row.min(y1 - 0.5)].map(|at| at as usize);
+            self.scattered.row(row)[column]
+        };
+        let [fx, fy] = [x.fract(), y.fract()];
+        [0, 1, 2].map(|c| {
+            let texel = |column, row| f64::from(at(column, row)[c]);
+            let row = |row| (1.0 - fx) * texel(x.floor(), row) + fx * texel(x.floor() + 1.0, row);
+            (1.0 - fy) * row(y.floor()) + fy * row(y.floor() + 1.0)
+        })
+    }
+
+    fn direct(&self, point: DVec3, normal: DVec3, to_eye: DVec3) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for light in self.lights {
+            let (color, to, attenuation) = match *light {
+                Light::Sky { radiance } => {
+                    (0..3).for_each(|c| sum[c] += radiance[c] * self.view.diffuse[c]);
+                    continue;
+                }
+                Light::Directional { towards, irradiance } => (irradiance, DVec3::from(towards).normalize(), 1.0),
+                Light::Point { position, intensity, attenuation: [k0, k1, k2] } => {
+                    let to = DVec3::from(position) - point;
+                    let d = to.length();
+                    (intensity, to / d, 1.0 / (k0 + k1 * d + k2 * d * d))
+                }
+            };
+            let cosine = normal.dot(to);
+            if cosine > 0.0 {
+                let highlight = elementary::pow(normal.dot((to + to_eye).normalize()).max(0.0), self.view.shininess);
+                for c in 0..3 {
+                    let factor = self.view.diffuse[c] / PI * cosine + self.view.specular[c] * highlight;
+                    sum[c] += color[c] * attenuation * factor;
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Snapping to a sixteenth of a pixel moves a corner by a thirty-second along each axis: a pixel shows what lies within
+/// that. So each channel lies between the least and the largest of the formula at 5 x 5 points around the center, but
+/// for what a kink between two of them exceeds both by, a quarter of the range, and `error` of the brightest.
+fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize {
     const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    let picture = card.view_texels(&host.view).expect("a picture");
+    let brightest = picture.texels.iter().flat_map(|texel| &texel[..3]).fold(0.0, |most: f32, value| most.max(*value));
+    let mut compared = 0;
+    for (pixel, found) in picture.texels.iter().enumerate() {
+        let [x, y] = [pixel % picture.width, pixel / picture.width].map(|at| at as f64 + 0.5);
         let around = || STEPS.into_iter().flat_map(|dx| STEPS.map(|dy| (x + dx / 16.0, y + dy / 16.0)));
         // Where all points around see one face, and that face is in front: a cube shows no face behind another.
         let seen = (0..host.mesh.len() as u32)
