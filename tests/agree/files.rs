@@ -33,10 +33,13 @@ pub(crate) struct Program {
 /// Programs of some folders.
 pub(crate) struct Programs(pub(crate) Vec<Program>);
 
-/// All kernels of the project, walked from their folders.
+/// All kernels of the project, walked from their folders, and those that the project writes itself.
 pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let rooms = walk(&root().join("src"), &["psa", "vsa", "fp"]);
-    Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))))
+    let mut all = Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))));
+    let written = crossbar::subsurface::kernels::programs();
+    all.0.extend(written.into_iter().filter_map(|(name, text)| Program::new(name, &text)));
+    all
 });
 
 /// The legal shaders among the fixtures.
@@ -69,23 +72,25 @@ fn walk(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     out
 }
 
+impl Program {
+    /// A program that assembles, if a device accepts it.
+    fn new(file: String, text: &str) -> Option<Self> {
+        let program = asm::assemble(text).ok()?;
+        let lines: Vec<String> = asm::print(&program).lines().map(str::to_owned).collect();
+        let accepts = |device: &&str| build(&lines, &rules::profile(device)).is_ok();
+        let devices = Profile::card_names().into_iter().chain(IDEALS).filter(accepts).map(str::to_owned).collect();
+        Some(Self { file, lines, devices, stage: program.version.stage() }).filter(|p: &Self| !p.devices.is_empty())
+    }
+}
+
 impl Programs {
     fn read(files: impl IntoIterator<Item = PathBuf>) -> Self {
-        let devices: Vec<&str> = Profile::card_names().into_iter().chain(IDEALS).collect();
-        let mut out = Vec::new();
-        for path in files {
+        let read = |path: PathBuf| {
             // Fixtures that are wrong on purpose are no business of executors.
-            let Ok(text) = std::fs::read_to_string(&path) else { continue };
-            let Ok(program) = asm::assemble(&text) else { continue };
-            let lines: Vec<String> = asm::print(&program).lines().map(str::to_owned).collect();
-            let accepts = |device: &&&str| build(&lines, &rules::profile(device)).is_ok();
-            let devices: Vec<String> = devices.iter().filter(accepts).map(|d| (*d).to_owned()).collect();
-            if !devices.is_empty() {
-                let file = path.strip_prefix(root()).unwrap_or(&path).display().to_string();
-                out.push(Program { file, lines, devices, stage: program.version.stage() });
-            }
-        }
-        Self(out)
+            let text = std::fs::read_to_string(&path).ok()?;
+            Program::new(path.strip_prefix(root()).unwrap_or(&path).display().to_string(), &text)
+        };
+        Self(files.into_iter().filter_map(read).collect())
     }
 
     /// Pairs of a program and a device that accepts it.

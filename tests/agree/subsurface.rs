@@ -103,19 +103,19 @@ fn agrees(name: &str, links: &LinkTextures, options: SubsurfaceCardOptions, view
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
     for (executor, how) in executors() {
-        let fail = |e: &dyn std::fmt::Display| panic!("{name}, {executor}: {e}");
-        let mut card =
-            SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options).unwrap_or_else(|e| fail(&e));
-        card.light(lights).unwrap_or_else(|e| fail(&e));
-        let levels = card.read_levels().unwrap_or_else(|e| fail(&e));
-        let scattered = card.read_scattered().unwrap_or_else(|e| fail(&e));
+        let what = format!("{name}, {executor}");
+        let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)
+            .unwrap_or_else(|e| panic!("{what}: {e}"));
+        card.light(lights).unwrap_or_else(|e| panic!("{what}: {e}"));
+        let levels = card.read_levels().unwrap_or_else(|e| panic!("{what}: {e}"));
+        let scattered = card.read_scattered().unwrap_or_else(|e| panic!("{what}: {e}"));
         let half = nv35().rules.partial.unwrap_or(refsim::num::Format::FP16);
         let expected = order::gathered(&levels, links, (card.gather_programs(), half), &options).expect("an order");
         assert!(scattered.texels.iter().any(|texel| texel[0] > 0.0), "{name}: dark");
         assert_eq!(bits(&scattered), bits(&expected), "{name}, {executor}: pass 2 against the host's loop");
         let mut seen: Vec<Vec<[u32; 4]>> = levels.iter().map(bits).collect();
         for view in views {
-            let picture = card.view_texels(view).unwrap_or_else(|e| fail(&e));
+            let picture = card.view_texels(view).unwrap_or_else(|e| panic!("{what}: {e}"));
             assert!(picture.texels.iter().any(|texel| texel[..3] != [0.0; 3]), "{name}: a black picture");
             seen.push(bits(&picture));
         }

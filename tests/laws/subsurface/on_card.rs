@@ -1,0 +1,365 @@
+//! Passes 1 and 2 on a card against the formulas of section 4, in f64.
+
+use crossbar::atlas::Atlas;
+use crossbar::card::Texels;
+use crossbar::geom::Mesh;
+use crossbar::subsurface::factor::SurfaceMoments;
+use crossbar::subsurface::fresnel::mean_transmittance;
+use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
+use crossbar::subsurface::on_card::{
+    CardModel, Light, LightStage, LinkTextures, MapFormat, PassEvent, PassKind, SubsurfaceCard, SubsurfaceCardError,
+    SubsurfaceCardOptions, pass_times,
+};
+use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::ExecutorKind;
+use refsim::timing::Picoseconds;
+use std::f64::consts::PI;
+
+pub(super) const SIDE: u32 = 16;
+pub(super) const ETA: f64 = 1.3;
+
+pub(super) fn nv35() -> Profile {
+    Profile::named("nv35").expect("a card")
+}
+
+/// A cube around 0 with edges of `size`: 12 faces, flat by their normals.
+pub(super) fn cube(size: f32) -> Mesh {
+    let (mut positions, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for axis in 0..3 {
+        for sign in [-1.0_f32, 1.0] {
+            let first = positions.len() as u32;
+            for [u, v] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+                let mut position = [0.0; 3];
+                position[axis] = sign * size / 2.0;
+                position[(axis + 1) % 3] = sign * u * size / 2.0;
+                position[(axis + 2) % 3] = v * size / 2.0;
+                let mut normal = [0.0; 3];
+                normal[axis] = sign;
+                positions.push(position);
+                normals.push(normal);
+            }
+            faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+    }
+    Mesh::new(positions, faces).and_then(|mesh| mesh.with_normals(normals)).expect("a cube")
+}
+
+pub(super) fn atlas(size: f32) -> Atlas {
+    Atlas::new(&cube(size), SIDE).expect("an atlas")
+}
+
+/// A link of every texel to itself, with the factor 1: what pass 2 writes is the map.
+pub(super) fn to_itself() -> LinkTextures {
+    let place = |at: usize| (at as f32 + 0.5) / SIDE as f32;
+    let link = Texels::from_fn([SIDE as usize; 2], |x, y| [place(x), place(y), 1.0, 0.0]);
+    LinkTextures::from_textures(SIDE, None, false, 1, vec![link]).expect("links")
+}
+
+pub(super) fn card(atlas: &Atlas, links: &LinkTextures, options: SubsurfaceCardOptions) -> SubsurfaceCard {
+    SubsurfaceCard::new(nv35(), ExecutorKind::Batch, CardModel::new(atlas), links, ETA, options).expect("a card")
+}
+
+pub(super) fn lights() -> [Light; 3] {
+    [
+        Light::Sky { radiance: [0.05, 0.06, 0.07] },
+        Light::Directional { towards: [1.0, 2.0, 3.0], irradiance: [0.5, 0.4, 0.3] },
+        Light::Point { position: [-2.0, 1.5, 0.5], intensity: [0.6, 0.7, 0.8], attenuation: [0.1, 0.2, 0.3] },
+    ]
+}
+
+/// Equation 8 at a point.
+fn irradiance(lights: &[Light], point: DVec3, normal: DVec3) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for light in lights {
+        let (color, factor) = match *light {
+            Light::Sky { radiance } => (radiance, PI * mean_transmittance(ETA)),
+            Light::Directional { towards, irradiance } => {
+                let cosine = DVec3::from(towards).normalize().dot(normal).max(0.0);
+                (irradiance, cosine * fresnel_transmittance(ETA, cosine))
+            }
+            Light::Point { position, intensity, attenuation: [k0, k1, k2] } => {
+                let to = DVec3::from(position) - point;
+                let distance = to.length();
+                let cosine = (to.dot(normal) / distance).max(0.0);
+                let attenuation = 1.0 / (k0 + k1 * distance + k2 * distance * distance);
+                (intensity, cosine * fresnel_transmittance(ETA, cosine) * attenuation)
+            }
+        };
+        sum.iter_mut().zip(color).for_each(|(sum, color)| *sum += color * factor);
+    }
+    sum
+}
+
+/// The map of a card, as irradiances: less area factors and scale.
+fn irradiances(card: &SubsurfaceCard, atlas: &Atlas) -> Vec<[f64; 3]> {
+    let map = card.read_levels().expect("levels").swap_remove(0);
+    let texel = |(texel, part): (&[f32; 4], &crossbar::atlas::Texel)| {
+        let factor = part.area / atlas.mean_texel_area() * card.options().map.scale();
+        [0, 1, 2].map(|channel| f64::from(texel[channel]) / factor)
+    };
+    map.texels.iter().zip(atlas.texels()).map(texel).collect()
+}
+
+fn largest(values: &[[f64; 3]]) -> f64 {
+    values.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
+/// The largest difference, as a share of the largest value.
+fn difference(found: &[[f64; 3]], wanted: &[[f64; 3]]) -> f64 {
+    let differences: Vec<[f64; 3]> =
+        found.iter().zip(wanted).map(|(found, wanted)| [0, 1, 2].map(|c| found[c] - wanted[c])).collect();
+    largest(&differences) / largest(wanted)
+}
+
+/// Of some 30 roundings to fp32 per light.
+const ROUNDINGS: f64 = 64.0 / (1 << 24) as f64;
+
+fn options(light: LightStage) -> SubsurfaceCardOptions {
+    SubsurfaceCardOptions { light, ..SubsurfaceCardOptions::default() }
+}
+
+#[test]
+fn irradiance_by_texel_is_equation_8() {
+    let atlas = atlas(2.0);
+    let mut card = card(&atlas, &to_itself(), options(LightStage::Texels));
+    let mut many = lights().to_vec();
+    for n in 0..40 {
+        many.push(Light::Directional {
+            towards: [f64::from(n % 7) - 3.0, f64::from(n % 5) - 2.0, 1.0],
+            irradiance: [0.01; 3],
+        });
+    }
+    for lights in [&lights()[..], &lights()[..1], &[], &many] {
+        card.light(lights).expect("light");
+        let wanted: Vec<[f64; 3]> =
+            atlas.texels().iter().map(|texel| irradiance(lights, texel.point, texel.normal)).collect();
+        let found = irradiances(&card, &atlas);
+        if lights.is_empty() {
+            assert_eq!(largest(&found), 0.0);
+        } else {
+            let difference = difference(&found, &wanted);
+            assert!(difference <= ROUNDINGS, "{} lights: {difference}", lights.len());
+        }
+    }
+    assert_eq!((card.light_passes(2), card.light_passes(42)), (1, 3));
+}
+
+/// Parallel light is the same all over a flat face. From a point at distance D it bends by some (h / D)^2 over a face of
+/// extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and a linear interpolation misses at most an eighth
+/// of it along each of two directions.
+#[test]
+fn by_vertex_is_by_texel_on_flat_faces() {
+    let atlas = atlas(2.0);
+    let [mut vertices, mut texels] =
+        [LightStage::Vertices, LightStage::Texels].map(|light| card(&atlas, &to_itself(), options(light)));
+    let (far, extent) = (100.0, 8.0_f64.sqrt());
+    let parallel = lights()[..2].to_vec();
+    let point =
+        vec![Light::Point { position: [far, 0.6 * far, 0.3 * far], intensity: [1e4; 3], attenuation: [0.0, 0.0, 1.0] }];
+    for (lights, bound) in [(parallel, ROUNDINGS), (point, ROUNDINGS + 3.0 * (extent / far) * (extent / far))] {
+        vertices.light(&lights).expect("light");
+        texels.light(&lights).expect("light");
+        let [by_vertex, by_texel] = [&vertices, &texels].map(|card| irradiances(card, &atlas));
+        let difference = difference(&by_vertex, &by_texel);
+        assert!(difference <= bound, "{difference} above {bound}");
+    }
+}
+
+#[test]
+fn a_table_of_irradiances_reaches_each_face() {
+    let atlas = atlas(2.0);
+    let table: Vec<[f64; 3]> = (0..12).map(|face| [0.5 + f64::from(face), 1.0, 0.25 * f64::from(face)]).collect();
+    let mut card = card(&atlas, &to_itself(), options(LightStage::Vertices));
+    card.irradiate(&table).expect("irradiances");
+    let wanted: Vec<[f64; 3]> = atlas.texels().iter().map(|texel| table[texel.face as usize]).collect();
+    assert!(difference(&irradiances(&card, &atlas), &wanted) <= 2.0 / (1 << 24) as f64);
+    let refused = card.irradiate(&table[1..]).expect_err("too few").to_string();
+    assert_eq!(refused, "expected 12 irradiances, one per face, found 11");
+    let refused = card.irradiate(&[[f64::NAN; 3]; 12]).expect_err("no number").to_string();
+    assert_eq!(refused, "expected finite irradiances of at least 0, found NaN");
+}
+
+/// Passes 1 to 2 from real links, against the gather in f64 from the irradiances on the card.
+#[test]
+fn the_card_gathers_as_the_host_does() {
+    let atlas = atlas(2.0);
+    let surface = SurfaceMoments::new(&atlas, 10.0).expect("moments");
+    let dipole = |sigma_s_prime| Dipole::new(Coefficients { sigma_s_prime, sigma_a: 0.0012 }, ETA).expect("a dipole");
+    for (dipoles, choice) in [
+        (vec![dipole(2.21)], LinkChoice::Fixed { level: 2 }),
+        (vec![dipole(1.0), dipole(2.0), dipole(3.0)], LinkChoice::Fixed { level: 2 }),
+        (vec![dipole(2.21)], LinkChoice::Adaptive { count: 16 }),
+        (vec![dipole(1.0), dipole(2.0), dipole(3.0)], LinkChoice::Adaptive { count: 16 }),
+    ] {
+        let links = Links::new(&surface, &dipoles, choice, 1e-3, &|_, _| {}).expect("links");
+        let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
+        for map in [MapFormat::Fp32, MapFormat::Fp16, MapFormat::Unorm8 { scale: 1.0 }] {
+            let mut card = card(&atlas, &textures, SubsurfaceCardOptions { map, ..options(LightStage::Vertices) });
+            card.light(&lights()).expect("light");
+            let means =
+                IrradianceMeans::new(&surface, &irradiances(&card, &atlas), MeanWeighting::Area).expect("means");
+            let wanted = links.gather(&means);
+            let found: Vec<[f64; 3]> = card
+                .read_scattered()
+                .expect("a map")
+                .texels
+                .iter()
+                .map(|texel| [0, 1, 2].map(|channel| f64::from(texel[channel])))
+                .collect();
+            // Each of four levels rounds, and so does the gather's every link in fp32.
+            let bound = match map {
+                MapFormat::Fp32 => ROUNDINGS,
+                MapFormat::Fp16 => 4.0 / 2048.0 + ROUNDINGS,
+                MapFormat::Unorm8 { .. } => {
+                    let ones = vec![[1.0; 3]; atlas.texels().len()];
+                    let means = IrradianceMeans::new(&surface, &ones, MeanWeighting::Area).expect("means");
+                    4.0 * 0.5 / 255.0 * largest(&links.gather(&means)) / largest(&wanted)
+                }
+            };
+            let difference = difference(&found, &wanted);
+            assert!(difference <= bound, "{choice:?}, {map:?}: {difference} above {bound}");
+            assert_eq!(card.saturated().expect("a count"), 0, "{map:?}");
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_8_bits_is_cut_off_and_counted() {
+    let atlas = atlas(2.0);
+    let options = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 4.0 }, ..options(LightStage::Texels) };
+    let mut card = card(&atlas, &to_itself(), options);
+    card.light(&[Light::Directional { towards: [0.0, 0.0, 1.0], irradiance: [1.0, 0.1, 0.0] }]).expect("light");
+    let lit = atlas.texels().iter().filter(|texel| texel.normal.z > 0.5).count();
+    assert_eq!(card.saturated().expect("a count"), lit);
+    let scattered = card.read_scattered().expect("a map");
+    assert!(scattered.texels.iter().all(|texel| texel[0] == 0.0 || texel[0] == 0.25), "1 of the map is 1/4");
+}
+
+/// Nothing depends on the unit of length: the same bits of a model 2^60 or 2^-60 times as large, its lights with it.
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let maps = |size: f64| {
+        let lights = lights().map(|light| match light {
+            Light::Point { position, intensity, attenuation: [k0, k1, k2] } => {
+                let attenuation = [k0, k1 / size, k2 / size / size];
+                Light::Point { position: position.map(|x| x * size), intensity, attenuation }
+            }
+            other => other,
+        });
+        [LightStage::Vertices, LightStage::Texels].map(|light| {
+            let mut card = card(&atlas(2.0 * size as f32), &to_itself(), options(light));
+            card.light(&lights).expect("light");
+            card.read_scattered().expect("a map")
+        })
+    };
+    let (wanted, large) = (maps(1.0), (1_u64 << 60) as f64);
+    assert!(maps(large) == wanted && maps(1.0 / large) == wanted);
+}
+
+#[test]
+fn a_light_on_the_surface_makes_no_infinity() {
+    let atlas = atlas(2.0);
+    let points = atlas.texels().iter().step_by(37).map(|texel| texel.point).chain([DVec3::ONE, DVec3::ZERO]);
+    for light in [LightStage::Vertices, LightStage::Texels] {
+        let mut card = card(&atlas, &to_itself(), options(light));
+        for point in points.clone() {
+            let attenuation = [0.0, 0.0, 1.0];
+            card.light(&[Light::Point { position: point.into(), intensity: [1.0; 3], attenuation }]).expect("light");
+            let map = card.read_scattered().expect("a map");
+            assert!(map.texels.iter().flatten().all(|value| value.is_finite() && *value >= 0.0), "{point}");
+        }
+    }
+}
+
+fn draws(log: &[PassEvent], pass: PassKind) -> usize {
+    log.iter().filter(|event| event.pass == pass && matches!(event.event, Event::Draw(_))).count()
+}
+
+#[test]
+fn a_new_light_redoes_two_passes_and_uploads_no_link() {
+    let atlas = atlas(2.0);
+    let zero = Texels::from_fn([SIDE as usize; 2], |_, _| [0.0; 4]);
+    let links = LinkTextures::from_textures(SIDE, Some(2), false, 16, vec![zero; 4]).expect("links");
+    for (map, level_draws) in [(MapFormat::Unorm8 { scale: 1.0 }, 0), (MapFormat::Fp16, 4)] {
+        let mut card = card(&atlas, &links, SubsurfaceCardOptions { map, ..options(LightStage::Texels) });
+        card.light(&lights()).expect("light");
+        card.record(true);
+        card.light(&lights()[1..]).expect("light");
+        let log = card.take_log();
+        let counted = PassKind::ALL.map(|pass| draws(&log, pass));
+        assert_eq!(counted, [1, level_draws, 1, 0], "{map:?}");
+        assert!(!log.iter().any(|event| matches!(event.event, Event::Upload { .. })));
+        let times = pass_times(&nv35(), &log).expect("times");
+        assert!(times[..3].iter().all(|time| time.time > Picoseconds::ZERO));
+        assert_eq!(times[3].time, Picoseconds::ZERO);
+        let [program] = card.gather_programs() else { panic!("one pass") };
+        assert_eq!((program.instructions(), program.samplers()), (37, 5));
+    }
+}
+
+#[test]
+fn what_does_not_fit_the_card_is_named() {
+    let (atlas, links) = (atlas(2.0), to_itself());
+    let new = |profile: Profile, links: &LinkTextures, eta, options| {
+        SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), links, eta, options)
+    };
+    let refused = |result: Result<SubsurfaceCard, SubsurfaceCardError>| result.expect_err("refused").to_string();
+    let usual = SubsurfaceCardOptions::default();
+    let r300 = Profile::named("r300").expect("a card");
+    let words = refused(new(r300, &links, ETA, usual));
+    assert!(words.starts_with("device `r300` runs no `!!FP1.0` and `vs_2_0` programs"), "{words}");
+    let mut small = nv35();
+    small.limits.max_texture_size = Some(24);
+    let words = refused(new(small.clone(), &links, ETA, usual));
+    assert_eq!(words, "device `nv35` has textures of at most 24x24 texels, the row of levels needs 32x16");
+    let leveled = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 1.0 }, ..usual };
+    assert!(new(small, &links, ETA, leveled).is_ok(), "the atlas alone fits");
+    let words = refused(new(nv35(), &links, ETA, SubsurfaceCardOptions { memory: Some(20_000), ..usual }));
+    let parts = "links 4096, radiosity map 4096, levels 1360, levels side by side 8192, scattered irradiance 4096";
+    assert_eq!(
+        words,
+        format!("expected at most 20000 bytes in the memory of device `nv35`, the passes need 21840: {parts}")
+    );
+    assert_eq!(new(nv35(), &links, ETA, usual).expect("a card").memory().bytes(), 21_840);
+    let words = refused(new(nv35(), &links, 0.9, usual));
+    assert_eq!(words, "expected an index of refraction of 1 to 1000000, found 0.9");
+    let unlit = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 0.0 }, ..usual };
+    assert_eq!(refused(new(nv35(), &links, ETA, unlit)), "expected a scale of the 8-bit map above 0, found 0");
+    let other = Texels::from_fn([8; 2], |_, _| [0.0; 4]);
+    let words = LinkTextures::from_textures(8, Some(0), false, 16, vec![other.clone(); 4]).expect_err("64").to_string();
+    assert_eq!(words, "expected 64 links to a level, found 16");
+    let other = LinkTextures::from_textures(8, Some(1), false, 16, vec![other; 4]).expect("links");
+    assert_eq!(
+        refused(new(nv35(), &other, ETA, usual)),
+        "expected 16 texels along a side of the links' atlas, found 8"
+    );
+    let mut starved = nv35();
+    starved.limits.samplers = Some(1);
+    let words = refused(new(starved, &links, ETA, usual));
+    assert_eq!(words, "device `nv35` has no room for a link in a program: 1 samplers, 64 constants");
+}
+
+#[test]
+fn lights_that_cannot_be_are_named() {
+    let atlas = atlas(2.0);
+    let mut card = card(&atlas, &to_itself(), options(LightStage::Texels));
+    let point = |position, attenuation| Light::Point { position, intensity: [1.0; 3], attenuation };
+    for (light, words) in [
+        (Light::Sky { radiance: [1.0, -1.0, 1.0] }, "finite colors of at least 0"),
+        (Light::Directional { towards: [0.0; 3], irradiance: [1.0; 3] }, "a direction"),
+        (Light::Directional { towards: [f64::NAN, 0.0, 1.0], irradiance: [1.0; 3] }, "a direction"),
+        (point([0.0; 3], [0.0; 3]), "an attenuation of finite factors of at least 0, one of them above 0"),
+        (point([0.0; 3], [0.0, -1.0, 2.0]), "an attenuation of finite factors of at least 0, one of them above 0"),
+        (
+            point([1e17, 0.0, 0.0], [1.0; 3]),
+            "a point light within 1e15 radii of the model; a directional one is farther",
+        ),
+        (point([f64::NAN; 3], [1.0; 3]), "a point light within 1e15 radii of the model; a directional one is farther"),
+    ] {
+        let found = card.light(&[lights()[0], light]).expect_err("refused").to_string();
+        assert_eq!(found, format!("light 1 (counted from 0): expected {words}"));
+    }
+}
