@@ -16,6 +16,7 @@ mod radiosity;
 pub mod report;
 mod row;
 mod shared;
+mod subsurface;
 mod tables;
 mod vertex_variant;
 
@@ -117,6 +118,16 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         id: "radiosity-figure-4",
         title: "The time of an iteration by the size of the matrix, on card and host (radiosity, figure 4)",
         work: |_| radiosity::figure_4(),
+    },
+    ReproduceEntry {
+        id: "subsurface-counts",
+        title: "Nodes, lookups, textures and instructions (subsurface scattering, sections 2.3 and 4.2)",
+        work: |_| subsurface::counts(),
+    },
+    ReproduceEntry {
+        id: "subsurface-table-1",
+        title: "The time of pass 2, and frames locked to a display (subsurface scattering, table 1)",
+        work: |_| subsurface::table_1(),
     },
 ];
 

@@ -1,0 +1,99 @@
+//! What section 4 counts: nodes, interactions, lookups, textures, instructions, samplers.
+
+use super::gather::{VARIANTS, Variant, cost};
+use super::{
+    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, failed,
+};
+use crate::atlas::Atlas;
+use crate::report::{Cell, Table};
+use crate::scene::built::stand_ins;
+
+/// Table 1's models: their names, faces, and our stand-ins.
+pub(super) const MODELS: [(&str, u32, &str); 3] =
+    [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stand-in-bunny")];
+/// Texels of a link: four half floats.
+const LINK_BYTES: f64 = 8.0;
+
+const HOW: &str = "Lookups are those of our programs, which the checker of the card accepts: {} links take {} link textures and as many reads of the \
+    map where links are fixed, {} and as many where they are adaptive. The clustering is our own, for the paper's is in another one; what it \
+    must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
+
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+    let of = |fixed: bool| VARIANTS.iter().find(|variant| variant.fixed == fixed).copied();
+    let (Some(fixed), Some(adaptive)) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
+    let (fixed, adaptive) = (lookups(fixed)?, lookups(adaptive)?);
+    let links = LINKS as f64;
+    let formula = |how: &str| Origin::Implied(how.to_owned());
+    let lookups = |what: &str, ours: usize, paper: f64, how: &str| {
+        let target = PaperFigure { origin: formula(how), ..PaperFigure::printed(paper, 0, "lookups", "section 4.2.3") };
+        PaperRow::new(what, (CARD, Method::Pipeline), target, (ours as f64, Standing::Counted), Bound::Print)
+    };
+    let mut rows = vec![
+        lookups("reads of pass 2 for 16 fixed links", fixed, 1.25 * links, "1.25 L"),
+        lookups("reads of pass 2 for 16 adaptive links", adaptive, 2.0 * links, "2 L"),
+    ];
+    for (model, faces, stand_in) in MODELS {
+        rows.push(nodes(model, faces, stand_in)?);
+    }
+    Ok(EntryFindings {
+        text: vec![Prose::new(HOW, [LINKS.to_string(), (fixed - LINKS).to_string(), (adaptive - LINKS).to_string()])],
+        rows,
+        tables: vec![storage(), programs()?],
+        questions: vec!["how reference 4 clusters faces, and which of the two choices of links was timed."],
+        ..EntryFindings::default()
+    })
+}
+
+/// Link textures and reads of the map.
+fn lookups(variant: Variant) -> Result<usize, ReproduceError> {
+    let textures = if variant.fixed { LINKS / 4 } else { LINKS };
+    let cost = cost(CARD, variant)?;
+    // A sampler per texture of links and one for the map; where passes split, each has the map and all but the first
+    // have the sum before.
+    let extra = cost.programs + (cost.programs - 1);
+    debug_assert!(cost.samplers <= textures + extra);
+    Ok(textures + LINKS)
+}
+
+/// Nodes of the clustering: 2 T - 1.
+fn nodes(model: &str, faces: u32, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
+    let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
+    let mesh = stand_ins::build(stand_in).ok_or_else(missing)?;
+    let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
+    let target = PaperFigure {
+        origin: Origin::Implied(format!("2 T - 1 for {faces} faces")),
+        ..PaperFigure::printed(f64::from(2 * faces - 1), 0, "nodes", "section 2.3")
+    };
+    let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);
+    Ok(PaperRow::new(format!("nodes of the clustering, {model}"), ("host", Method::Solver), target, ours, Bound::Print))
+}
+
+/// All pairs and link textures by the size of the atlas.
+fn storage() -> Table {
+    let mut table = Table::of(
+        "Interactions and link textures in half precision, 16 links",
+        "atlas all_pairs links adaptive_MiB fixed_MiB",
+    );
+    for side in [512.0_f64, 1024.0] {
+        let texels = side * side;
+        let mebibytes = |textures: f64| Cell::measured(textures * texels * LINK_BYTES / f64::from(1 << 20));
+        table.push([
+            format!("{side} x {side}").into(),
+            Cell::measured(texels * texels),
+            Cell::measured(LINKS as f64 * texels),
+            mebibytes(LINKS as f64),
+            mebibytes(LINKS as f64 / 4.0),
+        ]);
+    }
+    table
+}
+
+/// Instructions and samplers of each variant against the card's 1024 and 16.
+fn programs() -> Result<Table, ReproduceError> {
+    let mut table = Table::of("Programs of pass 2 for 16 links", "variant passes instructions samplers");
+    for variant in VARIANTS {
+        let cost = cost(CARD, variant)?;
+        table.push([variant.name.into(), cost.programs.into(), cost.instructions.into(), cost.samplers.into()]);
+    }
+    Ok(table)
+}

@@ -1,0 +1,112 @@
+//! The modelled time of pass 2 in each variant that the text leaves open.
+//!
+//! The time of a pass over a square is a quadratic in its side: each texel costs the same, quads along the diagonal of
+//! the two triangles are shaded twice, and a draw has a cost of its own. So three small squares say what a large one
+//! takes.
+
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::{LINKS, ReproduceError, failed};
+use crate::atlas::Atlas;
+use crate::card::Texels;
+use crate::geom::Mesh;
+use crate::subsurface::on_card::{
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions,
+    pass_times,
+};
+
+/// The squares that are timed.
+const SIDES: [u32; 3] = [32, 64, 128];
+/// The place of pass 2 among the times of passes.
+const GATHER: usize = 2;
+
+/// What the text leaves open of pass 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Variant {
+    pub(super) name: &'static str,
+    pub(super) fixed: bool,
+    pub(super) map: MapFormat,
+    pub(super) half: bool,
+}
+
+const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
+
+/// All of them, fixed links first.
+pub(super) const VARIANTS: [Variant; 8] = [
+    Variant { name: "fixed, 8-bit map", fixed: true, map: EIGHT, half: false },
+    Variant { name: "fixed, 8-bit map, half precision", fixed: true, map: EIGHT, half: true },
+    Variant { name: "fixed, fp16 map", fixed: true, map: MapFormat::Fp16, half: false },
+    Variant { name: "fixed, fp16 map, half precision", fixed: true, map: MapFormat::Fp16, half: true },
+    Variant { name: "fixed, fp32 map", fixed: true, map: MapFormat::Fp32, half: false },
+    Variant { name: "adaptive, 8-bit map", fixed: false, map: EIGHT, half: false },
+    Variant { name: "adaptive, fp16 map", fixed: false, map: MapFormat::Fp16, half: false },
+    Variant { name: "adaptive, fp32 map", fixed: false, map: MapFormat::Fp32, half: false },
+];
+
+/// What a variant takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GatherCost {
+    /// Passes.
+    pub(super) programs: usize,
+    /// Instructions of all passes together.
+    pub(super) instructions: usize,
+    /// Samplers of the largest.
+    pub(super) samplers: usize,
+    /// Seconds at each of [`SIDES`].
+    seconds: [f64; 3],
+}
+
+impl GatherCost {
+    /// Seconds over a square of `side` texels: the quadratic through the three that were timed.
+    pub(super) fn seconds(&self, side: f64) -> f64 {
+        let [a, b, c] = SIDES.map(f64::from);
+        let term = |t: f64, at: f64, p: f64, q: f64| t * (side - p) * (side - q) / ((at - p) * (at - q));
+        let [ta, tb, tc] = self.seconds;
+        term(ta, a, b, c) + term(tb, b, a, c) + term(tc, c, a, b)
+    }
+}
+
+/// Runs a variant on a card.
+pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
+    let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, seconds: [0.0; 3] };
+    for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
+        let profile = Profile::named(card)?;
+        let mut machine = square(profile.clone(), side, variant).map_err(|e| failed(card)(&e))?;
+        machine.record(true);
+        machine.light(&[Light::Sky { radiance: [1.0; 3] }]).map_err(|e| failed(card)(&e))?;
+        *seconds = pass_times(&profile, &machine.take_log())?[GATHER].time.seconds();
+        let programs = machine.gather_programs();
+        found.programs = programs.len();
+        found.instructions = programs.iter().map(|program| program.instructions()).sum();
+        found.samplers = programs.iter().map(|program| program.samplers()).max().unwrap_or(0);
+    }
+    Ok(found)
+}
+
+/// A square of the medium with links that all lead to its middle: time does not depend on values.
+fn square(
+    profile: Profile,
+    side: u32,
+    variant: Variant,
+) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let atlas = Atlas::new(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?, side)?;
+    let width = side as usize;
+    let (level, textures, texel) = if variant.fixed {
+        (Some(side.ilog2() - LINKS.ilog2() / 2), LINKS / 4, [1.0 / 16.0; 4])
+    } else {
+        (None, LINKS, [0.5, 0.5, 1.0 / 16.0, 0.0])
+    };
+    let textures = vec![Texels::from_fn([width; 2], |_, _| texel); textures];
+    let links = LinkTextures::from_textures(side, level, false, LINKS, textures)?;
+    let options = SubsurfaceCardOptions {
+        light: LightStage::Vertices,
+        map: variant.map,
+        links: FloatTexels::Fp16,
+        scattered: FloatTexels::Fp16,
+        half: variant.half,
+        memory: None,
+    };
+    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
+}
