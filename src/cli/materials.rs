@@ -19,7 +19,9 @@ Examples:
   crossbar materials --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3
       a medium of one's own; one number for all channels, or R,G,B
   crossbar materials ketchup --eta 1.5 --json
-      published coefficients behind another boundary, for machines";
+      published coefficients behind another boundary, for machines
+
+Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
 /// Distances that are shown without `--at`, in mean free paths of the longest.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
@@ -27,8 +29,6 @@ const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 
 /// Show media: coefficients, lengths, and how much light leaves at which distance
-///
-/// Coefficients are per mm, lengths in mm. The dipole is that of Jensen, Marschner, Levoy and Hanrahan 2001.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {

@@ -180,7 +180,7 @@ impl Dipole {
     /// The radius of the disc that holds `fraction` of [`Self::total`]; 0 for fractions not above 0, infinite for
     /// those of 1 and more.
     pub fn radius_of(&self, fraction: f64) -> f64 {
-        if !(fraction > 0.0) {
+        if fraction <= 0.0 || fraction.is_nan() {
             return 0.0;
         }
         if fraction >= 1.0 {
