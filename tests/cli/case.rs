@@ -8,7 +8,7 @@ use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
 pub(crate) const CASES: &[&str] =
-    &["bump", "flat", "modulate", "opengl_arb", "opengl_nv", "projected", "transform", "two_triangles"];
+    &["bump", "flat", "mipmaps", "modulate", "opengl_arb", "opengl_nv", "projected", "transform", "two_triangles"];
 
 pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
