@@ -40,6 +40,21 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
+/// The angle in [0, pi] whose cosine is x.
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The hyperbolic cosine.
+pub fn cosh(x: f64) -> f64 {
+    libm::cosh(x)
+}
+
+/// The number whose hyperbolic sine is x.
+pub fn asinh(x: f64) -> f64 {
+    libm::asinh(x)
+}
+
 /// Sine and cosine of an angle in radians.
 pub fn sin_cos(radians: f64) -> (f64, f64) {
     libm::sincos(radians)

@@ -48,10 +48,14 @@ pub const SIXTEEN: [GaussPoint; 16] = rule([
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
 ]);
 
+/// The sixteen points of an interval and their weights, which sum to its length.
+pub fn integral_points(from: f64, to: f64) -> [GaussPoint; 16] {
+    SIXTEEN.map(|(x, weight)| (from + (to - from) * x, (to - from) * weight))
+}
+
 /// The integral of a function from `from` to `to` by sixteen points.
 pub fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let length = to - from;
-    length * SIXTEEN.iter().map(|&(x, weight)| weight * value(from + length * x)).sum::<f64>()
+    integral_points(from, to).iter().map(|&(x, weight)| weight * value(x)).sum()
 }
 
 /// The integral from 0 to `to` of a function that varies fast near 0: sixteen points in each of `panels` intervals,

@@ -123,22 +123,29 @@ impl Dipole {
     /// G(r), the integral of R_d over a disc of radius r: the fraction of light that leaves within r mm of where it
     /// entered.
     pub fn disc(&self, r: f64) -> f64 {
-        self.ring(0.0, r)
+        self.disc_at(0.0, r)
     }
 
-    /// G(outer) - G(inner), the integral of R_d over a ring, to full precision even if the ring is narrow.
-    pub fn ring(&self, inner: f64, outer: f64) -> f64 {
-        if outer.is_infinite() {
-            return self.beyond(inner);
+    /// The integral of R_d over a disc of radius `rho`, from the point that lies `height` above its centre:
+    /// `G(sqrt(rho^2 + height^2)) - G(height)`, to full precision even if the disc is small or far away.
+    pub fn disc_at(&self, height: f64, rho: f64) -> f64 {
+        if rho.is_infinite() {
+            return self.beyond(height);
         }
         let source = |z: f64| {
-            let (near, far) = (hypot(inner, z), hypot(outer, z));
+            let near = hypot(height, z);
+            let far = hypot(near, rho);
             // far - near.
-            let longer = (outer - inner) * ((0.5 * outer + 0.5 * inner) / (0.5 * near + 0.5 * far));
+            let longer = rho * (rho / (near + far));
             let fall = exp_m1(-self.sigma_tr * longer);
             z / near * exp(-self.sigma_tr * near) * (longer / far * (1.0 + fall) - fall)
         };
         0.5 * self.alpha_prime() * (source(self.z_r) + source(self.z_v))
+    }
+
+    /// G(outer) - G(inner), the integral of R_d over a ring, to full precision even if the ring is narrow.
+    pub fn ring(&self, inner: f64, outer: f64) -> f64 {
+        self.disc_at(inner, (outer - inner).sqrt() * (outer + inner).sqrt())
     }
 
     /// The integral of R_d over the plane outside a disc of radius r.

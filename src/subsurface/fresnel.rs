@@ -14,7 +14,8 @@ pub fn fresnel_transmittance(eta: f64, cosine: f64) -> f64 {
     let c = cosine.min(1.0);
     // The square of eta times the cosine on the far side.
     let square = (eta - 1.0) * (eta + 1.0) + c * c;
-    if !(c > 0.0 && square > 0.0) {
+    // The cosine itself, because `min` drops NaN.
+    if !(cosine > 0.0 && square > 0.0) {
         return 0.0;
     }
     let far = square.sqrt();

@@ -5,6 +5,9 @@
 //! - [`Coefficients`], [`Material`]: what the medium is made of, per mm;
 //! - [`Dipole`]: the diffuse reflectance R_d of equation 7 by distance, its integrals over discs and the plane;
 //! - [`fresnel`]: transmittance of the boundary and its means;
+//! - [`point_to_polygon`], [`uniform_sphere`], [`SphereSeries`]: exact answers for polygons and spheres;
+//! - [`materials`]: the published media, each figure with its source;
+//! - [`walk`]: photons followed through the medium, for the dipole's own error;
 //! - [`factor`]: throughput factors, equation 10;
 //! - [`links`]: which clusters a texel gathers from, and how textures hold them;
 //! - [`Reference`]: equation 9 over all pairs of texels.
@@ -14,9 +17,15 @@ pub mod factor;
 pub mod fresnel;
 pub mod links;
 mod material;
+pub mod materials;
+mod polygon;
 mod reference;
+mod sphere;
+pub mod walk;
 
 pub use dipole::{Dipole, InternalReflection};
 pub use fresnel::fresnel_transmittance;
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
+pub use polygon::point_to_polygon;
 pub use reference::Reference;
+pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};

@@ -4,3 +4,4 @@ mod radiosity;
 mod ray_cache;
 mod ray_engine;
 mod reproduce;
+mod subsurface_material;

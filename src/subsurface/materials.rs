@@ -1,0 +1,160 @@
+//! Published media: the twelve of Jensen, Marschner, Levoy and Hanrahan 2001, Figure 5, and that of Figure 7 of the
+//! paper reproduced here, which is none of them.
+
+use super::material::{Coefficients, Material};
+
+/// How sure a published figure is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FigureConfidence {
+    /// Printed in the paper that is reproduced.
+    Printed,
+    /// Several independent public copies of the table have it.
+    Confirmed,
+    /// Public copies differ; the source says which was taken, and why.
+    Disputed,
+    /// No public copy was found; from memory of the table.
+    Unconfirmed,
+    /// Not printed; chosen here.
+    Assumed,
+}
+
+impl FigureConfidence {
+    /// One word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Printed => "printed",
+            Self::Confirmed => "confirmed",
+            Self::Disputed => "disputed",
+            Self::Unconfirmed => "unconfirmed",
+            Self::Assumed => "assumed",
+        }
+    }
+}
+
+/// A figure with where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PublishedFigure<T> {
+    /// The figure, for red, green and blue where there are three.
+    pub value: T,
+    /// Where it stands.
+    pub source: &'static str,
+    /// How sure it is.
+    pub confidence: FigureConfidence,
+}
+
+/// A medium as it was published.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PublishedMaterial {
+    /// Its name there.
+    pub name: &'static str,
+    /// sigma'_s per mm.
+    pub sigma_s_prime: PublishedFigure<[f64; 3]>,
+    /// sigma_a per mm.
+    pub sigma_a: PublishedFigure<[f64; 3]>,
+    /// The index of refraction.
+    pub eta: PublishedFigure<f64>,
+    /// The diffuse reflectance that is printed beside it, to two digits.
+    pub reflectance: Option<PublishedFigure<[f64; 3]>>,
+}
+
+impl PublishedMaterial {
+    /// Coefficients and index.
+    pub fn material(&self) -> Material {
+        let [s, a] = [self.sigma_s_prime.value, self.sigma_a.value];
+        let channels = [0, 1, 2].map(|c| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] });
+        Material { name: self.name.to_owned(), channels, eta: self.eta.value }
+    }
+}
+
+/// The published medium of a name; upper and lower case are the same.
+pub fn named(name: &str) -> Option<&'static PublishedMaterial> {
+    MATERIALS.iter().find(|material| material.name.eq_ignore_ascii_case(name))
+}
+
+const COPIES: &str = "Jensen et al. 2001, Figure 5; equal in pbrt-v3 (src/core/medium.cpp), pbrt-v4 (media.cpp), \
+                      Mitsuba 0.6 (src/medium/materials.h) and Yocto/GL";
+const PBRT: &str = "Jensen et al. 2001, Figure 5; pbrt-v3, pbrt-v4 and Yocto/GL. Mitsuba 0.6 has a tenth of it in red, \
+                    which would double the reflectance that is printed";
+const INDEX: &str = "Jensen et al. 2001, section 5; Mitsuba 0.6 and TheBounty's exporter for Blender";
+const BOUNTY: &str = "Jensen et al. 2001, Figure 5; TheBounty's exporter for Blender has it as the color of its preset";
+const MARBLE: &str = "Jensen et al. 2001, Figure 5; TheBounty's exporter for Blender and 3Delight's manual, page 58";
+const CREAM: &str = "Jensen et al. 2001, Figure 5; TheBounty's exporter for Blender has .987 in red";
+const WHOLE_MILK: &str = "Jensen et al. 2001, Figure 5; TheBounty's exporter for Blender has .90 .88 .76";
+const MEMORY: &str = "Jensen et al. 2001, Figure 5, from memory: no public copy was found";
+const FIGURE_7: &str = "the paper's Figure 7, without a unit; per mm, as the table that its coefficients are from";
+
+const fn figure<T: Copy>(value: T, source: &'static str, confidence: FigureConfidence) -> PublishedFigure<T> {
+    PublishedFigure { value, source, confidence }
+}
+
+/// A row of the table of 2001, with what is disputed among its absorption coefficients and reflectances.
+const fn row(
+    name: &'static str,
+    sigma_s_prime: [f64; 3],
+    sigma_a: [f64; 3],
+    absorption: (&'static str, FigureConfidence),
+    eta: f64,
+    reflectance: [f64; 3],
+    printed: (&'static str, FigureConfidence),
+) -> PublishedMaterial {
+    PublishedMaterial {
+        name,
+        sigma_s_prime: figure(sigma_s_prime, COPIES, FigureConfidence::Confirmed),
+        sigma_a: figure(sigma_a, absorption.0, absorption.1),
+        eta: figure(eta, INDEX, FigureConfidence::Confirmed),
+        reflectance: Some(figure(reflectance, printed.0, printed.1)),
+    }
+}
+
+/// The medium of Figure 7 with an index of refraction.
+const fn figure_7(name: &'static str, eta: f64, source: &'static str) -> PublishedMaterial {
+    PublishedMaterial {
+        name,
+        sigma_s_prime: figure([2.21; 3], FIGURE_7, FigureConfidence::Printed),
+        sigma_a: figure([0.0012; 3], FIGURE_7, FigureConfidence::Printed),
+        eta: figure(eta, source, FigureConfidence::Assumed),
+        reflectance: None,
+    }
+}
+
+const AGREED: (&str, FigureConfidence) = (COPIES, FigureConfidence::Confirmed);
+const TENTH: (&str, FigureConfidence) = (PBRT, FigureConfidence::Disputed);
+const SEEN: (&str, FigureConfidence) = (BOUNTY, FigureConfidence::Confirmed);
+const SEEN_TWICE: (&str, FigureConfidence) = (MARBLE, FigureConfidence::Confirmed);
+const RECALLED: (&str, FigureConfidence) = (MEMORY, FigureConfidence::Unconfirmed);
+
+/// All of them, the twelve by name.
+#[rustfmt::skip]
+pub const MATERIALS: [PublishedMaterial; 14] = [
+    row("Apple", [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046], AGREED, 1.3, [0.85, 0.84, 0.53], RECALLED),
+    row("Chicken1", [0.15, 0.21, 0.38], [0.015, 0.077, 0.19], TENTH, 1.3, [0.31, 0.15, 0.10], RECALLED),
+    row("Chicken2", [0.19, 0.25, 0.32], [0.018, 0.088, 0.20], TENTH, 1.3, [0.32, 0.16, 0.10], RECALLED),
+    row("Cream", [7.38, 5.47, 3.15], [0.0002, 0.0028, 0.0163], AGREED, 1.3, [0.98, 0.90, 0.73],
+        (CREAM, FigureConfidence::Disputed)),
+    row("Ketchup", [0.18, 0.07, 0.03], [0.061, 0.97, 1.45], AGREED, 1.3, [0.16, 0.01, 0.00], SEEN),
+    row("Marble", [2.19, 2.62, 3.00], [0.0021, 0.0041, 0.0071], AGREED, 1.5, [0.83, 0.79, 0.75], SEEN_TWICE),
+    row("Potato", [0.68, 0.70, 0.55], [0.0024, 0.0090, 0.12], AGREED, 1.3, [0.77, 0.62, 0.21], SEEN),
+    row("Skimmilk", [0.70, 1.22, 1.90], [0.0014, 0.0025, 0.0142], AGREED, 1.3, [0.81, 0.81, 0.69], SEEN),
+    row("Skin1", [0.74, 0.88, 1.01], [0.032, 0.17, 0.48], AGREED, 1.3, [0.44, 0.22, 0.13], SEEN),
+    row("Skin2", [1.09, 1.59, 1.79], [0.013, 0.070, 0.145], AGREED, 1.3, [0.63, 0.44, 0.34], SEEN),
+    row("Spectralon", [11.6, 20.4, 14.9], [0.0, 0.0, 0.0], AGREED, 1.3, [1.00, 1.00, 1.00], RECALLED),
+    row("Wholemilk", [2.55, 3.21, 3.77], [0.0011, 0.0024, 0.014], AGREED, 1.3, [0.91, 0.88, 0.77],
+        (WHOLE_MILK, FigureConfidence::Disputed)),
+    figure_7("Figure7", 1.3, "not printed; that of all media but marble in the table of 2001"),
+    figure_7("Figure7-marble", 1.5, "not printed; that of marble in the table of 2001, whose coefficients are near"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_are_media_and_names_are_unique() {
+        for (i, material) in MATERIALS.iter().enumerate() {
+            let checked = Material::new(material.name, material.material().channels, material.eta.value);
+            assert_eq!(checked, Ok(material.material()));
+            assert_eq!(named(&material.name.to_uppercase()), Some(&MATERIALS[i]));
+        }
+        assert_eq!(named("Butter"), None);
+    }
+}

@@ -1,0 +1,174 @@
+//! Exact answers on polygons, cubes and spheres: contour integrals and Legendre series against brute force.
+
+use approx::{assert_abs_diff_eq, assert_relative_eq};
+use crossbar::elementary::{atan2, exp, sin_cos};
+use crossbar::quadrature::{EIGHT, graded_integral, integral};
+use crossbar::subsurface::{
+    Coefficients, Dipole, SphereSeries, legendre_coefficients, legendre_sum, point_to_polygon, uniform_sphere,
+};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+fn dipole(sigma_s_prime: f64, sigma_a: f64) -> Dipole {
+    Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).unwrap()
+}
+
+/// The factor to a triangle by sums over `cells` squared small ones with their middles.
+fn brute_force(dipole: &Dipole, point: DVec3, [a, b, c]: [DVec3; 3], cells: u32) -> f64 {
+    let step = 1.0 / f64::from(cells);
+    let (u, v) = (step * (b - a), step * (c - a));
+    let area = 0.5 * u.cross(v).length();
+    let mut sum = 0.0;
+    for i in 0..cells {
+        for j in 0..cells - i {
+            let corner = a + f64::from(i) * u + f64::from(j) * v;
+            sum += area * dipole.r_d(point.distance(corner + (u + v) / 3.0));
+            if i + j + 1 < cells {
+                sum += area * dipole.r_d(point.distance(corner + (u + v) / 1.5));
+            }
+        }
+    }
+    sum
+}
+
+#[test]
+fn contours_are_sums_of_small_triangles() {
+    let triangle = [DVec3::new(0.3, -1.0, 0.5), DVec3::new(4.0, 0.5, 1.5), DVec3::new(-1.0, 2.5, 0.0)];
+    let inside = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+    let normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalize();
+    for dipole in [dipole(1.0, 0.0), dipole(1.0, 0.05), dipole(0.4, 1.0)] {
+        for point in [inside, inside + 0.7 * normal, triangle[0], triangle[1] - 3.0 * normal, DVec3::new(5.0, 5.0, 5.0)]
+        {
+            let [coarse, fine] = [200, 400].map(|cells| brute_force(&dipole, point, triangle, cells));
+            // The error of middles falls with the square of the step.
+            let extrapolated = fine + (fine - coarse) / 3.0;
+            let exact = point_to_polygon(&dipole, point, &triangle);
+            assert_relative_eq!(exact, extrapolated, max_relative = 2e-7);
+            let turned = [triangle[2], triangle[1], triangle[0]];
+            assert_relative_eq!(exact, point_to_polygon(&dipole, point, &turned), max_relative = 1e-13);
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_polygon_sum_to_it() {
+    let dipole = dipole(2.21, 0.0012);
+    let [a, b, c, d] = [[0.0, 0.0], [30.0, 1.0], [28.0, 40.0], [-3.0, 22.0]].map(|[x, y]| DVec3::new(x, y, 1.0));
+    for point in [DVec3::new(10.0, 12.0, 1.0), DVec3::new(1.0, 2.0, -0.3), a, 0.5 * (a + c)] {
+        let whole = point_to_polygon(&dipole, point, &[a, b, c, d]);
+        let parts = point_to_polygon(&dipole, point, &[a, b, c]) + point_to_polygon(&dipole, point, &[a, c, d]);
+        assert_relative_eq!(whole, parts, max_relative = 1e-13);
+    }
+}
+
+#[test]
+fn a_large_square_is_the_plane() {
+    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| 1e9 * DVec3::new(x, y, 0.0));
+    for dipole in [dipole(2.21, 0.0012), dipole(0.01, 3.0), dipole(1e3, 1.0)] {
+        let factor = point_to_polygon(&dipole, DVec3::new(3.0, -7.0, 0.0), &square);
+        assert_relative_eq!(factor, dipole.total(), max_relative = 1e-12);
+        let above = point_to_polygon(&dipole, DVec3::new(3.0, -7.0, 0.8), &square);
+        assert_relative_eq!(above, dipole.beyond(0.8), max_relative = 1e-12);
+    }
+}
+
+/// The solid angle of a triangle (Van Oosterom and Strackee 1983).
+fn solid_angle(from: DVec3, corners: [DVec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| corner - from);
+    let [x, y, z] = [a, b, c].map(DVec3::length);
+    let below = x * y * z + a.dot(b) * z + a.dot(c) * y + b.dot(c) * x;
+    2.0 * atan2(a.dot(b.cross(c)).abs(), below)
+}
+
+#[test]
+fn without_absorption_factors_in_the_plane_are_solid_angles() {
+    let dipole = dipole(0.7, 0.0);
+    let triangle = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(9.0, 1.0, 0.0), DVec3::new(2.0, 6.0, 0.0)];
+    for point in [DVec3::new(3.0, 2.0, 0.0), DVec3::new(-2.0, 1.0, 0.0), DVec3::new(1e-9, 1e-8, 0.0)] {
+        let angles = [dipole.z_r(), dipole.z_v()].map(|z| solid_angle(point + z * DVec3::Z, triangle));
+        let exact = (angles[0] + angles[1]) / (4.0 * PI);
+        assert_relative_eq!(point_to_polygon(&dipole, point, &triangle), exact, max_relative = 1e-12);
+    }
+}
+
+/// The mean of the cube's row sums: points of an eighth of a face, closer together towards the edges.
+fn cube(dipole: &Dipole, side: f64, panels: u32) -> f64 {
+    let at = |x: f64, y: f64, z: f64| side * DVec3::new(x, y, z);
+    let faces = [0, 1, 2].into_iter().flat_map(|axis| [0.0, 1.0].map(|end| (axis, end)));
+    let faces: Vec<[DVec3; 4]> = faces
+        .map(|(axis, end)| {
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[u, v]| match axis {
+                0 => at(end, u, v),
+                1 => at(u, end, v),
+                _ => at(u, v, end),
+            })
+        })
+        .collect();
+    let mut places = Vec::new();
+    let mut end = 0.5;
+    for panel in 0..panels {
+        let start = if panel + 1 == panels { 0.0 } else { 0.5 * end };
+        places.extend(EIGHT.map(|(x, weight)| (start + (end - start) * x, 2.0 * (end - start) * weight)));
+        end = start;
+    }
+    let mut sum = 0.0;
+    for (i, &(x, wx)) in places.iter().enumerate() {
+        for &(y, wy) in &places[..=i] {
+            let row: f64 = faces.iter().map(|face| point_to_polygon(dipole, at(x, y, 0.0), face)).sum();
+            sum += row * wx * wy * if x == y { 1.0 } else { 2.0 };
+        }
+    }
+    sum
+}
+
+#[test]
+fn without_absorption_a_cube_loses_or_makes_energy() {
+    let dipole = dipole(1.0, 0.0);
+    let sums = [(10.0, 3, "0.8957"), (100.0, 6, "1.0238"), (1000.0, 8, "1.0068")];
+    let others = [(20.0, 4, "0.9859"), (30.0, 4, "1.0101"), (50.0, 5, "1.0228"), (200.0, 7, "1.0184")];
+    let full = std::env::var_os("CROSSBAR_FULL").is_some();
+    for (side, panels, printed) in sums.into_iter().chain(others.into_iter().filter(|_| full)) {
+        assert_eq!(format!("{:.4}", cube(&dipole, side, panels)), printed, "side {side}");
+    }
+}
+
+#[test]
+fn without_absorption_a_sphere_loses_energy() {
+    let dipole = dipole(1.0, 0.0);
+    let sums = [1.0, 5.0, 10.0, 50.0, 100.0].map(|radius| format!("{:.4}", uniform_sphere(&dipole, radius)));
+    assert_eq!(sums, ["0.3200", "0.7462", "0.8660", "0.9727", "0.9863"]);
+}
+
+/// The exitance of a sphere at a point whose cosine to the axis is given, by rings around the point.
+fn rings(dipole: &Dipole, radius: f64, cosine: f64, irradiance: impl Fn(f64) -> f64) -> f64 {
+    let sine = (1.0 - cosine * cosine).sqrt();
+    let steps = 2000;
+    graded_integral(PI, 12, |gamma| {
+        let (s, c) = sin_cos(gamma);
+        let (half, _) = sin_cos(0.5 * gamma);
+        let turn = |k: u32| sin_cos(2.0 * PI * (f64::from(k) + 0.5) / f64::from(steps)).1;
+        let around: f64 = (0..steps).map(|k| irradiance(cosine * c + sine * s * turn(k))).sum();
+        radius * radius * s * dipole.r_d(2.0 * radius * half) * 2.0 * PI * around / f64::from(steps)
+    })
+}
+
+#[test]
+fn the_series_of_a_sphere_is_its_integral() {
+    for (dipole, radius) in [(dipole(1.0, 0.0), 5.0), (dipole(2.21, 0.0012), 20.0), (dipole(0.5, 0.5), 2.0)] {
+        let series = SphereSeries::new(&dipole, radius, 300);
+        assert_relative_eq!(series.factors()[0], uniform_sphere(&dipole, radius), max_relative = 1e-11);
+        let smooth = series.exitance(&legendre_coefficients(300, &[], exp));
+        // One light: a cosine that ends at the terminator.
+        let light = |cosine: f64| cosine.max(0.0);
+        let lit = series.exitance(&legendre_coefficients(300, &[0.0], light));
+        for cosine in [-1.0, -0.4, 0.0, 0.3, 1.0] {
+            let exact = rings(&dipole, radius, cosine, exp);
+            assert_relative_eq!(legendre_sum(&smooth, cosine), exact, max_relative = 1e-9);
+            let exact = rings(&dipole, radius, cosine, light);
+            assert_abs_diff_eq!(legendre_sum(&lit, cosine), exact, epsilon = 1e-5);
+        }
+        // Flux out, by the series' mean.
+        let flux = integral(-1.0, 0.0, |x| legendre_sum(&lit, x)) + integral(0.0, 1.0, |x| legendre_sum(&lit, x));
+        assert_relative_eq!(flux, 0.5 * uniform_sphere(&dipole, radius), max_relative = 1e-6);
+    }
+}
