@@ -14,7 +14,7 @@ use super::factor::FactorError;
 use crate::atlas::Atlas;
 
 /// Texels nearer than this many times the sum of their radii are integrated.
-const NEAR: f64 = 6.0;
+const NEAR: f64 = 5.0;
 /// Texels nearer than this many times the sum of their radii are integrated with triangles no longer than the mean free
 /// path.
 const CLOSE: f64 = 1.5;

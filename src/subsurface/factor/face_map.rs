@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::moments::{Covariance, Moments};
+use super::moments::{Covariance, Moments, size_squared};
 use crate::atlas::FacePlace;
 
 /// A face and its rectangle. In the rectangle's coordinates, which run from 0 to 1, corners (0, 0), (1, 0), (1, 1),
@@ -40,9 +40,9 @@ impl Window {
     }
 }
 
-/// Mean values of M, N and their products over a window.
+/// Means and covariances of M and N over a window.
 #[derive(Clone, Copy, Debug, Default)]
-struct Means {
+struct WindowMoments {
     m: f64,
     n: f64,
     mm: f64,
@@ -76,18 +76,18 @@ impl FaceMap {
 
     /// The moments of the surface under a window, of a given area.
     pub(super) fn moments(&self, window: Window, area: f64) -> Moments {
-        let means = if window.is_bent() { bent_means(window) } else { straight_means(window) };
-        let [var_m, cov, var_n] =
-            [means.mm - means.m * means.m, means.mn - means.m * means.n, means.nn - means.n * means.n];
+        let means = WindowMoments::of(window);
         // e f^T + f e^T = (e + f)(e + f)^T - e e^T - f f^T.
-        let covariance = Covariance::of([(var_m - cov, self.e), (var_n - cov, self.f), (cov, self.e + self.f)]);
+        let WindowMoments { mm, mn, nn, .. } = means;
+        let covariance = Covariance::of([(mm - mn, self.e), (nn - mn, self.f), (mn, self.e + self.f)]);
         let offset = means.m * self.e + means.n * self.f;
         let mut radius_squared: f64 = 0.0;
         for [s, t] in corners(window) {
             let vertex = s.max(t) * self.e + t.max(2.0 * t - s) * self.f;
             radius_squared = radius_squared.max((vertex - offset).length_squared());
         }
-        Moments { area, point: self.origin + offset, covariance, radius_squared }
+        let size_squared = size_squared(&covariance, radius_squared);
+        Moments { area, point: self.origin + offset, covariance, size_squared }
     }
 }
 
@@ -98,68 +98,32 @@ fn corners(Window { s: [s0, s1], t: [t0, t1] }: Window) -> [[f64; 2]; 6] {
     [[s0, t0], [s1, t0], [s1, t1], [s0, t1], bend(enter), bend(leave)]
 }
 
-/// Over a window on one side of the diagonal.
-fn straight_means(Window { s: [s0, s1], t: [t0, t1] }: Window) -> Means {
-    let (s, t) = (0.5 * (s0 + s1), 0.5 * (t0 + t1));
-    let [var_s, var_t] = [s1 - s0, t1 - t0].map(|width| width * width / 12.0);
-    if s >= t {
-        return Means { m: s, n: t, mm: s * s + var_s, mn: s * t, nn: t * t + var_t };
-    }
-    let n = 2.0 * t - s;
-    Means { m: t, n, mm: t * t + var_t, mn: t * n + 2.0 * var_t, nn: n * n + 4.0 * var_t + var_s }
-}
-
-/// Over a window that the diagonal cuts: the rule of edge midpoints is exact on the triangles of each half, where the
-/// products are quadratic.
-fn bent_means(window: Window) -> Means {
-    let mut sum = Means::default();
-    let mut area = 0.0;
-    for below in [true, false] {
-        let (polygon, count) = half(window, below);
-        for k in 2..count {
-            let triangle = [polygon[0], polygon[k - 1], polygon[k]];
-            let [[ax, ay], [bx, by], [cx, cy]] = triangle;
-            let weight = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).abs() / 6.0;
-            for edge in 0..3 {
-                let [p, q] = [triangle[edge], triangle[(edge + 1) % 3]];
-                let [s, t] = [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
-                let (m, n) = if below { (s, t) } else { (t, 2.0 * t - s) };
-                sum.m += weight * m;
-                sum.n += weight * n;
-                sum.mm += weight * m * m;
-                sum.mn += weight * m * n;
-                sum.nn += weight * n * n;
-                area += weight;
-            }
+impl WindowMoments {
+    /// M = s + D and N = t + D with D = max(t - s, 0), whose integrals over a rectangle are made of powers at its
+    /// corners.
+    fn of(Window { s: [s0, s1], t: [t0, t1] }: Window) -> Self {
+        // s from 0 to width, t from low to high.
+        let (width, low, high) = (s1 - s0, t0 - s0, t1 - s0);
+        let area = width * (high - low);
+        let corners =
+            |value: &dyn Fn(f64) -> f64| (value(high) - value(high - width) - value(low) + value(low - width)) / area;
+        let cube = |x: f64| if x > 0.0 { x * x * x } else { 0.0 };
+        let fourth = |x: f64| if x > 0.0 { x * x * (x * x) } else { 0.0 };
+        let d = corners(&cube) / 6.0;
+        let square = corners(&fourth) / 12.0;
+        let edge = width * (cube(high - width) - cube(low - width)) / area / 6.0;
+        let [s, t] = [0.5 * width, 0.5 * (low + high)];
+        let s_times_d = 0.5 * square - edge;
+        let [var_s, var_t] = [width, high - low].map(|side| side * side / 12.0);
+        let [var_d, s_d, t_d] = [square - d * d, s_times_d - s * d, s_times_d + square - t * d];
+        Self {
+            m: s0 + s + d,
+            n: s0 + t + d,
+            mm: var_s + 2.0 * s_d + var_d,
+            mn: s_d + t_d + var_d,
+            nn: var_t + 2.0 * t_d + var_d,
         }
     }
-    let Means { m, n, mm, mn, nn } = sum;
-    Means { m: m / area, n: n / area, mm: mm / area, mn: mn / area, nn: nn / area }
-}
-
-/// The part of a window where s >= t, or where t >= s: a polygon of up to five corners.
-fn half(Window { s: [s0, s1], t: [t0, t1] }: Window, below: bool) -> ([[f64; 2]; 6], usize) {
-    let square = [[s0, t0], [s1, t0], [s1, t1], [s0, t1]];
-    let height = |[s, t]: [f64; 2]| if below { s - t } else { t - s };
-    let mut polygon = [[0.0; 2]; 6];
-    let mut count = 0;
-    let mut push = |corner| {
-        polygon[count] = corner;
-        count += 1;
-    };
-    for k in 0..4 {
-        let [p, q] = [square[k], square[(k + 1) % 4]];
-        let [hp, hq] = [height(p), height(q)];
-        if hp >= 0.0 {
-            push(p);
-        }
-        if (hp > 0.0 && hq < 0.0) || (hp < 0.0 && hq > 0.0) {
-            // On an axis-parallel edge, the point with s = t.
-            let at = if p[0] == q[0] { p[0] } else { p[1] };
-            push([at, at]);
-        }
-    }
-    (polygon, count)
 }
 
 #[cfg(test)]
@@ -227,7 +191,7 @@ mod tests {
             max_relative = 1e-13
         );
         let farthest = corners.iter().map(|corner| (*corner - centroid).length_squared()).fold(0.0, f64::max);
-        assert_relative_eq!(moments.radius_squared, farthest, max_relative = 1e-13);
+        assert_relative_eq!(moments.size_squared, size_squared(&moments.covariance, farthest), max_relative = 1e-13);
     }
 
     #[test]

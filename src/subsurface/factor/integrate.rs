@@ -2,8 +2,7 @@
 
 use super::error::FactorError;
 use super::kernel::Kernel;
-use super::moments::Moments;
-use super::near::texel_mean;
+use super::near::{PieceCache, texel_mean};
 use super::surface::{ClusterId, SurfaceMoments, from_morton, to_morton};
 use super::{MAX_TOLERANCE, MIN_TOLERANCE};
 use crate::subsurface::Dipole;
@@ -69,24 +68,41 @@ impl<'a, const N: usize> Factors<'a, N> {
     ///
     /// # Panics
     /// If there is no such texel or cluster.
-    pub fn factor(&self, [x, y]: [u32; 2], cluster: ClusterId) -> [f64; N] {
-        assert!(x < self.surface.side() && y < self.surface.side(), "there is no texel ({x}, {y})");
+    pub fn factor(&self, texel: [u32; 2], cluster: ClusterId) -> [f64; N] {
+        self.receiver().factor(texel, cluster)
+    }
+
+    /// The same for many factors, whose texels are best near each other.
+    pub fn receiver(&self) -> Receiver<'_, N> {
+        Receiver { factors: self, cache: PieceCache::new() }
+    }
+}
+
+/// Computes factors, and keeps pieces of near texels for the next ones. What is kept changes the time, never a factor.
+#[derive(Clone, Debug)]
+pub struct Receiver<'a, const N: usize> {
+    factors: &'a Factors<'a, N>,
+    cache: PieceCache,
+}
+
+impl<const N: usize> Receiver<'_, N> {
+    /// As [`Factors::factor`].
+    ///
+    /// # Panics
+    /// If there is no such texel or cluster.
+    pub fn factor(&mut self, [x, y]: [u32; 2], cluster: ClusterId) -> [f64; N] {
+        let side = self.factors.surface.side();
+        assert!(x < side && y < side, "there is no texel ({x}, {y})");
         self.descend(to_morton(x, y), cluster.level, to_morton(cluster.x, cluster.y))
     }
 
-    fn descend(&self, texel: usize, level: u32, place: usize) -> [f64; N] {
-        let receiver = &self.surface.level(0)[texel];
-        self.descend_from(texel, receiver, level, place)
-    }
-
-    fn descend_from(&self, texel: usize, receiver: &Moments, level: u32, place: usize) -> [f64; N] {
-        let cluster = &self.surface.level(level)[place];
-        if let Some(factor) = self.undivided(texel, receiver, level, place, cluster) {
+    fn descend(&mut self, texel: usize, level: u32, place: usize) -> [f64; N] {
+        if let Some(factor) = self.undivided(texel, level, place) {
             return factor;
         }
         let mut sum = [0.0; N];
         for child in 4 * place..4 * place + 4 {
-            let factor = self.descend_from(texel, receiver, level - 1, child);
+            let factor = self.descend(texel, level - 1, child);
             sum.iter_mut().zip(factor).for_each(|(sum, factor)| *sum += factor);
         }
         sum
@@ -94,20 +110,13 @@ impl<'a, const N: usize> Factors<'a, N> {
 
     /// The factor of a cluster that is far, or a texel.
     #[inline]
-    fn undivided(
-        &self,
-        texel: usize,
-        receiver: &Moments,
-        level: u32,
-        place: usize,
-        cluster: &Moments,
-    ) -> Option<[f64; N]> {
-        let covariance = receiver.covariance.plus(&cluster.covariance);
-        let radii_squared = receiver.radius_squared + cluster.radius_squared;
-        let mean = self.kernel.mean(cluster.point - receiver.point, &covariance, radii_squared);
-        let mean = match mean {
+    fn undivided(&mut self, texel: usize, level: u32, place: usize) -> Option<[f64; N]> {
+        let Factors { surface, kernel } = self.factors;
+        let receiver = &surface.level(0)[texel];
+        let cluster = &surface.level(level)[place];
+        let mean = match kernel.mean(receiver, cluster) {
             Some(mean) => mean,
-            None if level == 0 => texel_mean(self.surface, &self.kernel, texel, place),
+            None if level == 0 => texel_mean(surface, kernel, [texel, place], &mut self.cache),
             None => return None,
         };
         Some(mean.map(|mean| cluster.area * mean))
@@ -115,15 +124,15 @@ impl<'a, const N: usize> Factors<'a, N> {
 
     /// The tree of clusters that the descent from the root visits for the texel in column `x` and row `y`, the root
     /// first.
-    pub(in crate::subsurface) fn tree(&self, [x, y]: [u32; 2], tree: &mut Vec<Branch<N>>) {
+    pub(in crate::subsurface) fn tree(&mut self, [x, y]: [u32; 2], tree: &mut Vec<Branch<N>>) {
         tree.clear();
-        tree.push(Branch::new(self.surface.level_count() - 1, 0));
+        tree.push(Branch::new(self.factors.surface.level_count() - 1, 0));
         self.grow(to_morton(x, y), tree, 0);
     }
 
     /// Where the children of a branch stand; they are computed if the descent left them out. `None` of a texel.
     pub(in crate::subsurface) fn children(
-        &self,
+        &mut self,
         [x, y]: [u32; 2],
         tree: &mut Vec<Branch<N>>,
         at: usize,
@@ -138,18 +147,16 @@ impl<'a, const N: usize> Factors<'a, N> {
         Some(tree[at].children as usize)
     }
 
-    fn grow(&self, texel: usize, tree: &mut Vec<Branch<N>>, at: usize) {
+    fn grow(&mut self, texel: usize, tree: &mut Vec<Branch<N>>, at: usize) {
         let Branch { level, place, .. } = tree[at];
-        let receiver = &self.surface.level(0)[texel];
-        let cluster = &self.surface.level(level)[place as usize];
-        match self.undivided(texel, receiver, level, place as usize, cluster) {
+        match self.undivided(texel, level, place as usize) {
             Some(factor) => tree[at].factor = factor,
             None => tree[at].factor = self.divide(texel, tree, at),
         }
     }
 
     /// Appends the children of a branch. Returns the sum of their factors.
-    fn divide(&self, texel: usize, tree: &mut Vec<Branch<N>>, at: usize) -> [f64; N] {
+    fn divide(&mut self, texel: usize, tree: &mut Vec<Branch<N>>, at: usize) -> [f64; N] {
         let Branch { level, place, .. } = tree[at];
         let first = tree.len();
         tree.extend((4 * place..4 * place + 4).map(|child| Branch::new(level - 1, child)));

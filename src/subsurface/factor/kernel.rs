@@ -9,10 +9,8 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
-
-use super::moments::Covariance;
-use crate::elementary::exp;
+use super::moments::{BALL, Moments};
+use crate::elementary::{cbrt, exp};
 use crate::subsurface::Dipole;
 
 /// The largest relative error of the table where light still matters, see [`Kernel::interpolation_error`].
@@ -23,9 +21,9 @@ const MATTERS: f64 = 25.0;
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
 /// The logarithmic derivative of R_d is at most this over d, plus sigma_tr.
 const SLOPE: f64 = 3.0;
-/// Two pieces are far enough at a tolerance of 1 % if the root of their radii's squares, times the logarithmic derivative,
-/// is below this: measured, see tests/laws/subsurface/links_factors.rs.
-const FAR: f64 = 1.0;
+/// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
+/// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
+const FAR: f64 = 0.55;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.
 pub(super) const FLOOR: f64 = 1e-5;
@@ -48,9 +46,9 @@ pub(super) struct Kernel<const N: usize> {
 struct Interval<const N: usize> {
     /// Per channel, coefficients of powers of v less the interval's left end.
     cubic: [[f64; 4]; N],
-    /// Pieces whose squared radii sum to at most this are far.
+    /// Pieces whose squared sizes sum to at most this are far.
     reach: f64,
-    /// Pieces whose squared radii sum to at most this are negligible.
+    /// Pieces whose squared sizes sum to at most this are negligible.
     negligible: f64,
 }
 
@@ -122,8 +120,8 @@ impl<const N: usize> Kernel<N> {
 
     /// How large pieces at each distance may be.
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
-        // The error grows with the fourth power of the radius (odd moments mostly cancel).
-        let far = FAR * (tolerance / 0.01).sqrt().sqrt();
+        // What the second order leaves out grows with the third power of the size.
+        let far = FAR * cbrt(tolerance / 0.01);
         let light = |interval: &Interval<N>| {
             let relative = |(cubic, dipole): (&[f64; 4], &Dipole)| cubic[0] * area / dipole.total();
             interval.cubic.iter().zip(&self.dipoles).map(relative).fold(0.0, f64::max)
@@ -141,9 +139,9 @@ impl<const N: usize> Kernel<N> {
             let reach = self.dipoles.iter().map(reach).fold(f64::INFINITY, f64::min);
             let interval = &mut self.intervals[k];
             interval.reach = reach * reach;
-            // The nearest points of both are at least r less the radii apart; (a + b)^2 <= 2 (a^2 + b^2).
+            // Points of both are at least r less the balls' radii apart; (a + b)^2 <= 2 (a^2 + b^2).
             let spare = (r - dark_from).max(0.0);
-            interval.negligible = 0.5 * spare * spare;
+            interval.negligible = 0.5 * spare * spare / BALL;
         }
     }
 
@@ -168,14 +166,17 @@ impl<const N: usize> Kernel<N> {
         interval.cubic.map(|[c0, c1, c2, c3]| c0 + t * (c1 + t * (c2 + t * c3)))
     }
 
-    /// The mean of R_d over pairs of points, whose difference has a mean and a covariance, of two pieces whose squared
-    /// radii have a sum; `None` if they are too near. To second order: with g(r^2) = R_d,
+    /// The mean of R_d over pairs of points of two pieces; `None` if they are too near. To second order: with
+    /// g(r^2) = R_d, x the difference of the mean points and C the sum of the covariances,
     /// g + g' trace(C) + 2 g'' x^T C x.
     #[inline]
-    pub(super) fn mean(&self, apart: DVec3, covariance: &Covariance, radii_squared: f64) -> Option<[f64; N]> {
+    pub(super) fn mean(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
+        let apart = other.point - one.point;
         let squared = apart.length_squared();
         let (interval, t) = self.find(squared);
-        if radii_squared <= interval.reach {
+        let size_squared = one.size_squared + other.size_squared;
+        if size_squared <= interval.reach {
+            let covariance = one.covariance.plus(&other.covariance);
             let across = covariance.trace() * self.per_unit;
             let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
             return Some(interval.cubic.map(|[c0, c1, c2, c3]| {
@@ -185,7 +186,7 @@ impl<const N: usize> Kernel<N> {
                 value + first * across + second * along
             }));
         }
-        (radii_squared <= interval.negligible).then(|| self.at(squared))
+        (size_squared <= interval.negligible).then(|| self.at(squared))
     }
 
     /// The mean of R_d over a disc of an area, from its center.
@@ -196,10 +197,10 @@ impl<const N: usize> Kernel<N> {
         })
     }
 
-    /// How many times pieces whose squared radii sum to `radii_squared` are to be halved to be far at distance 0.
-    pub(super) fn halvings(&self, radii_squared: f64) -> u32 {
+    /// How many times pieces whose squared sizes have this sum are to be halved to be far at distance 0.
+    pub(super) fn halvings(&self, size_squared: f64) -> u32 {
         let mut count = 0;
-        let mut left = radii_squared;
+        let mut left = size_squared;
         while left > self.intervals[0].reach && count < u32::BITS {
             left *= 0.25;
             count += 1;

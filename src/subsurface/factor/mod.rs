@@ -16,7 +16,7 @@ mod surface;
 
 pub use error::FactorError;
 pub(super) use integrate::Branch;
-pub use integrate::Factors;
+pub use integrate::{Factors, Receiver};
 pub use surface::{ClusterId, SurfaceMoments};
 
 /// The default tolerance of a factor, relative.

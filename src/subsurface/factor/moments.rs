@@ -11,8 +11,17 @@ pub(super) struct Moments {
     pub(super) point: DVec3,
     /// Its covariance about the mean point.
     pub(super) covariance: Covariance,
-    /// The squared radius of a ball about the mean point that holds all of it.
-    pub(super) radius_squared: f64,
+    /// The square of its size, see [`size_squared`].
+    pub(super) size_squared: f64,
+}
+
+/// The square of the radius of a ball that holds a piece, over that of its size, is at most this.
+pub(super) const BALL: f64 = 5.0;
+
+/// The square of the size by which a piece counts as far: the mean squared distance from its mean point; for pieces with
+/// far outliers more, so that a ball about the mean point of [`BALL`] times this holds all.
+pub(super) fn size_squared(covariance: &Covariance, radius_squared: f64) -> f64 {
+    covariance.trace().max(radius_squared / BALL)
 }
 
 /// A symmetric matrix of mean products of coordinates: xx, yy, zz, xy, xz, yz.
@@ -53,7 +62,7 @@ impl Covariance {
 }
 
 impl Moments {
-    /// Of four pieces together, but for the radius, which is 0. Pieces count alike if none has an area.
+    /// Of four pieces together, but for the size, which is 0. Pieces count alike if none has an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };
@@ -64,7 +73,7 @@ impl Moments {
             let about = part.covariance.plus(&Covariance::of([(1.0, offset)]));
             covariance = covariance.plus(&about.times(weight(part)));
         }
-        Self { area, point, covariance, radius_squared: 0.0 }
+        Self { area, point, covariance, size_squared: 0.0 }
     }
 }
 
@@ -79,7 +88,7 @@ mod tests {
             area: 1.0,
             point: DVec3::new(x, y, 2.0),
             covariance: Covariance::of([(1.0 / 12.0, DVec3::X), (1.0 / 12.0, DVec3::Y)]),
-            radius_squared: 0.5,
+            size_squared: 0.5,
         };
         let all = Moments::together(&[square(0.0, 0.0), square(1.0, 0.0), square(0.0, 1.0), square(1.0, 1.0)]);
         assert_eq!((all.area, all.point), (4.0, DVec3::new(0.5, 0.5, 2.0)));

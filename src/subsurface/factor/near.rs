@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::face_map::{FaceMap, Window};
 use super::kernel::Kernel;
-use super::moments::{Covariance, Moments};
+use super::moments::Moments;
 use super::surface::SurfaceMoments;
 
 /// Texels are halved at most this often along a side.
@@ -12,77 +12,124 @@ const MAX_HALVINGS: u32 = 4;
 /// Where more halvings than this are needed, texels exceed the mean free path so far that nearly all light stays in its
 /// texel: two will do.
 const HOPELESS: u32 = 6;
+/// Texels whose pieces are kept; a power of two.
+const SLOTS: usize = 1024;
 
-/// A piece of the surface under one texel. Areas of all pieces of a texel of one size are equal.
-#[derive(Clone, Copy)]
-struct Piece<'a> {
-    face: &'a FaceMap,
-    window: Window,
-    moments: Moments,
+/// Pieces of texels that were near lately.
+#[derive(Clone, Debug)]
+pub(super) struct PieceCache {
+    slots: Vec<TexelPieces>,
 }
 
-impl<'a> Piece<'a> {
-    fn of_texel(surface: &'a SurfaceMoments, texel: usize) -> Self {
-        let (face, window) = surface.window(texel);
-        Self { face, window, moments: surface.level(0)[texel] }
+/// The pieces of one texel: 4^k of them after k halvings, those of a piece together.
+#[derive(Clone, Debug)]
+struct TexelPieces {
+    texel: usize,
+    halvings: Vec<Vec<Moments>>,
+}
+
+/// No texel has this index.
+const NONE: usize = usize::MAX;
+
+impl PieceCache {
+    pub(super) fn new() -> Self {
+        Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS] }
     }
 
-    fn quarters(&self) -> [Self; 4] {
-        let area = 0.25 * self.moments.area;
-        let windows = self.window.quarters();
-        if self.window.is_bent() {
-            return windows.map(|window| Self { face: self.face, window, moments: self.face.moments(window, area) });
+    /// Makes sure that the pieces of a texel are there. Returns their slot.
+    fn fetch(&mut self, surface: &SurfaceMoments, texel: usize, halvings: u32) -> usize {
+        let slot = texel % SLOTS;
+        let kept = &mut self.slots[slot];
+        if kept.texel != texel || kept.halvings.len() <= halvings as usize {
+            kept.fill(surface, texel, halvings);
         }
-        // Quarters of a parallelogram are alike.
-        let first = self.face.moments(windows[0], area);
-        let steps = [DVec3::ZERO, self.face.step(&windows[0], &windows[1]), self.face.step(&windows[0], &windows[2])];
-        let offsets = [steps[0], steps[1], steps[2], steps[1] + steps[2]];
-        std::array::from_fn(|k| {
-            let moments = Moments { point: first.point + offsets[k], ..first };
-            Self { face: self.face, window: windows[k], moments }
-        })
+        slot
     }
+}
+
+impl TexelPieces {
+    fn fill(&mut self, surface: &SurfaceMoments, texel: usize, halvings: u32) {
+        let (face, window) = surface.window(texel);
+        let whole = surface.level(0)[texel];
+        self.texel = texel;
+        self.halvings.resize_with(halvings as usize + 1, Vec::new);
+        self.halvings.iter_mut().for_each(Vec::clear);
+        self.halvings[0].push(whole);
+        let (mut windows, mut area) = (vec![window], whole.area);
+        for pieces in &mut self.halvings[1..] {
+            area *= 0.25;
+            pieces.extend(windows.iter().flat_map(|window| quarters(face, *window, area)));
+            windows = windows.iter().flat_map(Window::quarters).collect();
+        }
+    }
+}
+
+/// The moments of the quarters of a window.
+fn quarters(face: &FaceMap, window: Window, area: f64) -> [Moments; 4] {
+    let windows = window.quarters();
+    if window.is_bent() {
+        return windows.map(|quarter| face.moments(quarter, area));
+    }
+    // Quarters of a parallelogram are alike.
+    let first = face.moments(windows[0], area);
+    let [right, down] = [1, 2].map(|k| face.step(&windows[0], &windows[k]));
+    [DVec3::ZERO, right, down, right + down].map(|step| Moments { point: first.point + step, ..first })
+}
+
+/// A pair of texels whose pieces are at hand.
+struct Pair<'a, const N: usize> {
+    kernel: &'a Kernel<N>,
+    from: &'a [Vec<Moments>],
+    to: &'a [Vec<Moments>],
+    halvings: usize,
+    is_same: bool,
 }
 
 /// The mean of R_d over the pairs of points of two texels' parts, by Morton index. The same bits in either order.
 pub(super) fn texel_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &Kernel<N>,
-    one: usize,
-    other: usize,
+    [one, other]: [usize; 2],
+    cache: &mut PieceCache,
 ) -> [f64; N] {
-    let [a, b] = [one.min(other), one.max(other)].map(|texel| Piece::of_texel(surface, texel));
-    let needed = kernel.halvings(a.moments.radius_squared + b.moments.radius_squared);
+    let [from, to] = [one.min(other), one.max(other)];
+    let size = |texel: usize| surface.level(0)[texel].size_squared;
+    let needed = kernel.halvings(size(from) + size(to));
     let halvings = if needed > HOPELESS { 2 } else { needed.min(MAX_HALVINGS) };
-    piece_mean(kernel, &a, &b, halvings, one == other)
+    let is_same = from == to;
+    let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
+    let displaced = if slots[0] == slots[1] && !is_same {
+        // Both have the same slot, which holds the second one's pieces now.
+        let mut pieces = TexelPieces { texel: NONE, halvings: Vec::new() };
+        pieces.fill(surface, from, halvings);
+        Some(pieces)
+    } else {
+        None
+    };
+    let from = &displaced.as_ref().unwrap_or(&cache.slots[slots[0]]).halvings;
+    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize, is_same }.mean(0, [0, 0])
 }
 
-fn piece_mean<const N: usize>(
-    kernel: &Kernel<N>,
-    a: &Piece<'_>,
-    b: &Piece<'_>,
-    halvings: u32,
-    is_same: bool,
-) -> [f64; N] {
-    let (p, q) = (&a.moments, &b.moments);
-    let covariance: Covariance = p.covariance.plus(&q.covariance);
-    let apart = q.point - p.point;
-    if let Some(mean) = kernel.mean(apart, &covariance, p.radius_squared + q.radius_squared) {
-        return mean;
-    }
-    if halvings == 0 {
-        // Light that does not leave a piece is that within a disc of its area; what does comes from its middle. So
-        // light that one piece loses by this the next one gets.
-        return if is_same { kernel.disc(p.area) } else { kernel.at(apart.length_squared()) };
-    }
-    let from = a.quarters();
-    let to = if is_same { from } else { b.quarters() };
-    let mut sum = [0.0; N];
-    for (i, a) in from.iter().enumerate() {
-        for (j, b) in to.iter().enumerate() {
-            let mean = piece_mean(kernel, a, b, halvings - 1, is_same && i == j);
-            sum.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += mean);
+impl<const N: usize> Pair<'_, N> {
+    /// The mean over two pieces after so many halvings.
+    fn mean(&self, halvings: usize, [i, j]: [usize; 2]) -> [f64; N] {
+        let (p, q) = (&self.from[halvings][i], &self.to[halvings][j]);
+        if let Some(mean) = self.kernel.mean(p, q) {
+            return mean;
         }
+        if halvings == self.halvings {
+            // Light that does not leave a piece is that within a disc of its area; what does comes from its middle. So
+            // light that one piece loses by this the next one gets.
+            let is_same = self.is_same && i == j;
+            return if is_same { self.kernel.disc(p.area) } else { self.kernel.at(p.point.distance_squared(q.point)) };
+        }
+        let mut sum = [0.0; N];
+        for i in 4 * i..4 * i + 4 {
+            for j in 4 * j..4 * j + 4 {
+                let mean = self.mean(halvings + 1, [i, j]);
+                sum.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += mean);
+            }
+        }
+        sum.map(|sum| sum / 16.0)
     }
-    sum.map(|sum| sum / 16.0)
 }

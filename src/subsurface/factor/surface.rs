@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::error::FactorError;
 use super::face_map::{FaceMap, Window};
-use super::moments::Moments;
+use super::moments::{BALL, Moments, size_squared};
 use crate::atlas::Atlas;
 
 /// A cluster of an atlas: the texel in column x, row y of a level; level 0 is the finest.
@@ -60,7 +60,7 @@ impl SurfaceMoments {
             levels.push(level);
         }
         for (level, clusters) in (1..).zip(&mut levels[1..]) {
-            set_radii(clusters, level, atlas, mm_per_unit);
+            set_sizes(clusters, level, atlas, mm_per_unit);
         }
         Ok(Self { side, levels, faces, texel_faces })
     }
@@ -107,7 +107,7 @@ impl SurfaceMoments {
 
     /// No two points of the surface are farther apart than this, in mm.
     pub(super) fn diameter(&self) -> f64 {
-        2.0 * self.root().radius_squared.sqrt()
+        2.0 * (BALL * self.root().size_squared).sqrt()
     }
 
     /// The face of a texel and the texel's window in it; texels by Morton index.
@@ -118,14 +118,14 @@ impl SurfaceMoments {
     }
 }
 
-/// Takes the atlas's balls, which are tight.
-fn set_radii(clusters: &mut [Moments], level: u32, atlas: &Atlas, mm_per_unit: f64) {
+/// Takes sizes from the atlas's balls, which are tight.
+fn set_sizes(clusters: &mut [Moments], level: u32, atlas: &Atlas, mm_per_unit: f64) {
     clusters.par_iter_mut().enumerate().for_each(|(k, moments)| {
         let (x, y) = from_morton(k);
         let cluster = atlas.cluster(level, x, y);
         // The two mean points may differ by rounding.
         let radius = mm_per_unit * cluster.radius + (mm_per_unit * cluster.point - moments.point).length();
-        moments.radius_squared = radius * radius;
+        moments.size_squared = size_squared(&moments.covariance, radius * radius);
     });
 }
 

@@ -1,6 +1,6 @@
 //! Which clusters a texel has links to.
 
-use super::super::factor::{Branch, ClusterId, Factors};
+use super::super::factor::{Branch, ClusterId, Receiver};
 
 /// Which clusters the texels of an atlas have links to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,13 +24,13 @@ pub enum LinkChoice {
 ///
 /// `chosen` receives positions in `tree`: 1 + 3 k of them.
 pub(super) fn adaptive<const N: usize>(
-    factors: &Factors<'_, N>,
+    receiver: &mut Receiver<'_, N>,
     texel: [u32; 2],
     count: usize,
     tree: &mut Vec<Branch<N>>,
     chosen: &mut Vec<usize>,
 ) {
-    factors.tree(texel, tree);
+    receiver.tree(texel, tree);
     chosen.clear();
     chosen.push(0);
     while chosen.len() + 3 <= count {
@@ -45,7 +45,7 @@ pub(super) fn adaptive<const N: usize>(
             left.total_cmp(&right).then(left_tie.cmp(&right_tie))
         });
         let Some(top) = top else { return };
-        let Some(first) = factors.children(texel, tree, chosen[top]) else { return };
+        let Some(first) = receiver.children(texel, tree, chosen[top]) else { return };
         chosen.splice(top..=top, first..first + 4);
     }
 }

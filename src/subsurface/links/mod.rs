@@ -8,6 +8,8 @@ mod choice;
 mod encode;
 mod gather;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use super::Dipole;
@@ -21,6 +23,9 @@ pub use gather::{IrradianceMeans, MeanWeighting};
 pub const SCALAR_CHANNEL: usize = 1;
 /// The largest number of factors: 1 GiB of them.
 pub const MAX_FACTORS: usize = 1 << 28;
+
+/// Rows of texels that are computed together, in squares of this side: near texels share work.
+const BAND: usize = 16;
 
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
 /// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
@@ -77,7 +82,7 @@ impl Links {
             clusters: Vec::new(),
             factors: vec![0.0; texels * per_texel * N],
         };
-        let progress = Progress { rows: side as usize, done, count: std::sync::atomic::AtomicUsize::new(0) };
+        let progress = Progress { side: side as usize, done, count: AtomicUsize::new(0) };
         match choice {
             LinkChoice::Fixed { level } => links.fill_fixed(factors, level, &progress),
             LinkChoice::Adaptive { count } => links.fill_adaptive(factors, count, &progress),
@@ -86,19 +91,20 @@ impl Links {
     }
 
     fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32, progress: &Progress<'_>) {
-        let width = self.side >> level;
-        self.clusters =
-            (0..width).flat_map(|y| (0..width).map(move |x| PackedCluster::new(ClusterId { level, y, x }))).collect();
-        let row_length = self.side as usize * self.per_texel * N;
-        let clusters = &self.clusters;
-        self.factors.par_chunks_exact_mut(row_length).enumerate().for_each(|(y, row)| {
-            for (x, into) in row.chunks_exact_mut(self.per_texel * N).enumerate() {
-                for (into, cluster) in into.chunks_exact_mut(N).zip(clusters) {
-                    let factor = factors.factor([x as u32, y as u32], cluster.id());
+        let ([width, side], per_texel) = ([self.side >> level, self.side], self.per_texel);
+        let ids: Vec<_> = (0..width).flat_map(|y| (0..width).map(move |x| ClusterId { level, y, x })).collect();
+        self.clusters = ids.iter().copied().map(PackedCluster::new).collect();
+        let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
+        bands.enumerate().for_each(|(band, into)| {
+            let mut receiver = factors.receiver();
+            for (at, texel) in band_texels(side, band) {
+                let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
+                for (into, &cluster) in into.zip(&ids) {
+                    let factor = receiver.factor(texel, cluster);
                     into.iter_mut().zip(factor).for_each(|(into, factor)| *into = factor as f32);
                 }
             }
-            progress.row_done();
+            progress.band_done();
         });
     }
 
@@ -107,18 +113,20 @@ impl Links {
         // A link that is not used has the factor 0; it points to the root.
         let root = ClusterId { level: factors.surface().level_count() - 1, y: 0, x: 0 };
         self.clusters = vec![PackedCluster::new(root); side * side * per_texel];
-        let rows = self.clusters.par_chunks_exact_mut(side * per_texel);
-        rows.zip(self.factors.par_chunks_exact_mut(side * per_texel * N)).enumerate().for_each(|(y, (ids, row))| {
-            let (mut tree, mut chosen) = (Vec::new(), Vec::new());
-            let texels = ids.chunks_exact_mut(per_texel).zip(row.chunks_exact_mut(per_texel * N));
-            for (x, (ids, into)) in texels.enumerate() {
-                choice::adaptive(factors, [x as u32, y as u32], count, &mut tree, &mut chosen);
-                for ((id, into), &at) in ids.iter_mut().zip(into.chunks_exact_mut(N)).zip(&chosen) {
-                    *id = PackedCluster::new(tree[at].cluster());
-                    into.iter_mut().zip(tree[at].factor).for_each(|(into, factor)| *into = factor as f32);
+        let bands = self.clusters.par_chunks_mut(BAND * side * per_texel);
+        let bands = bands.zip(self.factors.par_chunks_mut(BAND * side * per_texel * N));
+        bands.enumerate().for_each(|(band, (ids, into))| {
+            let (mut receiver, mut tree, mut chosen) = (factors.receiver(), Vec::new(), Vec::new());
+            for (at, texel) in band_texels(side as u32, band) {
+                choice::adaptive(&mut receiver, texel, count, &mut tree, &mut chosen);
+                let ids = &mut ids[at * per_texel..][..per_texel];
+                let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
+                for ((id, into), &branch) in ids.iter_mut().zip(into).zip(&chosen) {
+                    *id = PackedCluster::new(tree[branch].cluster());
+                    into.iter_mut().zip(tree[branch].factor).for_each(|(into, factor)| *into = factor as f32);
                 }
             }
-            progress.row_done();
+            progress.band_done();
         });
     }
 
@@ -203,16 +211,29 @@ fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Resul
     }
 }
 
+/// The texels of a band, square by square: where each stands in the band, and its column and row.
+fn band_texels(side: u32, band: usize) -> impl Iterator<Item = (usize, [u32; 2])> {
+    let first = (band * BAND) as u32;
+    let rows = (side - first).min(BAND as u32);
+    let squares = (0..side).step_by(BAND);
+    let texels = squares.flat_map(move |left| {
+        let columns = left..side.min(left + BAND as u32);
+        (0..rows).flat_map(move |row| columns.clone().map(move |x| (row, x)))
+    });
+    texels.map(move |(row, x)| ((row * side + x) as usize, [x, first + row]))
+}
+
 /// Counts rows of texels.
 struct Progress<'a> {
-    rows: usize,
+    side: usize,
     done: &'a (dyn Fn(usize, usize) + Sync),
-    count: std::sync::atomic::AtomicUsize,
+    count: AtomicUsize,
 }
 
 impl Progress<'_> {
-    fn row_done(&self) {
-        let before = self.count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        (self.done)(before + 1, self.rows);
+    fn band_done(&self) {
+        let rows = BAND.min(self.side);
+        let before = self.count.fetch_add(rows, Ordering::Relaxed);
+        (self.done)(before + rows, self.side);
     }
 }

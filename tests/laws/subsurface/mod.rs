@@ -1,5 +1,8 @@
 //! Laws of system 3.
 
+mod links_choice;
+mod links_factors;
+mod links_models;
 mod on_card;
 mod on_card_views;
 mod physics;

@@ -1,0 +1,251 @@
+//! Laws of links: they tile the atlas once, gather what their factors say, and keep their bits on any number of threads.
+
+use approx::assert_relative_eq;
+use crossbar::subsurface::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
+use crossbar::subsurface::links::{EncodedLinks, IrradianceMeans, LinkChoice, LinkPlace, Links, MeanWeighting};
+use crossbar::subsurface::{Dipole, Reference};
+use refsim::num::Format;
+
+use super::links_models::{atlas, figure_7, medium, root, sphere, surface, texels};
+
+const SIDE: u32 = 16;
+
+fn links(surface: &SurfaceMoments, dipoles: &[Dipole], choice: LinkChoice) -> Links {
+    Links::new(surface, dipoles, choice, 0.01, &|_, _| ()).expect("links")
+}
+
+fn choices() -> Vec<LinkChoice> {
+    let fixed = (0..5).map(|level| LinkChoice::Fixed { level });
+    let adaptive = [1, 2, 4, 15, 16, 32, 64, 255, 256, 300].map(|count| LinkChoice::Adaptive { count });
+    fixed.chain(adaptive).collect()
+}
+
+fn dented() -> SurfaceMoments {
+    surface(&atlas(&sphere(3, 0.2), SIDE), 4.0)
+}
+
+#[test]
+fn the_links_of_a_texel_cover_every_texel_once() {
+    let surface = dented();
+    for choice in choices() {
+        let links = links(&surface, &[figure_7()], choice);
+        for texel in texels(SIDE) {
+            let mut covered = vec![0; (SIDE * SIDE) as usize];
+            for (ClusterId { level, y, x }, factor) in links.of(texel) {
+                // Padding has the factor 0; a link never has.
+                if factor[0] > 0.0 {
+                    let size = 1 << level;
+                    for (v, u) in (0..size).flat_map(|v| (0..size).map(move |u| (v, u))) {
+                        covered[((y * size + v) * SIDE + x * size + u) as usize] += 1;
+                    }
+                }
+            }
+            assert!(covered.iter().all(|count| *count == 1), "{choice:?} at {texel:?}: {covered:?}");
+        }
+    }
+}
+
+#[test]
+fn adaptive_links_are_the_largest_number_of_the_form_1_plus_3_k() {
+    let surface = dented();
+    for count in [1, 3, 4, 15, 16, 17, 31, 32, 64] {
+        let links = links(&surface, &[figure_7()], LinkChoice::Adaptive { count });
+        assert_eq!(links.per_texel(), count);
+        for texel in texels(SIDE) {
+            let used = links.of(texel).filter(|(_, factor)| factor[0] > 0.0).count();
+            assert_eq!(used, 1 + (count - 1) / 3 * 3);
+        }
+    }
+}
+
+#[test]
+fn uniform_light_gathers_the_row_sum_whatever_the_links() {
+    let surface = dented();
+    let factors = Factors::new(&surface, [figure_7()], 0.01).expect("a tolerance");
+    let ones = vec![[1.0; 3]; (SIDE * SIDE) as usize];
+    let means = IrradianceMeans::new(&surface, &ones, MeanWeighting::Area).expect("one per texel");
+    for choice in choices() {
+        let links = links(&surface, &[figure_7()], choice);
+        for (texel, found) in texels(SIDE).zip(links.gather(&means)) {
+            let sum: f64 = links.of(texel).map(|(_, factor)| f64::from(factor[0])).sum();
+            assert_relative_eq!(found[0], sum, max_relative = 1e-13);
+            assert_relative_eq!(found[1], factors.factor(texel, root(&surface))[0], max_relative = 0.01);
+        }
+    }
+}
+
+/// An irradiance without symmetry.
+fn uneven(k: usize) -> f64 {
+    let k = k as u64;
+    ((k * 2_654_435_761 + 12345) % 1000) as f64 / 1000.0
+}
+
+#[test]
+fn gathering_is_linear_in_the_light() {
+    let surface = dented();
+    let one: Vec<[f64; 3]> = (0..256).map(|k| [uneven(k), 1.0, 0.5]).collect();
+    let other: Vec<[f64; 3]> = (0..256).map(|k| [0.25, uneven(k + 99), uneven(3 * k)]).collect();
+    let both: Vec<[f64; 3]> =
+        one.iter().zip(&other).map(|(a, b)| std::array::from_fn(|c| 2.0 * a[c] + 3.0 * b[c])).collect();
+    for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {
+        let links = links(&surface, &[figure_7()], choice);
+        let [a, b, sum] = [&one, &other, &both].map(|values| {
+            links.gather(&IrradianceMeans::new(&surface, values, MeanWeighting::Area).expect("one per texel"))
+        });
+        for ((a, b), sum) in a.iter().zip(&b).zip(&sum) {
+            for c in 0..3 {
+                assert_relative_eq!(sum[c], 2.0 * a[c] + 3.0 * b[c], max_relative = 1e-12);
+            }
+        }
+    }
+}
+
+/// Links to every texel are equation 9: the difference to the reference is at most the tolerance times the row sum,
+/// and the same share again for the reference's far pairs.
+#[test]
+fn links_to_every_texel_are_equation_9() {
+    let atlas = atlas(&sphere(3, 0.2), SIDE);
+    let surface = surface(&atlas, 4.0);
+    let links = links(&surface, &[figure_7()], LinkChoice::Fixed { level: 0 });
+    let light: Vec<f64> = (0..256).map(uneven).collect();
+    let reference = Reference::new(&atlas, 4.0, &figure_7()).expect("a scale");
+    let exact = reference.radiosity(&light, &|_, _| ()).expect("one per texel");
+    let values: Vec<[f64; 3]> = light.iter().map(|value| [*value; 3]).collect();
+    let means = IrradianceMeans::new(&surface, &values, MeanWeighting::Area).expect("one per texel");
+    for (found, exact) in links.gather(&means).iter().zip(&exact) {
+        assert_relative_eq!(found[0], *exact, max_relative = 0.02);
+    }
+    // A probe at a texel's mean point sees nearly what the texel does.
+    let probe = reference.radiosity_at(4.0 * atlas.texels()[77].point, &light).expect("one per texel");
+    assert_relative_eq!(probe, exact[77], max_relative = 0.05);
+}
+
+#[test]
+fn three_channels_have_the_factors_of_each() {
+    let surface = dented();
+    let dipoles = [medium(2.19, 0.0021), medium(2.62, 0.0041), medium(3.0, 0.0071)];
+    let all = links(&surface, &dipoles, LinkChoice::Fixed { level: 2 });
+    assert_eq!((all.channels(), all.per_texel(), all.factors().len()), (3, 16, 256 * 48));
+    for (channel, &dipole) in dipoles.iter().enumerate() {
+        let one = links(&surface, &[dipole], LinkChoice::Fixed { level: 2 });
+        for texel in texels(SIDE) {
+            for ((_, three), (_, single)) in all.of(texel).zip(one.of(texel)) {
+                assert_relative_eq!(three[channel], single[0], max_relative = 0.02);
+            }
+        }
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_the_number_of_threads() {
+    let surface = dented();
+    for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {
+        let found = [1, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| links(&surface, &[figure_7()], choice))
+        });
+        assert_eq!(found[0], found[1]);
+    }
+}
+
+/// The map that the card holds is E a / (mean a): plain means of it times stored factors are factors times means by
+/// area.
+#[test]
+fn stored_factors_make_plain_means_weigh_by_area() {
+    let surface = dented();
+    let light: Vec<[f64; 3]> = (0..256).map(|k| [uneven(k); 3]).collect();
+    let mean_area = surface.area() / 256.0;
+    let map: Vec<[f64; 3]> = texels(SIDE)
+        .zip(&light)
+        .map(|([x, y], value)| value.map(|v| v * surface.cluster_area(ClusterId { level: 0, y, x }) / mean_area))
+        .collect();
+    let plain = IrradianceMeans::new(&surface, &map, MeanWeighting::Count).expect("one per texel");
+    let by_area = IrradianceMeans::new(&surface, &light, MeanWeighting::Area).expect("one per texel");
+    let links = links(&surface, &[figure_7()], LinkChoice::Fixed { level: 2 });
+    let encoded = EncodedLinks::new(&links, &surface, MeanWeighting::Area);
+    assert_eq!((encoded.texture_count(), encoded.places().len()), (4, 16));
+    let textures: Vec<_> = (0..4).map(|k| encoded.texture(k)).collect();
+    for (k, exact) in links.gather(&by_area).iter().enumerate() {
+        let mut sum = 0.0;
+        for (link, cluster) in links.fixed_clusters().into_iter().enumerate() {
+            sum += f64::from(textures[link / 4].texels[k][link % 4]) * plain.of(cluster)[0];
+        }
+        assert_relative_eq!(sum, exact[0], max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn textures_are_laid_out_as_the_page_says() {
+    let surface = dented();
+    let dipoles = [medium(2.19, 0.0021), medium(2.62, 0.0041), medium(3.0, 0.0071)];
+    let count = |dipoles: &[Dipole], choice| {
+        let links = links(&surface, dipoles, choice);
+        EncodedLinks::new(&links, &surface, MeanWeighting::Count).texture_count()
+    };
+    let (fixed, adaptive) = (LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 });
+    assert_eq!([count(&dipoles[..1], fixed), count(&dipoles, fixed)], [4, 12]);
+    assert_eq!([count(&dipoles[..1], adaptive), count(&dipoles, adaptive)], [16, 32]);
+
+    let rgb = links(&surface, &dipoles, adaptive);
+    let encoded = EncodedLinks::new(&rgb, &surface, MeanWeighting::Count);
+    let (place, factors) = (encoded.texture(6), encoded.texture(7));
+    for (k, texel) in texels(SIDE).enumerate() {
+        let (cluster, found) = rgb.of(texel).nth(3).expect("a link");
+        let LinkPlace { u, v, level } = LinkPlace::new(SIDE, cluster);
+        assert_eq!(place.texels[k], [u, v, found[0], level]);
+        assert_eq!(factors.texels[k], [found[0], found[1], found[2], 0.0]);
+    }
+}
+
+#[test]
+fn places_are_exact_in_fp16_up_to_1024_and_half_of_them_are_not_at_2048() {
+    let rounded = |value: f32| {
+        let bits = refsim::num::ops::convert(&Format::FP32, Format::FP16, value.to_bits()).bits;
+        refsim::num::to_f64(&Format::FP16, bits)
+    };
+    let wrong = |side: u32| {
+        (0..side)
+            .filter(|&x| {
+                let u = LinkPlace::new(side, ClusterId { level: 0, y: 0, x }).u;
+                rounded(u) != f64::from(u)
+            })
+            .count()
+    };
+    assert_eq!([64, 512, 1024, 2048].map(wrong), [0, 0, 0, 1024]);
+}
+
+#[test]
+fn lost_factors_are_counted() {
+    // Green light of a dense absorber on a large model: far factors vanish.
+    let surface = surface(&atlas(&sphere(3, 0.2), SIDE), 20.0);
+    let links = links(&surface, &[medium(0.74, 0.3)], LinkChoice::Fixed { level: 2 });
+    let encoded = EncodedLinks::new(&links, &surface, MeanWeighting::Count);
+    let lost = encoded.lost(Format::FP16);
+    let used = || links.factors().iter().filter(|factor| **factor > 0.0);
+    assert_eq!(lost.factors, used().count());
+    assert_eq!(lost.flushed, used().filter(|factor| **factor <= exp2(-25)).count());
+    assert!(lost.flushed > 0 && lost.denormal > 0, "{lost:?}");
+    let below = used().filter(|factor| **factor < exp2(-14)).count();
+    assert_eq!(lost.flushed + lost.denormal, below);
+    assert_eq!(encoded.lost(Format::FP32).flushed, 0);
+}
+
+fn exp2(exponent: i32) -> f32 {
+    refsim::num::power_of_two(exponent) as f32
+}
+
+#[test]
+fn bad_choices_are_refused() {
+    let surface = dented();
+    let error = |dipoles: &[Dipole], choice| {
+        Links::new(&surface, dipoles, choice, 0.01, &|_, _| ()).expect_err("no links").to_string()
+    };
+    let one = [figure_7()];
+    assert_eq!(error(&one, LinkChoice::Fixed { level: 5 }), "expected a level below 5, found 5");
+    assert_eq!(error(&one, LinkChoice::Adaptive { count: 0 }), "expected at least one link per texel");
+    assert_eq!(error(&[figure_7(); 2], LinkChoice::Fixed { level: 2 }), "expected one dipole, or three, found 2");
+    let most = usize::MAX / 16;
+    assert!(error(&one, LinkChoice::Adaptive { count: most }).contains("expected at most 268435456"));
+    let means = IrradianceMeans::new(&surface, &[[1.0; 3]; 7], MeanWeighting::Area);
+    assert_eq!(means.expect_err("too few"), FactorError::Values { found: 7, texels: 256 });
+}

@@ -1,0 +1,174 @@
+//! Laws of throughput factors: reciprocity, the tolerance, independent integrals, spheres, bad input.
+
+use approx::assert_relative_eq;
+use crossbar::subsurface::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
+use crossbar::subsurface::{Reference, point_to_polygon, uniform_sphere};
+
+use super::links_models::{atlas, figure_7, level, medium, root, sphere, subdivided, surface, texels};
+
+#[test]
+fn factors_times_areas_are_symmetric_between_texels() {
+    let atlas = atlas(&sphere(3, 0.2), 16);
+    for mm_per_unit in [0.5, 3.0, 20.0] {
+        let surface = surface(&atlas, mm_per_unit);
+        let factors = Factors::new(&surface, [figure_7()], 0.01).expect("a tolerance");
+        let mut receiver = factors.receiver();
+        for [x, y] in texels(16) {
+            for [u, v] in texels(16).skip((16 * y + x) as usize) {
+                let [i, j] = [[x, y], [u, v]].map(|[x, y]| ClusterId { level: 0, y, x });
+                let there = surface.cluster_area(i) * receiver.factor([x, y], j)[0];
+                let back = surface.cluster_area(j) * receiver.factor([u, v], i)[0];
+                assert_relative_eq!(there, back, max_relative = 4e-16);
+            }
+        }
+    }
+}
+
+/// The tolerance is measured against factors of a tolerance a thousand times smaller; these against contour integrals
+/// below.
+#[test]
+fn factors_keep_their_tolerance() {
+    let atlas = atlas(&sphere(6, 0.2), 32);
+    for (mm_per_unit, dipole) in [(1.5, figure_7()), (5.0, figure_7()), (15.0, figure_7()), (8.0, medium(0.74, 0.9))] {
+        let surface = surface(&atlas, mm_per_unit);
+        let fine = Factors::new(&surface, [dipole], 1e-5).expect("a tolerance");
+        for tolerance in [0.01, 0.001] {
+            let coarse = Factors::new(&surface, [dipole], tolerance).expect("a tolerance");
+            let (mut fine, mut coarse) = (fine.receiver(), coarse.receiver());
+            for texel in texels(32).step_by(61) {
+                for cluster in (0..6).flat_map(|k| level(&surface, k).into_iter().step_by(if k == 0 { 7 } else { 1 })) {
+                    let ([exact], [found]) = (fine.factor(texel, cluster), coarse.factor(texel, cluster));
+                    let allowed = tolerance * (exact + 1e-5 * dipole.total());
+                    let where_ = (mm_per_unit, tolerance, texel, cluster);
+                    assert!((found - exact).abs() <= allowed, "{where_:?}: {found} for {exact}");
+                }
+            }
+        }
+    }
+}
+
+/// 1 / A_i times the integral over texel i, by many points, of exact contour integrals over the polygons of texel j.
+#[test]
+fn factors_agree_with_contour_integrals() {
+    let atlas = atlas(&sphere(2, 0.0), 16);
+    let dipole = figure_7();
+    for mm_per_unit in [1.0, 4.0] {
+        let surface = surface(&atlas, mm_per_unit);
+        let factors = Factors::new(&surface, [dipole], 1e-3).expect("a tolerance");
+        let points = 24;
+        for (i, j) in [(0, 0), (37, 37), (37, 38), (40, 57), (100, 117), (5, 200)] {
+            let part = atlas.part(j);
+            let polygons: Vec<Vec<_>> =
+                part.polygons().map(|ring| ring.iter().map(|corner| mm_per_unit * *corner).collect()).collect();
+            let mut sum = 0.0;
+            for point in atlas.points(i, points) {
+                sum += polygons.iter().map(|ring| point_to_polygon(&dipole, mm_per_unit * point, ring)).sum::<f64>();
+            }
+            let exact = sum / f64::from(points * points);
+            let [found] = factors.factor([i % 16, i / 16], ClusterId { level: 0, y: j / 16, x: j % 16 });
+            // The outer sum has an error of its own, below 2e-3: doubling the points changes it by less.
+            assert_relative_eq!(found, exact, max_relative = 3e-3);
+        }
+    }
+}
+
+#[test]
+fn the_reference_and_the_factors_agree_texel_by_texel() {
+    let atlas = atlas(&sphere(3, 0.2), 16);
+    let dipole = figure_7();
+    for mm_per_unit in [1.0, 4.0] {
+        let surface = surface(&atlas, mm_per_unit);
+        let factors = Factors::new(&surface, [dipole], 1e-3).expect("a tolerance");
+        let reference = Reference::new(&atlas, mm_per_unit, &dipole).expect("a scale");
+        let mut receiver = factors.receiver();
+        for i in (0..256).step_by(17) {
+            for j in 0..256_usize {
+                let cluster = ClusterId { level: 0, y: (j / 16) as u32, x: (j % 16) as u32 };
+                let [found] = receiver.factor([i as u32 % 16, i as u32 / 16], cluster);
+                // Far pairs of the reference are points: 0.75 (side / distance)^2 at most, with distances of 5 radii.
+                assert_relative_eq!(found, reference.factor(i, j), max_relative = 0.02);
+            }
+        }
+    }
+}
+
+/// B = G(2R) on a sphere of any radius; the polyhedron comes nearer as its faces become smaller.
+#[test]
+fn a_sphere_under_uniform_light_has_its_closed_form() {
+    let dipole = figure_7();
+    for radius in [1.0, 5.0, 20.0] {
+        let exact = uniform_sphere(&dipole, radius);
+        let mut errors = Vec::new();
+        for (n, side) in [(2, 16), (4, 32), (8, 64)] {
+            let surface = surface(&atlas(&sphere(n, 0.0), side), radius);
+            let factors = Factors::new(&surface, [dipole], 1e-3).expect("a tolerance");
+            let mut receiver = factors.receiver();
+            let (mut sum, mut area) = (0.0, 0.0);
+            for [x, y] in texels(side).step_by((side * side / 256) as usize) {
+                let weight = surface.cluster_area(ClusterId { level: 0, y, x });
+                sum += weight * receiver.factor([x, y], root(&surface))[0];
+                area += weight;
+            }
+            errors.push((sum / area / exact - 1.0).abs());
+        }
+        assert!(errors[2] < 0.01, "radius {radius}: {errors:?}");
+        assert!(errors[2] < 0.5 * errors[0] || errors[0] < 2e-3, "radius {radius}: {errors:?}");
+    }
+}
+
+/// Row sums of a model and of the same surface in four times as many faces, at points that both have texels near.
+#[test]
+fn the_result_does_not_depend_on_the_tessellation() {
+    let mesh = sphere(3, 0.2);
+    let dipole = figure_7();
+    let means: Vec<f64> = [mesh.clone(), subdivided(&mesh)]
+        .iter()
+        .map(|mesh| {
+            let surface = surface(&atlas(mesh, 32), 4.0);
+            let factors = Factors::new(&surface, [dipole], 1e-3).expect("a tolerance");
+            let mut receiver = factors.receiver();
+            let mut sum = 0.0;
+            for [x, y] in texels(32) {
+                sum += surface.cluster_area(ClusterId { level: 0, y, x }) * receiver.factor([x, y], root(&surface))[0];
+            }
+            sum / surface.area()
+        })
+        .collect();
+    // Both are the mean over the surface of the integral of R_d over it, each within the tolerance.
+    assert_relative_eq!(means[0], means[1], max_relative = 2e-3);
+}
+
+/// Where texels are far larger than the mean free path, the factor of all is that of the plane, and nothing breaks.
+#[test]
+fn dense_media_return_the_planes_total() {
+    let surface = surface(&atlas(&sphere(2, 0.0), 8), 1000.0);
+    for dipole in [medium(10.0, 0.01), medium(1e6, 1.0), medium(1e30, 1e30)] {
+        let factors = Factors::new(&surface, [dipole], 0.01).expect("a tolerance");
+        for texel in texels(8).step_by(5) {
+            assert_relative_eq!(factors.factor(texel, root(&surface))[0], dipole.total(), max_relative = 0.02);
+        }
+    }
+    // The other end: what is far smaller than the mean free path returns next to nothing.
+    let thin = medium(1e-30, 0.0);
+    let factors = Factors::new(&surface, [thin], 0.01).expect("a tolerance");
+    let [factor] = factors.factor([3, 3], root(&surface));
+    assert!(factor > 0.0 && factor < 1e-50, "{factor}");
+}
+
+#[test]
+fn bad_figures_are_refused() {
+    let atlas = atlas(&sphere(1, 0.0), 8);
+    for mm_per_unit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = SurfaceMoments::new(&atlas, mm_per_unit).expect_err("no scale");
+        assert_eq!(
+            error.to_string(),
+            format!("expected a positive number of millimeters per unit of the model, found {mm_per_unit}")
+        );
+        assert!(Reference::new(&atlas, mm_per_unit, &figure_7()).is_err());
+    }
+    let surface = surface(&atlas, 1.0);
+    for tolerance in [0.0, 1e-6, 0.2, f64::NAN] {
+        let error = Factors::new(&surface, [figure_7()], tolerance).expect_err("no tolerance");
+        assert!(matches!(error, FactorError::Tolerance { .. }), "{error}");
+    }
+}
