@@ -4,13 +4,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::census::Census;
-use super::drawn::{DrawnFace, DrawnVertex};
+use super::drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 use super::error::AtlasError;
 use super::graph::FaceGraph;
 use super::levels::levels;
+use super::measures::FaceMeasures;
 use super::part::TexelPart;
 use super::place::FacePlace;
-use super::split::FaceMeasures;
 use super::surface::AtlasSurface;
 use super::texel::{Cluster, Texel};
 use super::tree::ClusterTree;
@@ -204,6 +204,20 @@ impl Atlas {
         let [a, b, c] = [vertex(a, na, [x, y]), vertex(b, nb, at_b), vertex(c, nc, at_c)];
         let m = vertex((b.position + c.position) / 2.0, (nb + nc) / 2.0, [far_x, far_y]);
         DrawnFace { triangles: [[a, b, m], [a, m, c]], bounds: place.bounds() }
+    }
+
+    /// A face as a card draws it whole, from the atlas.
+    pub fn drawn_whole(&self, face: u32) -> WholeFace {
+        let place = self.places[face as usize];
+        let [positions, normals] = [self.surface.corners(face), self.surface.normals(face)];
+        let [x, y, width, height] = [place.x, place.y, place.width, place.height];
+        let far = [x + width, y + height];
+        let [along_x, along_y] = [[x + 2 * width, y], [x, y + 2 * height]];
+        let [beside, below] = if place.transposed { [along_y, along_x] } else { [along_x, along_y] };
+        let at = place.by_index([[[x, y], [x, y]], [far, beside], [far, below]]);
+        let vertex =
+            |corner: usize| WholeVertex { position: positions[corner], normal: normals[corner], at: at[corner] };
+        WholeFace { vertices: [0, 1, 2].map(vertex), bounds: place.bounds() }
     }
 }
 

@@ -9,7 +9,7 @@
 //! - [`texel`]: what a texel and a cluster know;
 //! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
 //! - [`drawn`]: triangles as a card draws them into the atlas, and from it;
-//! - [`tree`]: the binary tree of clusters; `graph`, `split`, `sweep` and `small` build it;
+//! - [`tree`]: the binary tree of clusters; `graph`, `measures`, `split`, `sweep` and `small` build it;
 //! - [`census`]: what is odd about a mesh;
 //! - [`quality`]: how even, connected and compact an atlas is.
 
@@ -19,6 +19,7 @@ pub mod drawn;
 pub mod error;
 mod graph;
 mod levels;
+mod measures;
 pub mod part;
 pub mod place;
 pub mod quality;
@@ -31,7 +32,7 @@ pub mod tree;
 
 pub use atlas::{Atlas, MAX_SIDE};
 pub use census::Census;
-pub use drawn::{DrawnFace, DrawnVertex};
+pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 pub use error::AtlasError;
 pub use part::TexelPart;
 pub use place::FacePlace;

@@ -1,7 +1,7 @@
 //! The best cut of a small cluster, among all there are.
 
 use super::graph::FaceGraph;
-use super::split::{FaceMeasures, SplitLimits};
+use super::measures::{FaceMeasures, SplitLimits};
 
 /// The most faces of which all cuts are tried.
 pub(super) const MOST: usize = 8;

@@ -1,54 +1,8 @@
 //! A cluster cut in two.
 
-use std::ops::RangeInclusive;
-
-use glam::DVec3;
-
 use super::graph::FaceGraph;
-use super::surface::AtlasSurface;
+use super::measures::FaceMeasures;
 use super::{small, sweep};
-
-/// How many faces the first half of a cluster may have.
-pub(super) type SplitLimits = RangeInclusive<usize>;
-
-/// What a cut goes by, per face of the mesh.
-#[derive(Debug)]
-pub(super) struct FaceMeasures {
-    centers: Vec<DVec3>,
-    /// Normals, as long as twice the areas.
-    normals: Vec<DVec3>,
-    demands: Vec<f64>,
-}
-
-impl FaceMeasures {
-    /// The measures of faces that share `texels`.
-    pub(super) fn new(surface: &AtlasSurface, texels: f64) -> Self {
-        let mean = surface.areas().iter().sum::<f64>() / texels;
-        let demand = |area: &f64| if mean > 0.0 { (area / mean).max(LEAST_DEMAND) } else { 1.0 };
-        Self {
-            centers: (0..surface.len() as u32).map(|face| surface.centroid(face)).collect(),
-            normals: (0..surface.len() as u32).map(|face| surface.area_vector(face)).collect(),
-            demands: surface.areas().iter().map(demand).collect(),
-        }
-    }
-
-    pub(super) fn center(&self, face: u32) -> DVec3 {
-        self.centers[face as usize]
-    }
-
-    /// A normal as long as twice the face's area.
-    pub(super) fn normal(&self, face: u32) -> DVec3 {
-        self.normals[face as usize]
-    }
-
-    /// How many texels the face should have: its area over that of a mean texel, but at least [`LEAST_DEMAND`].
-    pub(super) fn demand(&self, face: u32) -> f64 {
-        self.demands[face as usize]
-    }
-}
-
-/// A face has a texel, however small it is.
-const LEAST_DEMAND: f64 = 1.0;
 
 /// Cuts a cluster of at least two faces into halves that get `capacity` texels each: `true` for the second half.
 ///

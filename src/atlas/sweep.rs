@@ -7,11 +7,10 @@
 
 use glam::DVec3;
 
+use super::graph::{FaceGraph, UNREACHED};
+use super::measures::{FaceMeasures, SplitLimits};
 use crate::elementary::on_circle;
 use crate::geom::vector::unit;
-
-use super::graph::{FaceGraph, UNREACHED};
-use super::split::{FaceMeasures, SplitLimits};
 
 /// The share of the demand by which two halves may differ so that a part of the mesh stays whole.
 const WHOLE_PARTS: f64 = 1.0 / 32.0;

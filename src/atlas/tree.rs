@@ -1,7 +1,8 @@
 //! The binary tree of clusters.
 
 use super::graph::FaceGraph;
-use super::split::{FaceMeasures, cut};
+use super::measures::FaceMeasures;
+use super::split::cut;
 
 /// From how many faces on the halves of a cluster are worked on side by side.
 const SIDE_BY_SIDE: usize = 2048;

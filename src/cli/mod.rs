@@ -5,6 +5,7 @@
 //! the check failed, 2 bad input or usage. A reader that goes away (`| head`) ends the program quietly.
 
 mod alu;
+mod atlas;
 mod caster;
 mod check;
 mod compare;
@@ -99,6 +100,7 @@ A command that is interrupted leaves nothing half-written; it does not resume.";
 #[derive(Debug, Subcommand)]
 enum Command {
     Alu(alu::Args),
+    Atlas(atlas::Args),
     Check(check::Args),
     Compare(compare::Args),
     Completions(completions::Args),
@@ -165,6 +167,7 @@ pub fn main() -> ExitCode {
 fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::Alu(args) => alu::run(&args, out),
+        Command::Atlas(args) => study::run(&args, command_line, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
         Command::Completions(args) => completions::run(&args, Cli::command(), out),

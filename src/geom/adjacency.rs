@@ -90,11 +90,11 @@ impl Mesh {
     }
 
     /// Number of edges through which more than one triangle runs the same way: 0 where the surface is oriented
-    /// consistently and no edge has three triangles.
+    /// consistently and no edge has three triangles. A triangle's edge from a vertex to itself is left out.
     pub fn orientation_conflicts(&self) -> usize {
         let mut directed: Vec<[u32; 2]> = Vec::with_capacity(self.len() * 3);
         for &[a, b, c] in self.triangles() {
-            directed.extend([[a, b], [b, c], [c, a]]);
+            directed.extend([[a, b], [b, c], [c, a]].into_iter().filter(|[from, to]| from != to));
         }
         directed.sort_unstable();
         directed.windows(2).filter(|pair| pair[0] == pair[1]).count()

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::{Camera, CameraError, Color, Material};
 use crate::geom::Mesh;
+use crate::geom::vector::{narrow, unit, wide};
 
 /// A light without extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,6 +122,25 @@ impl Scene {
     pub fn corner_normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
         let normals = *self.normals.get(triangle as usize)?;
         (normals != [[0.0; 3]; 3]).then_some(normals)
+    }
+
+    /// The triangles with their normals, one vertex per corner: those of a flat triangle are its own. The mesh as it is
+    /// if no triangle has normals.
+    pub fn mesh_with_normals(&self) -> Mesh {
+        if self.normals.is_empty() {
+            return self.mesh.clone();
+        }
+        let positions: Vec<_> = self.mesh.iter_corners().flatten().collect();
+        let own = |[a, b, c]: [[f32; 3]; 3]| {
+            let [a, b, c] = [a, b, c].map(wide);
+            [unit((b - a).cross(c - a)).map_or([0.0; 3], narrow); 3]
+        };
+        let normals = (0..).zip(self.mesh.iter_corners());
+        let normals =
+            normals.flat_map(|(at, corners)| self.corner_normals(at).unwrap_or_else(|| own(corners))).collect();
+        let triangles = (0..self.mesh.len() as u32).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
+        let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
+        mesh.unwrap_or_else(|_| self.mesh.clone())
     }
 
     /// The triangles that shine, in rising order.

@@ -2,6 +2,7 @@
 //!
 //! docs/command_line.md says what a new study needs.
 
+pub mod atlas;
 pub mod configuration;
 pub mod leaky_teapot;
 pub mod picture_difference;

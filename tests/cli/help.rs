@@ -3,7 +3,7 @@
 use crate::crossbar;
 
 /// All commands, in the order of the help.
-pub(crate) const COMMANDS: &str = "alu check compare completions devices diff intersect leaky-teapot man radiosity \
+pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices diff intersect leaky-teapot man radiosity \
                         render reproduce run scene timeline";
 
 #[test]

@@ -26,6 +26,7 @@ const LONG: &[&str] = &[
 /// take values: the test is of what it says, and of what it leaves.
 const COMMANDS: &[(&str, &str)] = &[
     ("alu add --format fp99", "--format --to --tininess"),
+    ("atlas nowhere.obj", "--side --size --eye --target --up --tan-half-height --out"),
     ("check nowhere.psa", "--device --switch"),
     (
         "compare nowhere.toml",

@@ -20,6 +20,7 @@ use texts::Command;
 /// Sizes and counts of long work: command, option and the value that takes the place of the one in the text, or joins
 /// the command where the option is not in the text and `always` is true.
 const CUT: &[(&str, &str, &str, bool)] = &[
+    ("atlas", "--size", "8x8", true),
     ("leaky-teapot", "--size", "16x16", true),
     ("leaky-teapot", "--tessellation", "1", true),
     ("leaky-teapot", "--rays-per-edge", "0", true),

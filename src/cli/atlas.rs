@@ -1,0 +1,125 @@
+//! `crossbar atlas`: a mesh in a square of texels.
+
+use std::path::{Path, PathBuf};
+
+use super::memory::{self, MemoryNeed};
+use super::scene_name::{self, EyeArgs};
+use super::size::Size;
+use super::study::StudyArgs;
+use super::{Problem, view};
+use crate::atlas::MAX_SIDE;
+use crate::geom::Mesh;
+use crate::io::scene_file::load;
+use crate::names::did_you_mean;
+use crate::scene::built::{self, stand_ins};
+use crate::study::atlas::AtlasStudy;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar atlas docs/examples/teapot.obj --side 256
+      how evenly the faces share the texels, how connected and compact clusters are
+  crossbar atlas stand-in-bunny --side 512 --out out/bunny
+      pictures of atlas and mesh, colored by face and by clusters of some levels; the mesh with texture coordinates
+
+The side is a power of two, up to 8192; every face needs a texel.
+Written to --out: index.html (self-contained), study.json, evenness.csv, levels.csv, mesh.csv, faces.png and level_N.png \
+(the atlas), model_*.png (the mesh in the same colors), atlas.obj and atlas.mtl (faces in halves, with texture \
+coordinates), faces.csv (each face's rectangle). docs/atlas.md explains all of it.";
+
+/// Map a mesh into a square of texels, with clusters of faces for every level: the multiresolution meshed atlas
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
+    /// the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
+    #[arg(value_name = "MODEL")]
+    model: PathBuf,
+
+    /// Texels along a side of the atlas: a power of two
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
+    side: u32,
+
+    /// Pixels of the pictures of the mesh
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    size: Size,
+
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    /// Folder for pictures, tables, page and files [default: write nothing]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl StudyArgs for Args {
+    type Study = AtlasStudy;
+    const COMMAND: &'static str = "atlas";
+
+    fn folder(&self) -> Option<&Path> {
+        self.out.as_deref()
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        match named(&self.model) {
+            Some(_) => Vec::new(),
+            None => scene_name::named_file(&self.model),
+        }
+    }
+
+    /// Texels, clusters, and pictures of both.
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        /// A texel with its clusters of all levels, and what finds them.
+        const PER_TEXEL: u64 = 170;
+        /// A ray, its hit, and a pixel of each picture.
+        const PER_PIXEL: u64 = 250;
+        let texels = u64::from(self.side) * u64::from(self.side) * PER_TEXEL;
+        let pictures = if self.out.is_some() { PER_PIXEL } else { 0 };
+        Ok(Some(MemoryNeed {
+            what: format!("an atlas of {0} x {0} texels", self.side),
+            bytes: memory::of_pixels(self.size.width, self.size.height, pictures, texels),
+            help: "ask for a smaller `--side`",
+        }))
+    }
+
+    fn study(&self) -> miette::Result<AtlasStudy> {
+        let mesh = mesh(&self.model)?;
+        require_faces(mesh.len())?;
+        let camera = match self.out {
+            Some(_) if !mesh.is_empty() => Some(self.eye.framing(&mesh, self.size)?),
+            _ => None,
+        };
+        Ok(AtlasStudy { name: self.model.display().to_string(), mesh, side: self.side, camera })
+    }
+}
+
+/// The stand-in of that name.
+fn named(model: &Path) -> Option<Mesh> {
+    stand_ins::build(model.to_str()?)
+}
+
+/// The mesh of a stand-in, of a scene by its name, or of a file, with the normals that it has.
+fn mesh(model: &Path) -> miette::Result<Mesh> {
+    if let Some(mesh) = named(model) {
+        return Ok(mesh);
+    }
+    if let Some(scene) = model.to_str().and_then(built::build) {
+        return Ok(scene.mesh_with_normals());
+    }
+    let name = model.to_str().unwrap_or_default();
+    // A word without a dot or a folder is a name, not a file.
+    if !model.exists() && model.components().count() == 1 && !name.contains('.') {
+        let names: Vec<&str> = stand_ins::names().chain(built::names()).collect();
+        let meant = did_you_mean(name, names.iter().copied());
+        let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
+        return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
+    }
+    view::require_mesh(model)?;
+    Ok(load(model)?.mesh_with_normals())
+}
+
+/// Refuses a mesh whose tree would take more memory than there is.
+fn require_faces(faces: usize) -> miette::Result<()> {
+    const PER_FACE: u64 = 700;
+    let what = format_args!("clustering {faces} faces");
+    Ok(memory::require(what, faces as u64 * PER_FACE, "name a smaller mesh")?)
+}

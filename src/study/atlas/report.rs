@@ -1,0 +1,118 @@
+//! What an atlas is like, as tables, pictures and files.
+
+use serde_json::json;
+
+use super::pictures::{self, Coloring, ModelPictures};
+use super::{AtlasStudy, export};
+use crate::atlas::{Atlas, AtlasQuality};
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::{counted, percent};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
+
+const COMPACTNESS: &str = "Compactness is the area of a cluster over that of a disc with the radius of its ball: 1 for \
+    a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle; more where the surface is folded, as the \
+    whole of a closed one is. One cluster in twenty is below the low figure. The last columns count the nodes of the \
+    tree that have the size of a texel of the level and more than one face.";
+
+const EVENNESS: &str = "Areas are over the mean of all texels. A face owns a whole rectangle whose sides are powers of \
+    two, and can only get twice or half as many texels: areas vary by about a factor of 2 even where all faces are alike.";
+
+pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {
+    let mut found = Findings::new("A meshed atlas");
+    conclude(&mut found, atlas, quality);
+    found.paragraph(format!("{}, {} x {} texels.", asked.name, atlas.side(), atlas.side()));
+    if let Some(camera) = &asked.camera {
+        let model = ModelPictures::new(&asked.mesh, atlas, camera);
+        let pair = |name: &str, coloring: Coloring, what: &str| {
+            vec![
+                NamedPicture::new(name, pictures::atlas(atlas, coloring), format!("The atlas: {what}")),
+                NamedPicture::new(format!("model_{name}"), model.picture(coloring), format!("The mesh: {what}")),
+            ]
+        };
+        found.pictures(pair("faces", Coloring::Face, "a color per face"));
+        for across in [2_u32, 4, 16].into_iter().filter(|across| *across < atlas.side()) {
+            let level = atlas.levels() - 1 - across.ilog2();
+            let what = format!("a color per cluster of level {level}, {across} x {across} of them");
+            found.pictures(pair(&format!("level_{level}"), Coloring::Level(level), &what));
+        }
+        found.keep_file("atlas.obj", export::obj(&asked.mesh, atlas).into_bytes());
+        found.keep_file("atlas.mtl", export::MATERIAL.as_bytes().to_vec());
+        found.keep_file("faces.csv", export::faces(atlas).into_bytes());
+    }
+    found.explained_table(FoundTable::from(evenness(atlas, quality)).csv("evenness").field("evenness"), EVENNESS);
+    found.explained_table(FoundTable::from(levels(atlas, quality)).csv("levels").field("levels"), COMPACTNESS);
+    found.table(FoundTable::from(census(atlas)).csv("mesh").field("mesh"));
+    found.field("side", json!(atlas.side()));
+    found.field("given_normals", json!(atlas.has_given_normals()));
+    found
+}
+
+fn conclude(found: &mut Findings, atlas: &Atlas, quality: &AtlasQuality) {
+    let faces = counted(atlas.census().faces as u64, "face", "faces");
+    let per_face = shown(atlas.texels().len() as f64 / atlas.census().faces as f64, Quantity::Ratio);
+    let nodes = counted(quality.nodes as u64, "node", "nodes");
+    found.conclusion(format!("{faces}, {per_face} texels each; {nodes}."));
+    let share = |part: usize| percent(part as f64 / quality.nodes as f64);
+    found.conclusion(format!(
+        "{} of the texels lie on faces with an area; the standard deviation of their areas is {} of the mean.",
+        percent(quality.used),
+        percent(quality.deviation)
+    ));
+    found.conclusion(format!(
+        "{} of the clusters are connected, {} simply connected.",
+        share(quality.connected),
+        share(quality.simply_connected)
+    ));
+    if !atlas.has_given_normals() {
+        found.conclusion("The mesh has no normals: they are the means of the faces around each vertex.");
+    }
+}
+
+fn evenness(atlas: &Atlas, quality: &AtlasQuality) -> Table {
+    let mut table = Table::of("Texels", "what value");
+    let mut row = |what: &str, value: Cell| table.push([what.into(), value]);
+    row("texels", atlas.texels().len().into());
+    row("share on faces with an area", Cell::measured(quality.used));
+    row("area of the surface", Cell::measured(atlas.area()));
+    row("mean area of a texel", Cell::measured(atlas.mean_texel_area()));
+    row("standard deviation over the mean", Cell::measured(quality.deviation));
+    row("the same, weighted by area", Cell::measured(quality.deviation_by_area));
+    row("least area over the mean", Cell::measured(quality.least));
+    row("largest area over the mean", Cell::measured(quality.most));
+    table
+}
+
+fn levels(atlas: &Atlas, quality: &AtlasQuality) -> Table {
+    let columns = "level across compactness low_compactness radius_over_disc nodes connected simply_connected";
+    let mut table = Table::of("Clusters by level", columns);
+    for (level, row) in (0_u32..).zip(&quality.levels) {
+        table.push([
+            level.into(),
+            (atlas.side() >> level).into(),
+            Cell::measured(row.compactness),
+            Cell::measured(row.low_compactness),
+            Cell::measured(row.radius),
+            row.nodes.into(),
+            row.connected.into(),
+            row.simply_connected.into(),
+        ]);
+    }
+    table
+}
+
+fn census(atlas: &Atlas) -> Table {
+    let census = atlas.census();
+    let mut table = Table::of("The mesh", "what count");
+    for (what, count) in [
+        ("faces", census.faces),
+        ("parts that share no edge", census.parts),
+        ("edges of one face", census.boundary_edges),
+        ("edges of more than two faces", census.crowded_edges),
+        ("edges run through the same way twice", census.orientation_conflicts),
+        ("faces without area", census.faces_without_area),
+        ("faces that repeat another", census.duplicate_faces),
+    ] {
+        table.push([what.into(), count.into()]);
+    }
+    table
+}

@@ -1,0 +1,7 @@
+//! Laws of the meshed atlas.
+
+mod meshes;
+mod odd;
+mod seams;
+mod texels;
+mod tree;
