@@ -1,8 +1,7 @@
 //! Pass 3 (4.2.4): the fragment programs that draw the model.
 //!
-//! - TEX0: the place in the atlas by the two halves of the face (xy: a, b, m; zw: a, m, c); TEX1: the face's bounds in
-//!   the atlas, half a texel inside; TEX2: the normal, in w the weight of corner b less that of corner c; TEX3: the
-//!   position; TEX4: direct light by vertex.
+//! - TEX0: two places in the atlas, xy and zw, of which the smaller by component is the fragment's; TEX1: the face's
+//!   bounds in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
 //! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest squared
 //!   distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta; table:
@@ -61,10 +60,8 @@ pub struct ViewKernel {
 }
 
 const PLACE: &str = "!!FP1.0
-# the half of the face, and its bounds
-MOVRC RC.x, f[TEX2].w;
-MOVR R0.xy, f[TEX0];
-MOVR R0.xy(LT.x), f[TEX0].zwzw;
+# the place, within the face's bounds
+MINR R0.xy, f[TEX0], f[TEX0].zwzw;
 MAXR R0.xy, R0, f[TEX1];
 MINR R0.xy, R0, f[TEX1].zwzw;
 # four texels around, none beyond the bounds

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::atlas::{Atlas, DrawnFace};
+use crate::atlas::{Atlas, DrawnFace, FacePlace};
 use crate::card::Texels;
 
 /// A model with its atlas. Positions are relative to the middle of its bounds, in units of a power of two that is
@@ -17,19 +17,28 @@ pub struct CardModel {
     pub(super) faces: Vec<CardFace>,
 }
 
-/// A face in the atlas: its corners a, b and c, and the middle m of b and c.
+/// A face in the atlas, for pass 1, and on the surface, for pass 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CardFace {
-    pub(super) positions: [[f32; 3]; 4],
-    pub(super) normals: [[f32; 3]; 4],
-    /// Corners of its rectangle, in texels.
-    pub(super) at: [[f32; 2]; 4],
+    /// Its corners a, b and c, and the middle m of b and c: corners of its rectangle.
+    pub(super) rectangle: [CardVertex<[f32; 2]>; 4],
+    /// Its corners with two places each: the smaller, by component, is that of a point between them.
+    pub(super) whole: [CardVertex<[f32; 4]>; 3],
+    /// Where reads stay on the face: half a texel within the rectangle.
     pub(super) bounds: [f32; 4],
     /// The area of its texels over their mean area.
     pub(super) area: f32,
 }
 
-/// Corners a, b, m, c in the order of [`CardFace`].
+/// A vertex in the card's units, with its place in the atlas in texels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CardVertex<P> {
+    pub(super) position: [f32; 3],
+    pub(super) normal: [f32; 3],
+    pub(super) at: P,
+}
+
+/// Places in [`CardFace::rectangle`].
 const A: usize = 0;
 const B: usize = 1;
 const C: usize = 2;
@@ -57,18 +66,23 @@ impl CardModel {
             let [nx, ny, nz] = narrowed(texel(x, y).normal);
             [nx, ny, nz, 0.0]
         });
-        let face = |(face, place): (&DrawnFace, &crate::atlas::FacePlace)| {
-            let [[a, b, m], [_, _, c]] = face.triangles;
-            let vertices = [a, b, c, m];
-            CardFace {
-                positions: vertices.map(|vertex| narrowed((vertex.position - center) / unit)),
-                normals: vertices.map(|vertex| narrowed(vertex.normal)),
-                at: vertices.map(|vertex| vertex.at.map(|at| at as f32)),
-                bounds: face.bounds.map(|bound| bound as f32),
-                area: factor(texel(place.x as usize, place.y as usize).area),
-            }
+        let vertex = |position: DVec3, normal: DVec3| (narrowed((position - center) / unit), narrowed(normal));
+        let face = |(face, (drawn, place)): (u32, (&DrawnFace, &FacePlace))| {
+            let [[a, b, m], [_, _, c]] = drawn.triangles;
+            let rectangle = [a, b, c, m].map(|corner| {
+                let (position, normal) = vertex(corner.position, corner.normal);
+                CardVertex { position, normal, at: corner.at.map(|at| at as f32) }
+            });
+            let whole = atlas.drawn_whole(face).vertices.map(|corner| {
+                let (position, normal) = vertex(corner.position, corner.normal);
+                let [[x0, y0], [x1, y1]] = corner.at.map(|pair| pair.map(|at| at as f32));
+                CardVertex { position, normal, at: [x0, y0, x1, y1] }
+            });
+            let bounds = drawn.bounds.map(|bound| bound as f32);
+            let area = factor(texel(place.x as usize, place.y as usize).area);
+            CardFace { rectangle, whole, bounds, area }
         };
-        let faces = drawn.iter().zip(atlas.places()).map(face).collect();
+        let faces = (0..).zip(drawn.iter().zip(atlas.places())).map(face).collect();
         Self { side, center, unit, positions, normals, faces }
     }
 
@@ -94,21 +108,8 @@ impl CardModel {
 }
 
 impl CardFace {
-    /// The two triangles in the atlas: places in [`Self::positions`].
+    /// The two triangles in the atlas: places in [`Self::rectangle`].
     pub(super) const TRIANGLES: [usize; 6] = [A, B, M, A, M, C];
-
-    /// Where a corner (0 to 2) lies in the atlas by each half's affine map, carried on over the whole face: that of
-    /// a, b, m, then that of a, m, c.
-    pub(super) fn by_halves(&self, corner: usize) -> [f32; 4] {
-        let beyond = |other: usize| [0, 1].map(|axis| 2.0 * self.at[M][axis] - self.at[other][axis]);
-        let own = self.at[corner];
-        let [[x0, y0], [x1, y1]] = match corner {
-            B => [own, beyond(C)],
-            C => [beyond(B), own],
-            _ => [own, own],
-        };
-        [x0, y0, x1, y1]
-    }
 }
 
 fn narrowed(vector: DVec3) -> [f32; 3] {
@@ -127,17 +128,5 @@ mod tests {
     #[test]
     fn the_unit_is_a_power_of_two_above() {
         assert_eq!([0.0, 1.0, 1.5, 2.0, 0.3].map(power_of_two_above), [1.0, 2.0, 2.0, 4.0, 0.5]);
-    }
-
-    /// A face in a rectangle of 4 x 2 texels at (8, 6), corner b along x.
-    #[test]
-    fn both_halves_meet_at_the_diagonal() {
-        let at = [[8.0, 6.0], [12.0, 6.0], [8.0, 8.0], [12.0, 8.0]];
-        let face = CardFace { positions: [[0.0; 3]; 4], normals: [[0.0; 3]; 4], at, bounds: [0.0; 4], area: 1.0 };
-        let [a, b, c] = [A, B, C].map(|corner| face.by_halves(corner));
-        assert_eq!((a, b, c), ([8.0, 6.0, 8.0, 6.0], [12.0, 6.0, 16.0, 8.0], [12.0, 10.0, 8.0, 8.0]));
-        // At the middle of b and c both maps give m; at a both give a.
-        let middle = [0, 1, 2, 3].map(|k| (b[k] + c[k]) / 2.0);
-        assert_eq!(middle, [12.0, 8.0, 12.0, 8.0]);
     }
 }

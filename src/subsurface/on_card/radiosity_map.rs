@@ -237,9 +237,8 @@ impl RectangleVertices {
         for face in &model.faces {
             let first = positions.len() as u32;
             indices.extend(CardFace::TRIANGLES.map(|corner| first + corner as u32));
-            for corner in 0..4 {
-                let [[px, py, pz], [nx, ny, nz]] = [face.positions[corner], face.normals[corner]];
-                let [x, y] = face.at[corner];
+            for vertex in &face.rectangle {
+                let ([px, py, pz], [nx, ny, nz], [x, y]) = (vertex.position, vertex.normal, vertex.at);
                 positions.push([px, py, pz, 1.0].map(f32::to_bits));
                 normals.push([nx, ny, nz, 0.0].map(f32::to_bits));
                 places.push([2.0 * x / side - 1.0, 1.0 - 2.0 * y / side, face.area, 0.0].map(f32::to_bits));

@@ -85,11 +85,11 @@ impl ViewPass {
             target: None,
         };
         for face in &model.faces {
-            for (corner, half) in [0.0, 1.0, -1.0].into_iter().enumerate() {
-                let [[px, py, pz], [nx, ny, nz]] = [face.positions[corner], face.normals[corner]];
+            for vertex in &face.whole {
+                let ([px, py, pz], [nx, ny, nz]) = (vertex.position, vertex.normal);
                 pass.positions.push([px, py, pz, 1.0].map(f32::to_bits));
-                pass.normals.push([nx, ny, nz, half].map(f32::to_bits));
-                pass.places.push(face.by_halves(corner).map(f32::to_bits));
+                pass.normals.push([nx, ny, nz, 0.0].map(f32::to_bits));
+                pass.places.push(vertex.at.map(f32::to_bits));
                 pass.bounds.push(face.bounds.map(f32::to_bits));
             }
         }

@@ -165,9 +165,9 @@ fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize
     for (pixel, found) in picture.texels.iter().enumerate() {
         let [x, y] = [pixel % picture.width, pixel / picture.width].map(|at| at as f64 + 0.5);
         let around = || STEPS.into_iter().flat_map(|dx| STEPS.map(|dy| (x + dx / 16.0, y + dy / 16.0)));
-        // Where all points around see one face, and that face is in front: a cube shows no face behind another.
-        let seen = (0..host.mesh.len() as u32)
-            .find_map(|face| around().map(|(x, y)| host.color(x, y, face)).collect::<Option<Vec<_>>>());
+        // Where all points around see one face, that face is in front: a cube shows no face behind another.
+        let face = (0..host.mesh.len() as u32).find(|&face| host.color(x, y, face).is_some());
+        let seen = face.and_then(|face| around().map(|(x, y)| host.color(x, y, face)).collect::<Option<Vec<_>>>());
         let Some(colors) = seen else { continue };
         assert_eq!(found[3], 1.0, "pixel ({x}, {y}) shows the model");
         compared += 1;
