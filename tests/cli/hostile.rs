@@ -59,6 +59,12 @@ const COMMANDS: &[(&str, &str)] = &[
     ("reproduce nowhere", "--out"),
     ("run nowhere.toml", "--out --executor --adapter --step-budget --trace"),
     ("scene nowhere", "--out"),
+    (
+        "subsurface nowhere.obj --mm-per-unit 1 --material marble",
+        "--atlas --links --choice --channels --link-format --map --tolerance --light --irradiance --pass-1 --direct \
+         --fresnel --combine --diffuse --probe --all-pairs --device --switch --executor --adapter --frames --size --eye \
+         --target --up --tan-half-height --exposure --out",
+    ),
     ("timeline nowhere.toml", "--device --model --readback --trace --rays --mesh"),
 ];
 
@@ -197,6 +203,19 @@ fn what_is_wrong_is_said() {
         ("radiosity white-box --paint red=1,2", "expected three numbers R,G,B, found `1,2`"),
         ("radiosity white-box --tolerance -1", "expected a number not below 0, found `-1`"),
         ("radiosity white-box --frames -1,2", "-1 is not in 1..=100000"),
+        ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),
+        ("subsurface stand-in-head --mm-per-unit 1", "add `--material NAME` (see `crossbar materials`)"),
+        ("subsurface stand-in-head --mm-per-unit 0 --material marble", "expected a number above 0, found `0`"),
+        ("subsurface stand-in-heat --mm-per-unit 1 --material marble", "did you mean `stand-in-head`?"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marbel", "did you mean `Marble`?"),
+        ("subsurface stand-in-head --mm-per-unit 1 --sigma-s -1 --sigma-a 1", "a number of at least 0, or three"),
+        ("subsurface stand-in-head --mm-per-unit 1 --sigma-s 1", "--sigma-a <A>"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --links 15", "has 15 clusters"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 100", "a power of two"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sun:1,1,1", "directional:X,Y,Z:R,G,B"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sky:0,0,0", "expected light on the model"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --device r200", "r200"),
         ("timeline --rays -1,2", "found `-1x2`"),
         ("run nowhere.toml --trace -1,2", "expected a pixel as `3,4`, column and row from 0; found `-1,2`"),
         ("compare nowhere.toml --pixel -1,2", "found `-1,2`"),
@@ -219,7 +238,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 10] = [
+    let commands: [&[&str]; 12] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -228,6 +247,8 @@ fn hostile_files() {
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
+        &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4"],
+        &["subsurface", "m.obj", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--irradiance", "IN"],
         &["intersect", "--mesh", "IN", "--rays", "r.csv", "--out", "h.csv"],
         &["intersect", "--mesh", "m.obj", "--rays", "IN", "--out", "h.csv"],
     ];

@@ -21,6 +21,7 @@ mod render;
 mod reproduce;
 mod scene;
 mod shown;
+mod subsurface;
 mod tables;
 mod timeline;
 mod trace_format;

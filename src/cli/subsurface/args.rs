@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::values::{
-    ChannelsArg, ChoiceArg, CombineArg, FloatArg, FresnelArg, LightArg, MapArg, StageArg, coefficient, place,
+    ChannelsArg, ChoiceArg, CombineArg, FloatArg, FresnelArg, LightArg, MapArg, StageArg, YesNo, coefficient, place,
 };
 use crate::cli::executor::{DeviceExecutor, GpuArgs};
 use crate::cli::scene_name::EyeArgs;
@@ -118,13 +118,9 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub(super) probe: Vec<[f64; 3]>,
 
-    /// Gather over all pairs of texels too [default: for atlases up to 128]
-    #[arg(long, overrides_with = "no_all_pairs")]
-    pub(super) all_pairs: bool,
-
-    /// Do not gather over all pairs
-    #[arg(long)]
-    pub(super) no_all_pairs: bool,
+    /// Whether to gather over all pairs of texels too [default: yes for atlases up to 128]
+    #[arg(long, value_enum, value_name = "YES")]
+    pub(super) all_pairs: Option<YesNo>,
 
     /// The card
     #[arg(long, value_name = "D", default_value = "nv35")]

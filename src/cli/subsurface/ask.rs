@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::args::Args;
-use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg};
+use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg, YesNo};
 use crate::cli::Problem;
 use crate::geom::Mesh;
 use crate::io::{load_irradiances, load_mesh};
@@ -129,9 +129,10 @@ pub(super) fn lighting(args: &Args, camera: &Camera) -> miette::Result<Lighting>
 
 /// Whether all pairs are gathered.
 pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
-    if args.all_pairs && args.atlas > MOST_ALL_PAIRS {
+    let asked = args.all_pairs == Some(YesNo::Yes);
+    if asked && args.atlas > MOST_ALL_PAIRS {
         let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MOST_ALL_PAIRS}");
         return Err(Problem::usage(format!("all pairs of {0} x {0} texels would take hours", args.atlas), help));
     }
-    Ok(args.all_pairs || (!args.no_all_pairs && args.atlas <= ALL_PAIRS))
+    Ok(asked || (args.all_pairs.is_none() && args.atlas <= ALL_PAIRS))
 }

@@ -132,6 +132,15 @@ impl From<CombineArg> for Combine {
     }
 }
 
+/// Yes or no.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum YesNo {
+    /// Do it
+    Yes,
+    /// Do not
+    No,
+}
+
 /// A light: `sky:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LightArg(pub(super) Light);

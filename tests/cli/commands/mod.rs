@@ -32,6 +32,11 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("radiosity", "--iterations", "4", true),
     ("radiosity", "--frames", "1,2", false),
     ("radiosity", "--sweep", "60", false),
+    ("subsurface", "--all-pairs", "no", true),
+    ("subsurface", "--size", "8x8", true),
+    ("subsurface", "--links", "4", false),
+    ("subsurface", "--tolerance", "0.1", true),
+    ("subsurface", "--frames", "2", false),
     ("timeline", "--rays", "8x8", false),
 ];
 
