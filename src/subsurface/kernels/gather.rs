@@ -176,10 +176,10 @@ impl Writer {
         for texture in 0..textures {
             self.read(FACTORS + texture, "f[TEX0]");
         }
-        for link in 0..count {
+        for (link, component) in COMPONENTS[..count].iter().enumerate() {
             self.read_map(&format!("p[{}]", 1 + from + link));
             match (self.kernel.rgb, link) {
-                (false, _) => self.add("xyz", &format!("{}.{}", self.register(FACTORS), COMPONENTS[link])),
+                (false, _) => self.add("xyz", &format!("{}.{component}", self.register(FACTORS))),
                 (true, 3) => {
                     for (texture, mask) in COMPONENTS[..3].iter().enumerate() {
                         self.add(mask, &format!("{}.w", self.register(FACTORS + texture)));

@@ -54,9 +54,10 @@ mod tests {
 
     #[test]
     fn every_program_runs_on_every_geforce_fx() {
-        let profiles = Profile::card_names().into_iter().map(|name| Profile::named(name).expect("a device"));
+        let names = Profile::card_names().into_iter().chain(Profile::variant_names());
+        let profiles = names.map(|name| Profile::named(name).expect("a device"));
         let cards: Vec<Profile> = profiles.filter(|p| p.limits.versions.contains(&Version::Fp1_0)).collect();
-        assert!(cards.len() >= 2);
+        assert!(cards.len() >= 4, "two cards and their variants");
         for profile in cards {
             for (name, text) in programs() {
                 crate::card::checked(&profile, name, &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
