@@ -1,14 +1,15 @@
 //! Pass 2 (4.2.3): the programs that follow the links, written out for a number of them.
 //!
-//! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is what the sum is multiplied by at the end. The sum starts
-//! at 0, or at what the pass before wrote (sampler 1), and takes link after link: a product, then a sum.
+//! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is what the sum is multiplied by at the end. The sum
+//! starts at 0, or at what the pass before wrote (sampler 1), and takes link after link: a product, then a sum.
 //!
 //! - *Fixed*: `p[1 + n]` is the place of link n in its level. Factors of four links lie in one texel, or with three
 //!   channels in three: the first three links' in their xyz, the fourth's in the three w.
 //! - *Adaptive*: a texel of link n has u, v, factor (with three channels: nothing, and a second texel has the factors),
-//!   and in w the level. For a map with levels, w is 2^level / side, given as both components of a derivative to `TXD`:
-//!   the level of detail is then level + 1/2, of which the sampler's bias takes the half away. For a rectangle that holds
-//!   all levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): level k begins at 2 side - 2 w.
+//!   and in w the level. For a map with levels, w is 2^level / side, given as both components of a derivative to
+//!   `TXD`: the level of detail is then level + 1/2, of which the sampler's bias takes the half away. For a rectangle
+//!   that holds all levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): a level begins at
+//!   2 side - 2 w.
 
 use std::fmt::Write as _;
 
@@ -175,10 +176,10 @@ impl Writer {
         for texture in 0..textures {
             self.read(FACTORS + texture, "f[TEX0]");
         }
-        for link in 0..count {
+        for (link, component) in COMPONENTS[..count].iter().enumerate() {
             self.read_map(&format!("p[{}]", 1 + from + link));
             match (self.kernel.rgb, link) {
-                (false, _) => self.add("xyz", &format!("{}.{}", self.register(FACTORS), COMPONENTS[link])),
+                (false, _) => self.add("xyz", &format!("{}.{component}", self.register(FACTORS))),
                 (true, 3) => {
                     for (texture, mask) in COMPONENTS[..3].iter().enumerate() {
                         self.add(mask, &format!("{}.w", self.register(FACTORS + texture)));

@@ -3,10 +3,10 @@
 //! - TEX0: two places in the atlas, xy and zw, of which the smaller by component is the fragment's; TEX1: the face's
 //!   bounds in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
-//! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest squared
-//!   distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta; table:
-//!   from cosine to coordinate, scale and offset; in w the shininess. `p[3]`: ambient light. Each light: `p[4]` position
-//!   (w = 1) or direction towards it (w = 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
+//! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest
+//!   squared distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta;
+//!   table: from cosine to coordinate, scale and offset; in w the shininess. `p[3]`: ambient light. Each light: `p[4]`
+//!   position (w = 1) or direction towards it (w = 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;

@@ -119,7 +119,7 @@ pub(super) fn map_texture(options: &SubsurfaceCardOptions) -> MapTexture {
     if options.map.is_leveled() { MapTexture::Leveled } else { MapTexture::Rectangle }
 }
 
-/// The programs that follow all links: as many links per pass as the device's samplers, constants and instructions hold.
+/// The programs that follow all links: as many per pass as the device's samplers, constants and instructions hold.
 pub(super) fn programs(
     profile: &Profile,
     links: &LinkTextures,

@@ -72,7 +72,7 @@ impl LeveledMap {
         let Some((row, copy)) = &float.row else { return Ok(()) };
         for level in 0..=self.side.ilog2() {
             let width = self.side >> level;
-            let x = (2 * self.side - 2 * width) as i32;
+            let x = (2 * self.side - 2 * width).cast_signed();
             let constants = &Constants::default();
             let part = Some(Viewport { x, ..Viewport::new(width, width) });
             let textures = &nearest([self.level(level)]);

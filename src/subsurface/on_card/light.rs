@@ -77,7 +77,7 @@ impl CardLights {
                 }
                 Light::Point { position, intensity, attenuation } => {
                     let place = model.to_card(DVec3::from(position));
-                    if !(place.length() <= FARTHEST) {
+                    if !(0.0..=FARTHEST).contains(&place.length()) {
                         return wrong("a point light within 1e15 radii of the model; a directional one is farther");
                     }
                     let [x, y, z] = place.to_array().map(|value| value as f32);
@@ -86,7 +86,7 @@ impl CardLights {
                     let largest = factors.into_iter().fold(0.0, f64::max);
                     let fine = attenuation.iter().all(|k| *k >= 0.0) && largest > 0.0 && largest.is_finite();
                     let color = intensity.map(|value| value / largest);
-                    if !fine || color.iter().any(|value| !(value.abs() <= f64::from(f32::MAX))) {
+                    if !fine || !color.iter().all(|value| (0.0..=f64::from(f32::MAX)).contains(value)) {
                         return wrong("an attenuation of finite factors of at least 0, one of them above 0");
                     }
                     let [k0, k1, k2] = factors.map(|factor| (factor / largest) as f32);

@@ -21,7 +21,6 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::machine::{Executor, Machine};
-use refsim::texture::TexelFormat;
 
 pub use error::SubsurfaceCardError;
 pub use gather::GatherProgram;
@@ -141,8 +140,8 @@ impl SubsurfaceCard {
         self.scatter()
     }
 
-    /// Irradiances of a table (equation 8: what has entered the surface), one per face, in place of pass 1; then pass 2.
-    /// There is no direct light then.
+    /// Irradiances of a table (equation 8: what has entered the surface), one per face, in place of pass 1; then pass
+    /// 2. There is no direct light then.
     ///
     /// # Errors
     /// [`SubsurfaceCardError::Size`], [`SubsurfaceCardError::Figure`], [`SubsurfaceCardError::Machine`].
@@ -237,6 +236,3 @@ impl SubsurfaceCard {
         }
     }
 }
-
-/// Formats of a picture that both cards of the paper draw into.
-pub const PICTURE_FORMATS: [TexelFormat; 3] = [TexelFormat::Bgra8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];

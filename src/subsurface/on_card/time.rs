@@ -68,7 +68,7 @@ pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4],
                 Event::Draw(draw) => {
                     let (cost, clocks) = (model.draw(draw), model.clocks(draw));
                     time.draws += 1;
-                    time.time = time.time + cost.total;
+                    time.time += cost.total;
                     time.textures += clocks.textures.0;
                     time.arithmetic += clocks.arithmetic.0;
                     time.memory += clocks.memory.0;
@@ -77,9 +77,9 @@ pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4],
                         (longest, time.bottleneck) = (cost.total, Some(cost.bottleneck));
                     }
                 }
-                Event::GenerateMipmaps(record) => time.time = time.time + model.mipmaps(record).total,
-                Event::StateChange { changes } => time.time = time.time + model.state_change(*changes),
-                Event::Clear { bytes, .. } => time.time = time.time + model.clear(*bytes),
+                Event::GenerateMipmaps(record) => time.time += model.mipmaps(record).total,
+                Event::StateChange { changes } => time.time += model.state_change(*changes),
+                Event::Clear { bytes, .. } => time.time += model.clear(*bytes),
                 _ => {}
             }
         }

@@ -147,9 +147,9 @@ fn irradiance_by_texel_is_equation_8() {
     assert_eq!((card.light_passes(2), card.light_passes(42)), (1, 3));
 }
 
-/// Parallel light is the same all over a flat face. From a point at distance D it bends by some (h / D)^2 over a face of
-/// extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and a linear interpolation misses at most an eighth
-/// of it along each of two directions.
+/// Parallel light is the same all over a flat face. From a point at distance D it bends by some (h / D)^2 over a face
+/// of extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and a linear interpolation misses at most an
+/// eighth of it along each of two directions.
 #[test]
 fn by_vertex_is_by_texel_on_flat_faces() {
     let atlas = atlas(2.0);
