@@ -12,7 +12,7 @@ use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::names::did_you_mean;
 use crate::scene::built::{self, stand_ins};
-use crate::study::atlas::AtlasStudy;
+use crate::study::atlas::{AtlasStudy, MAX_PICTURE};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -70,10 +70,13 @@ impl StudyArgs for Args {
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         /// A texel with its clusters of all levels, and what finds them.
         const PER_TEXEL: u64 = 170;
-        /// A ray, its hit, and a pixel of each picture.
+        /// A texel of each picture of the atlas, as a file and on the page.
+        const PER_SHOWN_TEXEL: u64 = 80;
+        /// A ray, its hit, and a pixel of each picture of the mesh.
         const PER_PIXEL: u64 = 250;
-        let texels = u64::from(self.side) * u64::from(self.side) * PER_TEXEL;
-        let pictures = if self.out.is_some() { PER_PIXEL } else { 0 };
+        let square = |side: u32| u64::from(side) * u64::from(side);
+        let [shown, pictures] = if self.out.is_some() { [PER_SHOWN_TEXEL, PER_PIXEL] } else { [0; 2] };
+        let texels = square(self.side) * PER_TEXEL + square(self.side.min(MAX_PICTURE)) * shown;
         Ok(Some(MemoryNeed {
             what: format!("an atlas of {0} x {0} texels", self.side),
             bytes: memory::of_pixels(self.size.width, self.size.height, pictures, texels),
@@ -83,7 +86,7 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<AtlasStudy> {
         let mesh = mesh(&self.model)?;
-        require_faces(mesh.len())?;
+        require_faces(mesh.len(), self.out.is_some())?;
         let camera = match self.out {
             Some(_) if !mesh.is_empty() => Some(self.eye.framing(&mesh, self.size)?),
             _ => None,
@@ -118,8 +121,11 @@ fn mesh(model: &Path) -> miette::Result<Mesh> {
 }
 
 /// Refuses a mesh whose tree would take more memory than there is.
-fn require_faces(faces: usize) -> miette::Result<()> {
+fn require_faces(faces: usize, written: bool) -> miette::Result<()> {
     const PER_FACE: u64 = 700;
+    /// Its lines of the files.
+    const PER_WRITTEN_FACE: u64 = 500;
+    let per_face = PER_FACE + if written { PER_WRITTEN_FACE } else { 0 };
     let what = format_args!("clustering {faces} faces");
-    Ok(memory::require(what, faces as u64 * PER_FACE, "name a smaller mesh")?)
+    Ok(memory::require(what, faces as u64 * per_face, "name a smaller mesh")?)
 }

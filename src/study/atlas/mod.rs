@@ -1,41 +1,16 @@
 //! A mesh's atlas: how good it is, how it looks, and its files.
 
 mod export;
+mod parameters;
 mod pictures;
 mod report;
 
-use crate::atlas::{Atlas, AtlasError, AtlasQuality};
-use crate::geom::Mesh;
-use crate::report::{Findings, Provenance, ReportError};
-use crate::scene::Camera;
+use crate::atlas::{Atlas, AtlasQuality};
+use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
-/// An atlas to be made and measured.
-#[derive(Debug, Clone)]
-pub struct AtlasStudy {
-    /// What the mesh is called.
-    pub name: String,
-    /// The mesh.
-    pub mesh: Mesh,
-    /// Texels along a side.
-    pub side: u32,
-    /// The camera of the pictures of the mesh; `None` for no pictures and no files.
-    pub camera: Option<Camera>,
-}
-
-/// Why there is no atlas, or no page of it.
-#[non_exhaustive]
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum AtlasStudyError {
-    /// The mesh has no atlas of this size.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::atlas))]
-    Atlas(#[from] AtlasError),
-    /// A file cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
-}
+pub use parameters::{AtlasStudy, AtlasStudyError};
+pub use pictures::MAX_PICTURE;
 
 impl Study for AtlasStudy {
     type Error = AtlasStudyError;

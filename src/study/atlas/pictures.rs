@@ -11,7 +11,7 @@ use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
 /// The longest side of a picture of the atlas: of a larger one every other texel, or every fourth, is shown.
-const MAX_PICTURE: u32 = 2048;
+pub const MAX_PICTURE: u32 = 2048;
 
 /// What a picture is colored by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,9 @@
 
 use serde_json::json;
 
+use super::export;
+use super::parameters::AtlasStudy;
 use super::pictures::{self, Coloring, ModelPictures};
-use super::{AtlasStudy, export};
 use crate::atlas::{Atlas, AtlasQuality};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
