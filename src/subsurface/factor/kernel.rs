@@ -23,7 +23,7 @@ const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
 const SLOPE: f64 = 3.0;
 /// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
 /// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
-const FAR: f64 = 0.55;
+const FAR: f64 = 0.5;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.
 pub(super) const FLOOR: f64 = 1e-5;

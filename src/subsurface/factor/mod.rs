@@ -1,8 +1,8 @@
 //! Throughput factors, equation 10: F_iC is 1 / A_i times the integral of R_d over a texel i and a cluster C.
 //!
 //! - [`SurfaceMoments`]: area, mean point and covariance of every cluster of an atlas;
-//! - [`Factors`]: descends from a cluster until its pieces are small against their distance and the dipole's lengths, and
-//!   takes the mean of R_d over each to second order; near texels are divided further.
+//! - [`Factors`]: descends from a cluster until its pieces are small against their distance and the dipole's lengths,
+//!   and takes the mean of R_d over each to second order; near texels are divided further.
 //!
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 

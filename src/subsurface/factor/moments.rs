@@ -18,8 +18,8 @@ pub(super) struct Moments {
 /// The square of the radius of a ball that holds a piece, over that of its size, is at most this.
 pub(super) const BALL: f64 = 5.0;
 
-/// The square of the size by which a piece counts as far: the mean squared distance from its mean point; for pieces with
-/// far outliers more, so that a ball about the mean point of [`BALL`] times this holds all.
+/// The square of the size by which a piece counts as far: the mean squared distance from its mean point; more for
+/// pieces with far outliers, so that a ball of [`BALL`] times this squared radius holds all.
 pub(super) fn size_squared(covariance: &Covariance, radius_squared: f64) -> f64 {
     covariance.trace().max(radius_squared / BALL)
 }

@@ -11,8 +11,8 @@
 //! | adaptive, 1 | L | u, v, factor, level |
 //! | adaptive, 3 | 2 L | texture 2 k: u, v, red factor, level; texture 2 k + 1: red, green, blue factor, 0 |
 //!
-//! If L is not a multiple of 4, the last texels are filled with factors 0. A place (u, v) is the center of the cluster in
-//! the atlas, whose sides are 1.
+//! If L is not a multiple of 4, the last texels are filled with factors 0. A place (u, v) is the center of the cluster
+//! in the atlas, whose sides are 1.
 
 use refsim::num::{Format, FormatKind, ops, power_of_two};
 

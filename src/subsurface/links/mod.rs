@@ -2,10 +2,12 @@
 //!
 //! - [`Links`]: fixed or adaptive, with one factor per link or three;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
-//! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them.
+//! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them;
+//! - [`Fitness`]: whether texels and object suit a medium.
 
 mod choice;
 mod encode;
+mod fitness;
 mod gather;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,6 +19,7 @@ use super::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
 
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
+pub use fitness::Fitness;
 pub use gather::{IrradianceMeans, MeanWeighting};
 
 /// The channel whose coefficients make scalar factors: green. One dipole's factors, unlike a mean of three.

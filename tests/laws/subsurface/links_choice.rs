@@ -1,8 +1,11 @@
-//! Laws of links: they tile the atlas once, gather what their factors say, and keep their bits on any number of threads.
+//! Laws of links: they tile the atlas once, gather what their factors say, and have the same bits on any number of
+//! threads.
 
 use approx::assert_relative_eq;
 use crossbar::subsurface::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
-use crossbar::subsurface::links::{EncodedLinks, IrradianceMeans, LinkChoice, LinkPlace, Links, MeanWeighting};
+use crossbar::subsurface::links::{
+    EncodedLinks, Fitness, IrradianceMeans, LinkChoice, LinkPlace, Links, MeanWeighting,
+};
 use crossbar::subsurface::{Dipole, Reference};
 use refsim::num::Format;
 
@@ -248,4 +251,15 @@ fn bad_choices_are_refused() {
     assert!(error(&one, LinkChoice::Adaptive { count: most }).contains("expected at most 268435456"));
     let means = IrradianceMeans::new(&surface, &[[1.0; 3]; 7], MeanWeighting::Area);
     assert_eq!(means.expect_err("too few"), FactorError::Values { found: 7, texels: 256 });
+}
+
+#[test]
+fn coarse_texels_and_thin_objects_are_told() {
+    let atlas = atlas(&sphere(3, 0.0), SIDE);
+    // Texels of a unit sphere have sides of about sqrt(4 pi) / 16 = 0.22.
+    let fit = Fitness::new(&surface(&atlas, 1.0), &figure_7());
+    assert!(!fit.has_coarse_texels() && fit.is_thin() && fit.coarse_fraction == 0.0, "{fit:?}");
+    let coarse = Fitness::new(&surface(&atlas, 50.0), &figure_7());
+    assert!(coarse.has_coarse_texels() && !coarse.is_thin() && coarse.coarse_fraction > 0.999, "{coarse:?}");
+    assert_relative_eq!(coarse.texel_per_mean_free_path, 50.0 * fit.texel_per_mean_free_path, max_relative = 1e-9);
 }

