@@ -24,6 +24,9 @@ const SLOPE: f64 = 3.0;
 /// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
 /// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
 const FAR: f64 = 0.5;
+/// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of about
+/// 10 mean free paths.
+const HOPELESS: f64 = 30.0;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.
 pub(super) const FLOOR: f64 = 1e-5;
@@ -39,6 +42,8 @@ pub(super) struct Kernel<const N: usize> {
     shift: u32,
     intervals: Vec<Interval<N>>,
     interpolation_error: f64,
+    /// What pieces that are not divided any more may exceed their reach by: up to that of a tolerance of 1 %.
+    slack: f64,
 }
 
 /// One interval of v = 1 + r^2 / unit.
@@ -71,6 +76,7 @@ impl<const N: usize> Kernel<N> {
             shift: 0,
             intervals: Vec::new(),
             interpolation_error: f64::INFINITY,
+            slack: 1.0,
         };
         let end = 1.0 + diameter * diameter / unit;
         for bits in RESOLUTION {
@@ -122,6 +128,7 @@ impl<const N: usize> Kernel<N> {
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
         // What the second order leaves out grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);
+        self.slack = (FAR / far * (FAR / far)).max(1.0);
         let light = |interval: &Interval<N>| {
             let relative = |(cubic, dipole): (&[f64; 4], &Dipole)| cubic[0] * area / dipole.total();
             interval.cubic.iter().zip(&self.dipoles).map(relative).fold(0.0, f64::max)
@@ -171,11 +178,21 @@ impl<const N: usize> Kernel<N> {
     /// g + g' trace(C) + 2 g'' x^T C x.
     #[inline]
     pub(super) fn mean(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
+        self.mean_within(one, other, 1.0)
+    }
+
+    /// The same for pieces that are not divided any more.
+    pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
+        self.mean_within(one, other, self.slack)
+    }
+
+    #[inline]
+    fn mean_within(&self, one: &Moments, other: &Moments, slack: f64) -> Option<[f64; N]> {
         let apart = other.point - one.point;
         let squared = apart.length_squared();
         let (interval, t) = self.find(squared);
         let size_squared = one.size_squared + other.size_squared;
-        if size_squared <= interval.reach {
+        if size_squared <= slack * interval.reach {
             let covariance = one.covariance.plus(&other.covariance);
             let across = covariance.trace() * self.per_unit;
             let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
@@ -195,6 +212,12 @@ impl<const N: usize> Kernel<N> {
         std::array::from_fn(|channel| {
             if area > 0.0 { self.dipoles[channel].disc(radius) / area } else { self.dipoles[channel].r_d(0.0) }
         })
+    }
+
+    /// Whether texels whose squared sizes have this sum exceed the mean free path so far that nearly all light stays in
+    /// its texel.
+    pub(super) fn is_hopeless(&self, size_squared: f64) -> bool {
+        size_squared > HOPELESS * self.unit
     }
 
     /// How many times pieces whose squared sizes have this sum are to be halved to be far at distance 0.

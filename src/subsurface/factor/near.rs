@@ -9,9 +9,6 @@ use super::surface::SurfaceMoments;
 
 /// Texels are halved at most this often along a side.
 const MAX_HALVINGS: u32 = 4;
-/// Where more halvings than this are needed, texels exceed the mean free path so far that nearly all light stays in its
-/// texel: two will do.
-const HOPELESS: u32 = 6;
 /// Texels whose pieces are kept; a power of two.
 const SLOTS: usize = 1024;
 
@@ -94,8 +91,9 @@ pub(super) fn texel_mean<const N: usize>(
 ) -> [f64; N] {
     let [from, to] = [one.min(other), one.max(other)];
     let size = |texel: usize| surface.level(0)[texel].size_squared;
-    let needed = kernel.halvings(size(from) + size(to));
-    let halvings = if needed > HOPELESS { 2 } else { needed.min(MAX_HALVINGS) };
+    let size_squared = size(from) + size(to);
+    let most = if kernel.is_hopeless(size_squared) { 2 } else { MAX_HALVINGS };
+    let halvings = kernel.halvings(size_squared).min(most);
     let is_same = from == to;
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
     let displaced = if slots[0] == slots[1] && !is_same {
@@ -118,6 +116,9 @@ impl<const N: usize> Pair<'_, N> {
             return mean;
         }
         if halvings == self.halvings {
+            if let Some(mean) = self.kernel.mean_of_last(p, q) {
+                return mean;
+            }
             // Light that does not leave a piece is that within a disc of its area; what does comes from its middle. So
             // light that one piece loses by this the next one gets.
             let is_same = self.is_same && i == j;
