@@ -1,8 +1,8 @@
 //! A face's rectangle of texels, and the map between the rectangle and the face.
 //!
 //! The corners of the rectangle, in turn, are the corners a and b of the face, the middle m of the edge from b to c,
-//! and c. The triangles (a, b, m) and (a, m, c) have equal areas on both sides, so the map is affine in each, continuous
-//! across the diagonal, and keeps the ratio of areas: every texel of a face has the same area.
+//! and c. The triangles (a, b, m) and (a, m, c) have equal areas on both sides, so the map is affine in each,
+//! continuous across the diagonal, and keeps the ratio of areas: every texel of a face has the same area.
 //!
 //! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the weights of
 //! the corners are 1 - u - v + s of a, u - s/2 of b and v - s/2 of c.

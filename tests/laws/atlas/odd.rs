@@ -44,7 +44,7 @@ fn one_face_has_the_whole_square() {
     }
 }
 
-/// Faces without area, faces twice, faces the wrong way round, three faces on an edge: all have texels, all are counted.
+/// Faces without area, faces twice, faces the wrong way round, three faces on an edge: all have texels and are counted.
 #[test]
 fn oddities_are_counted() {
     let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [5.0; 3], [6.0, 5.0, 5.0]];
