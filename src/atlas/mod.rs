@@ -4,7 +4,7 @@
 //! tree whose nodes are squares and 2:1 rectangles, so that a texel of a coarser level is the mean of a cluster.
 //! docs/atlas.md explains the construction and says how good it is.
 //!
-//! - [`atlas`]: the atlas itself, and how points get from texels to faces and back;
+//! - [`whole`]: the atlas itself, and how points get from texels to faces and back;
 //! - [`place`]: a face's rectangle, and the map between the two;
 //! - [`texel`]: what a texel and a cluster know;
 //! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
@@ -13,7 +13,6 @@
 //! - [`census`]: what is odd about a mesh;
 //! - [`quality`]: how even, connected and compact an atlas is.
 
-pub mod atlas;
 pub mod census;
 pub mod drawn;
 pub mod error;
@@ -29,8 +28,8 @@ mod surface;
 mod sweep;
 pub mod texel;
 pub mod tree;
+pub mod whole;
 
-pub use atlas::{Atlas, MAX_SIDE};
 pub use census::Census;
 pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 pub use error::AtlasError;
@@ -38,4 +37,5 @@ pub use part::TexelPart;
 pub use place::FacePlace;
 pub use quality::{AtlasQuality, LevelQuality};
 pub use texel::{Cluster, Texel};
-pub use tree::ClusterNode;
+pub use tree::{ClusterNode, ClusterTree};
+pub use whole::{Atlas, MAX_SIDE};

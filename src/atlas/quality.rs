@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::atlas::Atlas;
 use super::tree::{ClusterNode, ClusterTree};
+use super::whole::Atlas;
 use crate::geom::{Adjacency, Mesh};
 
 /// How good an atlas is.
@@ -126,7 +126,7 @@ fn topologies(tree: &ClusterTree, welded: &Mesh, adjacency: &Adjacency) -> Vec<T
 fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: &Adjacency) -> Topology {
     let mut corners = Classes::new(3 * faces.len());
     let mut parts = Classes::new(faces.len());
-    let mut edges = 0_i64;
+    let mut edges = 0;
     for (own, &face) in faces.iter().enumerate() {
         let mine = welded.triangles()[face as usize];
         for (side, edge) in adjacency.edges_of(face).into_iter().enumerate() {
@@ -148,8 +148,8 @@ fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: 
         }
     }
     let connected = parts.count == 1;
-    let euler = corners.count as i64 - edges + faces.len() as i64;
-    Topology { connected, simply: connected && euler >= 1 }
+    // Euler's characteristic, 1 of a disc and 2 of a sphere, is at least 1.
+    Topology { connected, simply: connected && corners.count + faces.len() > edges }
 }
 
 /// Classes of things that are joined one by one.
