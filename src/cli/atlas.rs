@@ -3,15 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::memory::{self, MemoryNeed};
-use super::scene_name::{self, EyeArgs};
+use super::model_name;
+use super::scene_name::EyeArgs;
 use super::size::Size;
 use super::study::StudyArgs;
-use super::{Problem, view};
 use crate::atlas::MAX_SIDE;
-use crate::geom::Mesh;
-use crate::io::scene_file::load;
-use crate::names::did_you_mean;
-use crate::scene::built::{self, stand_ins};
 use crate::study::atlas::{AtlasStudy, MAX_PICTURE};
 
 const EXAMPLES: &str = "\
@@ -60,10 +56,7 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        match named(&self.model) {
-            Some(_) => Vec::new(),
-            None => scene_name::named_file(&self.model),
-        }
+        model_name::named_file(&self.model)
     }
 
     /// Texels, clusters, and pictures of both.
@@ -85,7 +78,7 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<AtlasStudy> {
-        let mesh = mesh(&self.model)?;
+        let mesh = model_name::mesh(&self.model)?;
         require_faces(mesh.len(), self.out.is_some())?;
         let camera = match self.out {
             Some(_) if !mesh.is_empty() => Some(self.eye.framing(&mesh, self.size)?),
@@ -93,31 +86,6 @@ impl StudyArgs for Args {
         };
         Ok(AtlasStudy { name: self.model.display().to_string(), mesh, side: self.side, camera })
     }
-}
-
-/// The stand-in of that name.
-fn named(model: &Path) -> Option<Mesh> {
-    stand_ins::build(model.to_str()?)
-}
-
-/// The mesh of a stand-in, of a scene by its name, or of a file, with the normals that it has.
-fn mesh(model: &Path) -> miette::Result<Mesh> {
-    if let Some(mesh) = named(model) {
-        return Ok(mesh);
-    }
-    if let Some(scene) = model.to_str().and_then(built::build) {
-        return Ok(scene.mesh_with_normals());
-    }
-    let name = model.to_str().unwrap_or_default();
-    // A word without a dot or a folder is a name, not a file.
-    if !model.exists() && model.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = stand_ins::names().chain(built::names()).collect();
-        let meant = did_you_mean(name, names.iter().copied());
-        let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
-        return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
-    }
-    view::require_mesh(model)?;
-    Ok(load(model)?.mesh_with_normals())
 }
 
 /// Refuses a mesh whose tree would take more memory than there is.

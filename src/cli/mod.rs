@@ -20,6 +20,7 @@ mod leaky_teapot;
 mod man;
 mod materials;
 mod memory;
+mod model_name;
 mod number;
 mod out;
 mod pixel;

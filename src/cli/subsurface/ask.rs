@@ -5,11 +5,9 @@ use glam::DVec3;
 use super::args::Args;
 use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg, YesNo};
 use crate::cli::Problem;
-use crate::geom::Mesh;
-use crate::io::{load_irradiances, load_mesh};
+use crate::io::load_irradiances;
 use crate::names::did_you_mean;
 use crate::scene::Camera;
-use crate::scene::built::stand_ins;
 use crate::study::subsurface::{GatherWay, Lighting};
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::Light;
@@ -21,22 +19,6 @@ const ALL_PAIRS: u32 = 128;
 const MOST_ALL_PAIRS: u32 = 512;
 /// The index of refraction where coefficients come without one.
 const ETA: f64 = 1.3;
-
-/// The model by its name or from its file.
-pub(super) fn mesh(args: &Args) -> miette::Result<Mesh> {
-    let name = args.model.to_str().unwrap_or_default();
-    if let Some(mesh) = stand_ins::build(name) {
-        return Ok(mesh);
-    }
-    // A word without a dot or a folder is a name, not a file.
-    if !args.model.exists() && args.model.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = stand_ins::names().collect();
-        let meant = did_you_mean(name, names.iter().copied());
-        let help = format!("{meant}the models are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
-        return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
-    }
-    Ok(load_mesh(&args.model)?)
-}
 
 /// A published medium, or coefficients.
 pub(super) fn material(args: &Args) -> miette::Result<Material> {

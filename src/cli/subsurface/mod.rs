@@ -8,8 +8,8 @@ use std::path::Path;
 
 use super::Problem;
 use super::memory::{self, MemoryNeed};
+use super::model_name;
 use super::study::StudyArgs;
-use crate::scene::built::stand_ins;
 use crate::study::subsurface::Parameters;
 use crate::subsurface::kernels::ViewKernel;
 
@@ -24,9 +24,7 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let is_stand_in = stand_ins::names().any(|name| self.model == Path::new(name));
-        let model = (!is_stand_in).then_some(self.model.as_path());
-        model.into_iter().chain(self.irradiance.as_deref()).collect()
+        model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).collect()
     }
 
     /// What the atlas, its links, the card's textures and the pictures of every way take.
@@ -61,7 +59,7 @@ impl StudyArgs for Args {
         let ways = ask::ways(self, &material)?;
         let reference = ask::all_pairs(self)?;
         let profile = super::switch::device(&self.device, &self.switch)?;
-        let mesh = ask::mesh(self)?;
+        let mesh = model_name::mesh(&self.model)?;
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {
             model: self.model.display().to_string(),

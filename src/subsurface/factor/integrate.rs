@@ -1,7 +1,7 @@
 //! Factors by descent from a cluster.
 
 use super::error::FactorError;
-use super::kernel::Kernel;
+use super::kernel::DistanceTable;
 use super::near::{PieceCache, texel_mean};
 use super::surface::{ClusterId, SurfaceMoments, from_morton, to_morton};
 use super::{MAX_TOLERANCE, MIN_TOLERANCE};
@@ -14,7 +14,7 @@ use crate::subsurface::Dipole;
 #[derive(Clone, Debug)]
 pub struct Factors<'a, const N: usize> {
     surface: &'a SurfaceMoments,
-    kernel: Kernel<N>,
+    kernel: DistanceTable<N>,
 }
 
 /// A cluster in the tree of those that the descent visited, with its factor.
@@ -51,7 +51,7 @@ impl<'a, const N: usize> Factors<'a, N> {
         if !(MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance) {
             return Err(FactorError::Tolerance { found: tolerance });
         }
-        Ok(Self { surface, kernel: Kernel::new(dipoles, surface.diameter(), surface.area(), tolerance) })
+        Ok(Self { surface, kernel: DistanceTable::new(dipoles, surface.diameter(), surface.area(), tolerance) })
     }
 
     /// The surface.

@@ -13,7 +13,7 @@ use super::moments::{BALL, Moments};
 use crate::elementary::{cbrt, exp};
 use crate::subsurface::Dipole;
 
-/// The largest relative error of the table where light still matters, see [`Kernel::interpolation_error`].
+/// The largest relative error of the table where light still matters, see [`DistanceTable::interpolation_error`].
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
 /// Beyond this many diffusion lengths the relative error is not asked for: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
@@ -33,7 +33,7 @@ pub(super) const FLOOR: f64 = 1e-5;
 
 /// R_d of N channels on intervals of the squared distance.
 #[derive(Clone, Debug)]
-pub(super) struct Kernel<const N: usize> {
+pub(super) struct DistanceTable<const N: usize> {
     dipoles: [Dipole; N],
     /// The least depth of a source, squared, and its reciprocal.
     unit: f64,
@@ -64,7 +64,7 @@ struct Derivatives {
     fourth: f64,
 }
 
-impl<const N: usize> Kernel<N> {
+impl<const N: usize> DistanceTable<N> {
     /// For pieces at most `diameter` apart of a surface of an area, in mm.
     pub(super) fn new(dipoles: [Dipole; N], diameter: f64, area: f64, tolerance: f64) -> Self {
         let depth = dipoles.iter().map(Dipole::z_r).fold(f64::INFINITY, f64::min);
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn the_table_keeps_its_bound_and_is_never_below_r_d() {
         for medium in [dipole(2.21, 0.0012), dipole(0.68, 0.9), dipole(1.0, 0.0), dipole(40.0, 7.0)] {
-            let kernel = Kernel::new([medium], 300.0, 1e4, 0.01);
+            let kernel = DistanceTable::new([medium], 300.0, 1e4, 0.01);
             let bound = kernel.interpolation_error();
             assert!(bound > 0.0 && bound <= MAX_INTERPOLATION_ERROR, "{bound}");
             let mut worst: f64 = 0.0;
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn extreme_media_have_tables() {
         for (s, a) in [(1e-30, 0.0), (1e-30, 1e30), (1e30, 0.0), (1e30, 1e30), (1.0, 1e-300)] {
-            let kernel = Kernel::new([dipole(s, a)], 1e20, 1e40, 0.01);
+            let kernel = DistanceTable::new([dipole(s, a)], 1e20, 1e40, 0.01);
             for r in [0.0, 1e-20, 1.0, 1e20] {
                 let [value] = kernel.at(r * r);
                 assert!(value.is_finite() && value >= 0.0, "{s} {a} {r}: {value}");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::face_map::{FaceMap, Window};
-use super::kernel::Kernel;
+use super::kernel::DistanceTable;
 use super::moments::Moments;
 use super::surface::SurfaceMoments;
 
@@ -75,7 +75,7 @@ fn quarters(face: &FaceMap, window: Window, area: f64) -> [Moments; 4] {
 
 /// A pair of texels whose pieces are at hand.
 struct Pair<'a, const N: usize> {
-    kernel: &'a Kernel<N>,
+    kernel: &'a DistanceTable<N>,
     from: &'a [Vec<Moments>],
     to: &'a [Vec<Moments>],
     halvings: usize,
@@ -85,7 +85,7 @@ struct Pair<'a, const N: usize> {
 /// The mean of R_d over the pairs of points of two texels' parts, by Morton index. The same bits in either order.
 pub(super) fn texel_mean<const N: usize>(
     surface: &SurfaceMoments,
-    kernel: &Kernel<N>,
+    kernel: &DistanceTable<N>,
     [one, other]: [usize; 2],
     cache: &mut PieceCache,
 ) -> [f64; N] {
