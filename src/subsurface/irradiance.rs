@@ -8,8 +8,8 @@ use super::fresnel::{fresnel_transmittance, mean_transmittance};
 use super::on_card::Light;
 use crate::atlas::{Atlas, Texel};
 
-/// The irradiance that enters at each texel, row by row: E of equation 8 at its mean point, for lights of OpenGL's kinds
-/// (section 4.2.2). Lengths in the mesh's units. A texel without a normal gets the light of the sky alone.
+/// The irradiance that enters at each texel, row by row: E of equation 8 at its mean point, for lights of OpenGL's
+/// kinds (section 4.2.2). Lengths in the mesh's units. A texel without a normal gets the light of the sky alone.
 pub fn irradiance(atlas: &Atlas, lights: &[Light], eta: f64) -> Vec<[f64; 3]> {
     let mean = mean_transmittance(eta);
     atlas.texels().iter().map(|texel| entering(texel, lights, eta, mean)).collect()

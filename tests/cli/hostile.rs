@@ -61,7 +61,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ("scene nowhere", "--out"),
     (
         "subsurface nowhere.obj --mm-per-unit 1 --material marble",
-        "--atlas --links --choice --channels --link-format --map --tolerance --light --irradiance --pass-1 --direct \
+        "--material --sigma-s --sigma-a --eta --mm-per-unit --atlas --links --choice --channels --link-format --map --tolerance --light --irradiance --pass-1 --direct \
          --fresnel --combine --diffuse --probe --all-pairs --device --switch --executor --adapter --frames --size --eye \
          --target --up --tan-half-height --exposure --out",
     ),
@@ -247,8 +247,21 @@ fn hostile_files() {
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
-        &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4"],
-        &["subsurface", "m.obj", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--irradiance", "IN"],
+        &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
+        &[
+            "subsurface",
+            "m.obj",
+            "--mm-per-unit",
+            "1",
+            "--material",
+            "marble",
+            "--atlas",
+            "4",
+            "--all-pairs",
+            "no",
+            "--irradiance",
+            "IN",
+        ],
         &["intersect", "--mesh", "IN", "--rays", "r.csv", "--out", "h.csv"],
         &["intersect", "--mesh", "m.obj", "--rays", "IN", "--out", "h.csv"],
     ];

@@ -1,9 +1,10 @@
-//! Subsurface scattering of a model by several ways of gathering: the three passes of an emulated card beside the host's
-//! sums over the same links, and over all pairs of texels.
+//! Subsurface scattering of a model by several ways of gathering: the three passes of an emulated card, the host's sums
+//! over the same links, and those over all pairs of texels.
 
 mod conclusion;
 mod error;
 mod model;
+mod outcome;
 mod parameters;
 mod pictures;
 mod report;
@@ -15,33 +16,16 @@ use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 use crate::subsurface::factor::SurfaceMoments;
+use crate::subsurface::links::Links;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 
 pub use error::SubsurfaceError;
 pub use model::ModelLengths;
+pub use outcome::SubsurfaceOutcome;
 pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
 pub use truth::{RadiosityError, Truth};
 pub use way::WayRow;
-
-/// What a study found.
-#[derive(Debug)]
-pub struct SubsurfaceOutcome {
-    /// The model's atlas.
-    pub atlas: Atlas,
-    /// Lengths of model and medium.
-    pub lengths: ModelLengths,
-    /// Of red, green and blue.
-    pub dipoles: [Dipole; 3],
-    /// E of equation 8 per texel, by the host.
-    pub irradiance: Vec<[f64; 3]>,
-    /// All pairs, if asked for.
-    pub truth: Option<Truth>,
-    /// For each probe its texel.
-    pub probe_texels: Vec<usize>,
-    /// A row per way.
-    pub rows: Vec<WayRow>,
-}
 
 impl Study for Parameters {
     type Error = SubsurfaceError;
@@ -96,8 +80,15 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         truth: truth.as_ref(),
     };
     let mut rows = Vec::new();
+    // Ways that differ in formats alone follow each other and share their links.
+    let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
-        rows.push(way::run(&scene, way, at == 0, progress)?);
+        let links = match last.take() {
+            Some((other, links)) if (other.choice, other.rgb) == (way.choice, way.rgb) => links,
+            _ => way::links(&scene, way, progress)?,
+        };
+        rows.push(way::run(&scene, way, (&links, at == 0), progress)?);
+        last = Some((way, links));
     }
     Ok(SubsurfaceOutcome { atlas, lengths, dipoles, irradiance, truth, probe_texels, rows })
 }

@@ -63,7 +63,7 @@ const MEDIUM: &str = "The diffusion length is 1 over the effective transport coe
 
 const ERRORS: &str = "links: the host's sum over the links, in double precision, against that over all pairs of texels; plain means: the same with means \
     of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
-    against all pairs. Without all pairs (atlases above 128 x 128, unless asked for) there is nothing to compare links with.";
+    against all pairs. Without all pairs (atlases above 64 x 64, unless asked for) there is nothing to compare links with.";
 
 const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
     lost to 0 are smaller than the format's least number. Instructions are of all programs of pass 2 together, samplers of the largest.";

@@ -73,26 +73,33 @@ pub struct WayRow {
     pub(super) log: Vec<Event>,
 }
 
-/// Runs one way; frames of turned lights if it is the first.
+/// The links of a way.
+pub(super) fn links(
+    scene: &Scene<'_>,
+    way: GatherWay,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Links, SubsurfaceError> {
+    progress(&format!("links: {}", way.label(scene.parameters.side)), 0, 2);
+    let dipoles = if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
+    Ok(Links::new(scene.surface, dipoles, way.choice, scene.parameters.tolerance, &|_, _| {})?)
+}
+
+/// Runs one way with its links; frames of turned lights if it is the first.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
-    first: bool,
+    (links, first): (&Links, bool),
     progress: &mut ProgressFn<'_>,
 ) -> Result<WayRow, SubsurfaceError> {
     let parameters = scene.parameters;
     let label = way.label(parameters.side);
-    progress(&format!("links: {label}"), 0, 3);
-    let dipoles = if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
-    let links = Links::new(scene.surface, dipoles, way.choice, parameters.tolerance, &|_, _| {})?;
     let host = |weighting| -> Result<Vec<[f64; 3]>, SubsurfaceError> {
         Ok(links.gather(&IrradianceMeans::new(scene.surface, scene.irradiance, weighting)?))
     };
     let (summed, plain) = (host(MeanWeighting::Area)?, host(MeanWeighting::Count)?);
-    let lost = EncodedLinks::new(&links, scene.surface, MeanWeighting::Area).lost(format(way.links));
-    let textures = LinkTextures::new(&links, scene.surface, MeanWeighting::Area);
-    drop(links);
-    progress(&format!("passes: {label}"), 1, 3);
+    let lost = EncodedLinks::new(links, scene.surface, MeanWeighting::Area).lost(format(way.links));
+    let textures = LinkTextures::new(links, scene.surface, MeanWeighting::Area);
+    progress(&format!("passes: {label}"), 1, 2);
     let options = SubsurfaceCardOptions {
         light: parameters.stage,
         map: map_format(scene, way.map),

@@ -24,8 +24,8 @@ const SLOPE: f64 = 3.0;
 /// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
 /// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
 const FAR: f64 = 0.5;
-/// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of about
-/// 10 mean free paths.
+/// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of
+/// about 10 mean free paths.
 const HOPELESS: f64 = 30.0;
 /// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
 /// total over the plane.

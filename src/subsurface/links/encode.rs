@@ -32,8 +32,8 @@ pub struct LinkPlace {
 }
 
 impl LinkPlace {
-    /// The place of a cluster in an atlas of `side` texels along a side. Exact in fp32. In fp16, which has 11 bits, exact
-    /// up to 1024 texels: the odd multiples of 1/2048. At 2048 every other half of the texel centers is rounded.
+    /// The place of a cluster in an atlas of `side` texels along a side. Exact in fp32. In fp16, which has 11 bits,
+    /// exact up to 1024 texels: the odd multiples of 1/2048. At 2048 every other half of the texel centers is rounded.
     pub fn new(side: u32, ClusterId { level, y, x }: ClusterId) -> Self {
         let center = |at: u32| ((2 * at + 1) as f64 / (2 * (side >> level)) as f64) as f32;
         Self { u: center(x), v: center(y), level: level as f32 }

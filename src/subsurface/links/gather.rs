@@ -85,8 +85,8 @@ fn mean_of_children(
 }
 
 impl Links {
-    /// The radiosity of every texel, row by row: the sum over its links of factor times mean irradiance. A scalar factor
-    /// serves all three channels.
+    /// The radiosity of every texel, row by row: the sum over its links of factor times mean irradiance. A scalar
+    /// factor serves all three channels.
     ///
     /// # Panics
     /// If the means are of an atlas of another size.

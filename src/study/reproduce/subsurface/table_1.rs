@@ -1,7 +1,7 @@
 //! Table 1: frames per second and the shares of the passes.
 //!
-//! The frame rates are 60 over whole numbers to two per cent: they are locked to a display, so pass times contain waits.
-//! Only pass 2 at 1024 x 1024 is longer than what it may hide, and alike on all three models.
+//! The frame rates are 60 over whole numbers to two per cent: they are locked to a display, so pass times contain
+//! waits. Only pass 2 at 1024 x 1024 is longer than what it may hide, and alike on all three models.
 
 use super::counts::MODELS;
 use super::gather::{GatherCost, VARIANTS, cost};
