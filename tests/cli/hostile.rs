@@ -211,7 +211,7 @@ fn what_is_wrong_is_said() {
         ("subsurface stand-in-head --mm-per-unit 1 --sigma-s -1 --sigma-a 1", "a number of at least 0, or three"),
         ("subsurface stand-in-head --mm-per-unit 1 --sigma-s 1", "--sigma-a <A>"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --links 15", "has 15 clusters"),
-        ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 100", "a power of two"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 100 --choice adaptive", "power of two"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sun:1,1,1", "directional:X,Y,Z:R,G,B"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sky:0,0,0", "expected light on the model"),

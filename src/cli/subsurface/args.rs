@@ -14,7 +14,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10
       a stand-in for the paper's head with 16 fixed links per texel, beside all pairs of texels, as one page
-  crossbar subsurface docs/examples/teapot.obj --material skin1 --mm-per-unit 8 --choice fixed --choice adaptive --links 4,16,64 --channels rgb
+  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice fixed --choice adaptive --links 4,16,64 --channels rgb
       both choices of links, and how the error falls with their number
   crossbar subsurface stand-in-head --sigma-s 2.21 --sigma-a 0.0012 --eta 1.3 --mm-per-unit 20 --map 8bit --map fp16 --map fp32 --link-format fp16 --link-format fp32
       the coefficients of the paper's Figure 7, in every format of map and links

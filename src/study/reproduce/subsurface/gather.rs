@@ -5,6 +5,7 @@
 //! takes.
 
 use refsim::device::Profile;
+use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
 use super::{LINKS, ReproduceError, failed};
@@ -12,8 +13,8 @@ use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
 use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions,
-    pass_times,
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, PassEvent, PassKind, SubsurfaceCard,
+    SubsurfaceCardOptions, pass_times,
 };
 
 /// The squares that are timed.
@@ -53,6 +54,8 @@ pub(super) struct GatherCost {
     pub(super) instructions: usize,
     /// Samplers of the largest.
     pub(super) samplers: usize,
+    /// Texture reads per texel.
+    pub(super) lookups: f64,
     /// Seconds at each of [`SIDES`].
     seconds: [f64; 3],
 }
@@ -69,19 +72,29 @@ impl GatherCost {
 
 /// Runs a variant on a card.
 pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
-    let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, seconds: [0.0; 3] };
+    let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;
         let mut machine = square(profile.clone(), side, variant).map_err(|e| failed(card)(&e))?;
         machine.record(true);
         machine.light(&[Light::Sky { radiance: [1.0; 3] }]).map_err(|e| failed(card)(&e))?;
-        *seconds = pass_times(&profile, &machine.take_log())?[GATHER].time.seconds();
+        let log = machine.take_log();
+        *seconds = pass_times(&profile, &log)?[GATHER].time.seconds();
+        found.lookups = lookups(&log);
         let programs = machine.gather_programs();
         found.programs = programs.len();
         found.instructions = programs.iter().map(|program| program.instructions()).sum();
         found.samplers = programs.iter().map(|program| program.samplers()).max().unwrap_or(0);
     }
     Ok(found)
+}
+
+/// Texture reads of pass 2 per fragment, all of its draws together.
+fn lookups(log: &[PassEvent]) -> f64 {
+    let draws = log.iter().filter(|event| event.pass == PassKind::Gather);
+    let draws = draws
+        .filter_map(|event| if let Event::Draw(draw) = &event.event { Some(&draw.counts.fragments) } else { None });
+    draws.map(|fragments| fragments.fetches.iter().sum::<u64>() as f64 / fragments.shaded as f64).sum()
 }
 
 /// A square of the medium with links that all lead to its middle: time does not depend on values.
