@@ -153,11 +153,10 @@ impl<'a> Reference<'a> {
             if near_count == 0 {
                 continue;
             }
-            for k in 0..count {
-                let j = first + k;
+            for (j, &squared) in (first..).zip(&squared[..count]) {
                 let reach = radius + self.texels.radius[j];
-                if squared[k] < NEAR * reach * (NEAR * reach) {
-                    sum += power[j] * near(j, squared[k] < CLOSE * reach * (CLOSE * reach));
+                if squared < NEAR * reach * (NEAR * reach) {
+                    sum += power[j] * near(j, squared < CLOSE * reach * (CLOSE * reach));
                 }
             }
         }
@@ -201,7 +200,7 @@ impl<'a> Reference<'a> {
                 area += triangle_points(triangle, divisions, &mut points);
             }
         }
-        if !(area > 0.0) {
+        if area.is_nan() || area <= 0.0 {
             return vec![(self.point(texel), 1.0)];
         }
         points.iter_mut().for_each(|(_, weight)| *weight /= area);

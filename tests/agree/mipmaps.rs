@@ -28,6 +28,9 @@ struct Fixture {
     read: [Vertex; 4],
 }
 
+/// All levels of the target, what was read of them, and the log.
+type Drawn = (Vec<u8>, Vec<u8>, Vec<Event>);
+
 impl Fixture {
     fn new(seed: u64) -> Self {
         let mut r = Random::named("mipmaps", seed);
@@ -66,7 +69,7 @@ impl Fixture {
     }
 
     /// All levels of the target, what was read of them, and the log.
-    fn draw(&self, executor: &Executor) -> Result<(Vec<u8>, Vec<u8>, Vec<Event>), MachineError> {
+    fn draw(&self, executor: &Executor) -> Result<Drawn, MachineError> {
         let mut machine = executor.machine(&self.profile)?;
         machine.record(true);
         let [width, height] = self.size;
@@ -113,7 +116,7 @@ fn quad(scale: f32, r: &mut Random) -> [Vertex; 4] {
 #[test]
 fn generated_levels_are_read_alike() {
     let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse::<u64>().ok());
-    let short = if std::env::var_os("CROSSBAR_FULL").is_some() { 3000 } else { 100 };
+    let short = if std::env::var_os("CROSSBAR_FULL").is_some() { 3000 } else { 40 };
     let mut levels = 0;
     for seed in one.map_or(0..short, |seed| seed..seed + 1) {
         let fixture = Fixture::new(seed);

@@ -102,7 +102,10 @@ fn bits(texels: &Texels) -> Vec<[u32; 4]> {
 fn agrees(name: &str, links: &LinkTextures, options: SubsurfaceCardOptions, views: &[View], lights: &[Light]) {
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
-    for (executor, how) in executors() {
+    // In the short form one case in four, by its name, is drawn on a GPU.
+    let full = std::env::var_os("CROSSBAR_FULL").is_some();
+    let on_gpu = full || name.bytes().map(usize::from).sum::<usize>().is_multiple_of(4);
+    for (executor, how) in executors().into_iter().filter(|(executor, _)| on_gpu || *executor != "wgpu") {
         let what = format!("{name}, {executor}");
         let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)
             .unwrap_or_else(|e| panic!("{what}: {e}"));

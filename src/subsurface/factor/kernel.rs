@@ -271,7 +271,8 @@ mod tests {
             assert!(bound > 0.0 && bound <= MAX_INTERPOLATION_ERROR, "{bound}");
             let mut worst: f64 = 0.0;
             for k in 0..20_000 {
-                let r = 300.0 * (f64::from(k) / 20_000.0).powi(3);
+                let t = f64::from(k) / 20_000.0;
+                let r = 300.0 * (t * t * t);
                 if medium.sigma_tr() * r > MATTERS {
                     break;
                 }

@@ -22,7 +22,7 @@ const DISPLAY: f64 = 60.0;
 const SIDES: [f64; 2] = [512.0, 1024.0];
 
 const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So a frame waits for the \
-    display, and only pass 2 at {} x {}, the longest part and alike on all models within {} %, says how fast the card is.";
+    display, and only the second pass at {} x {}, the longest part and alike on all models within {} %, says how fast the card is.";
 const OPEN: &str = "Neither the format of the radiosity map nor which links were timed is printed. The rows are those of fixed links and an 8-bit map, \
     which automatic mipmaps (section 4.2.2) need on this card; the table has every variant, for every card of the time. They spread by a factor of {}.";
 
