@@ -106,7 +106,8 @@ impl KernelText {
     }
 }
 
-fn instructions(text: &str) -> usize {
+/// Instructions of a text: lines that end in `;`.
+pub(crate) fn instructions(text: &str) -> usize {
     text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
 }
 

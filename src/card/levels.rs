@@ -6,7 +6,7 @@ use refsim::machine::{Machine, MachineError, TextureId};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::{FullScreenPass, new_target};
+use super::{FullScreenPass, nearest, new_target};
 
 /// The levels below a texture, each half as wide and high as the one before (rounded down, at least 1), down to one
 /// texel.
@@ -47,9 +47,9 @@ impl Levels {
         let (mut finer, mut size, mut events) = (base, self.base, DrawEvents::default());
         for &target in &self.targets {
             let constants = &Constants::default();
-            let pass = FullScreenPass { program, constants, textures: &[finer], target, mask: WriteMask::ALL };
-            let [width, height] = size.map(|side| side as f32);
-            events += pass.draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])?;
+            let textures = &nearest([finer]);
+            let pass = FullScreenPass { program, constants, textures, target, mask: WriteMask::ALL, part: None };
+            events += pass.draw_counting(machine, size)?;
             (finer, size) = (target, halved(size));
         }
         Ok(events)

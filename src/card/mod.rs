@@ -2,7 +2,7 @@
 //!
 //! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
 //! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;
-//! - [`FullScreenPass`]: one quad over a whole target; [`PingPong`]: two targets that passes write in turn;
+//! - [`FullScreenPass`]: one quad over a target; [`PingPong`]: two targets that passes write in turn;
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment.
 //!
@@ -16,9 +16,9 @@ mod pass;
 mod texels;
 
 pub use kernel::{KernelError, KernelText};
-pub(crate) use kernel::{checked, kernels};
+pub(crate) use kernel::{checked, instructions, kernels};
 pub use levels::Levels;
 pub use nearest::NearestTarget;
-pub use pass::{FullScreenPass, PingPong};
+pub use pass::{FullScreenPass, PingPong, ReadTexture, constants, nearest};
 pub use refsim::raster::full_screen_quad;
 pub use texels::{Texels, new_target};

@@ -4,12 +4,25 @@ use refsim::event::DrawEvents;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Machine, MachineError, TextureId, VertexSource};
 use refsim::output::WriteMask;
-use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
+use refsim::raster::{PixelCenter, Primitive, Viewport, full_screen_quad};
 use refsim::texture::{SamplerState, TexelFormat};
 
 use super::new_target;
 
-/// A draw of one quad over a whole target. Textures are read without filtering and clamped at their borders.
+/// A texture and how it is read.
+pub type ReadTexture = (TextureId, SamplerState);
+
+/// Textures that are read without filtering and clamped at their borders.
+pub fn nearest<const N: usize>(textures: [TextureId; N]) -> [ReadTexture; N] {
+    textures.map(|texture| (texture, SamplerState::NEAREST_CLAMP))
+}
+
+/// Constants of a program: the first is `c0` or `p[0]`.
+pub fn constants(values: impl IntoIterator<Item = [f32; 4]>) -> Constants {
+    Constants { float: values.into_iter().map(|value| value.map(f32::to_bits)).collect(), ..Constants::default() }
+}
+
+/// A draw of one quad over a whole target, or a part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct FullScreenPass<'a> {
     /// The pixel program.
@@ -17,11 +30,13 @@ pub struct FullScreenPass<'a> {
     /// Its constants.
     pub constants: &'a Constants,
     /// The textures of samplers 0, 1 and so on.
-    pub textures: &'a [TextureId],
+    pub textures: &'a [ReadTexture],
     /// Where the results go.
     pub target: TextureId,
     /// The components that are written.
     pub mask: WriteMask,
+    /// The part of the target that the quad covers; `None`: all.
+    pub part: Option<Viewport>,
 }
 
 impl FullScreenPass<'_> {
@@ -37,12 +52,22 @@ impl FullScreenPass<'_> {
         let quad = full_screen_quad(coordinates);
         let source = VertexSource::Transformed(&quad);
         let mut call = DrawCall::new(source, Primitive::QuadList, self.program, self.constants, self.target);
-        for (sampler, texture) in self.textures.iter().enumerate() {
-            call = call.with_texture(sampler, *texture, SamplerState::NEAREST_CLAMP);
+        for (sampler, &(texture, state)) in self.textures.iter().enumerate() {
+            call = call.with_texture(sampler, texture, state);
         }
         call.center = PixelCenter::OpenGl;
         call.masks[0] = self.mask;
+        call.viewport = self.part;
         machine.draw(&call)
+    }
+
+    /// Draws it with one set of coordinates, TEX0, which counts `size` texels over the quad.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn draw_counting(&self, machine: &mut Machine, size: [usize; 2]) -> Result<DrawEvents, MachineError> {
+        let [width, height] = size.map(|side| side as f32);
+        self.draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])
     }
 }
 

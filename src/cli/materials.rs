@@ -95,7 +95,8 @@ fn refused(error: MaterialError) -> Problem {
     Problem::usage(error.to_string(), "coefficients are per mm; `crossbar materials` shows published ones")
 }
 
-fn published(name: &str) -> Result<&'static PublishedMaterial, Problem> {
+/// The published medium of a name.
+pub(super) fn published(name: &str) -> Result<&'static PublishedMaterial, Problem> {
     named(name).ok_or_else(|| {
         let names = MATERIALS.map(|material| material.name);
         let meant = did_you_mean(name, names);

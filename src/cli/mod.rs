@@ -6,6 +6,7 @@
 
 mod alu;
 mod atlas;
+mod card;
 mod caster;
 mod check;
 mod compare;

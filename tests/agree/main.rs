@@ -26,6 +26,7 @@ mod shrink;
 mod steps;
 mod subsurface;
 mod suite;
+mod system;
 mod traces;
 
 /// Runs the suite that a test is named after: its path without the crate.

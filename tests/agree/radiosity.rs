@@ -6,33 +6,12 @@ use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{self, CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::{self, Packing};
 use crossbar::radiosity::{FormFactors, System};
-use refsim::device::Profile;
-#[cfg(feature = "wgpu")]
-use refsim::exec::gpu::testing;
 use refsim::machine::{Executor, ExecutorKind};
 
 use crate::random::Random;
+use crate::system::{bits, executors, nv35};
 
 const LIMIT: usize = 4096;
-
-fn nv35() -> Profile {
-    Profile::named("nv35").expect("a card")
-}
-
-/// Every way to draw, by name.
-fn executors() -> Vec<(&'static str, Executor)> {
-    let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
-    #[cfg(feature = "wgpu")]
-    let all = all.into_iter().chain(on_gpu()).collect();
-    all
-}
-
-/// The adapter that there is; without one, nothing, except where that is a failure.
-#[cfg(feature = "wgpu")]
-fn on_gpu() -> Option<(&'static str, Executor)> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
-    Some(("wgpu", Executor::Gpu { gpu }))
-}
 
 /// Form factors of a room that leaks a little, no two alike; reflectances below 1.
 fn room(size: usize, seed: u64) -> System {
@@ -49,10 +28,6 @@ fn room(size: usize, seed: u64) -> System {
     let mut colors = |most: f64| (0..size).map(|_| [number() * most, number() * most, number() * most]).collect();
     let reflectance = colors(0.9);
     System::new(factors, reflectance, colors(10.0)).expect("a system")
-}
-
-fn bits(texels: &Texels) -> Vec<[u32; 4]> {
-    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
 /// Two iterations on a card, pass by pass, against the host's.

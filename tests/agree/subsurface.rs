@@ -9,34 +9,12 @@ use crossbar::subsurface::on_card::{
     CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View,
     order,
 };
-use refsim::device::Profile;
-#[cfg(feature = "wgpu")]
-use refsim::exec::gpu::testing;
-use refsim::machine::{Executor, ExecutorKind};
 use refsim::texture::TexelFormat;
 
 use crate::random::Random;
+use crate::system::{bits, executors, nv35};
 
 const SIDE: u32 = 16;
-
-fn nv35() -> Profile {
-    Profile::named("nv35").expect("a card")
-}
-
-/// Every way to draw, by name; the scalar executor first.
-fn executors() -> Vec<(&'static str, Executor)> {
-    let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
-    #[cfg(feature = "wgpu")]
-    let all = all.into_iter().chain(on_gpu()).collect();
-    all
-}
-
-/// The adapter that there is; without one, nothing, except where that is a failure.
-#[cfg(feature = "wgpu")]
-fn on_gpu() -> Option<(&'static str, Executor)> {
-    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
-    Some(("wgpu", Executor::Gpu { gpu }))
-}
 
 /// An octahedron whose corners are not all alike.
 fn model() -> CardModel {
@@ -94,17 +72,19 @@ fn view(kernel: ViewKernel, format: TexelFormat) -> View {
     View { kernel, exposure: 1.5, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, format, ..scattered }
 }
 
-fn bits(texels: &Texels) -> Vec<[u32; 4]> {
-    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
-}
-
-/// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop.
-fn agrees(name: &str, links: &LinkTextures, options: SubsurfaceCardOptions, views: &[View], lights: &[Light]) {
+/// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop. In the
+/// short form one case in five is drawn on a GPU: all that the loops of the tests choose turns up among these.
+fn agrees(
+    case: usize,
+    name: &str,
+    links: &LinkTextures,
+    options: SubsurfaceCardOptions,
+    views: &[View],
+    lights: &[Light],
+) {
     let model = model();
     let mut reference: Option<Vec<Vec<[u32; 4]>>> = None;
-    // In the short form one case in four, by its name, is drawn on a GPU.
-    let full = std::env::var_os("CROSSBAR_FULL").is_some();
-    let on_gpu = full || name.bytes().map(usize::from).sum::<usize>().is_multiple_of(4);
+    let on_gpu = case.is_multiple_of(5) || std::env::var_os("CROSSBAR_FULL").is_some();
     for (executor, how) in executors().into_iter().filter(|(executor, _)| on_gpu || *executor != "wgpu") {
         let what = format!("{name}, {executor}");
         let mut card = SubsurfaceCard::new(nv35(), how, model.clone(), links, 1.3, options)
@@ -130,6 +110,7 @@ const MAPS: [MapFormat; 3] = [MapFormat::Unorm8 { scale: 0.75 }, MapFormat::Fp16
 
 #[test]
 fn fixed_links_are_the_hosts() {
+    let mut case = 0;
     for (level, count) in [(2, 16), (1, 64), (4, 1)] {
         for rgb in [false, true] {
             let links = links(Some(level), rgb, count);
@@ -137,13 +118,9 @@ fn fixed_links_are_the_hosts() {
                 for half in [false, true] {
                     let scattered = if half { FloatTexels::Fp16 } else { FloatTexels::Fp32 };
                     let options = SubsurfaceCardOptions { map, half, scattered, ..SubsurfaceCardOptions::default() };
-                    agrees(
-                        &format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}"),
-                        &links,
-                        options,
-                        &[],
-                        &lights(),
-                    );
+                    let name = format!("{count} fixed links, rgb {rgb}, {map:?}, half {half}");
+                    agrees(case, &name, &links, options, &[], &lights());
+                    case += 1;
                 }
             }
         }
@@ -152,6 +129,7 @@ fn fixed_links_are_the_hosts() {
 
 #[test]
 fn adaptive_links_are_the_hosts() {
+    let mut case = 0;
     for count in [1, 16, 31] {
         for rgb in [false, true] {
             let links = links(None, rgb, count);
@@ -166,7 +144,8 @@ fn adaptive_links_are_the_hosts() {
                         ..SubsurfaceCardOptions::default()
                     };
                     let name = format!("{count} adaptive links, rgb {rgb}, {map:?}, half {half}");
-                    agrees(&name, &links, options, &[], &lights());
+                    agrees(case, &name, &links, options, &[], &lights());
+                    case += 1;
                 }
             }
         }
@@ -182,10 +161,10 @@ fn many_lights_are_the_same_everywhere() {
         let towards = [(n % 3) as f64 - 1.0, (n % 5) as f64 - 2.0, 1.0];
         many.push(Light::Directional { towards, irradiance: [0.01, 0.02, 0.005 * n as f64] });
     }
-    for light in [LightStage::Vertices, LightStage::Texels] {
-        for map in MAPS {
+    for (stage, light) in [LightStage::Vertices, LightStage::Texels].into_iter().enumerate() {
+        for (at, map) in MAPS.into_iter().enumerate() {
             let options = SubsurfaceCardOptions { light, map, ..SubsurfaceCardOptions::default() };
-            agrees(&format!("30 lights, {light:?}, {map:?}"), &links, options, &[], &many);
+            agrees(3 * stage + at, &format!("30 lights, {light:?}, {map:?}"), &links, options, &[], &many);
         }
     }
 }
@@ -207,6 +186,6 @@ fn every_view_is_the_same_everywhere() {
     assert!(views.iter().any(|view| view.kernel == modulated));
     for light in [LightStage::Vertices, LightStage::Texels] {
         let options = SubsurfaceCardOptions { light, scattered: FloatTexels::Fp16, ..SubsurfaceCardOptions::default() };
-        agrees(&format!("views, {light:?}"), &links, options, &views, &lights());
+        agrees(0, &format!("views, {light:?}"), &links, options, &views, &lights());
     }
 }

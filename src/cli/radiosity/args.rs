@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::values::{MaterialColor, PackingArg, SolverArg, StorageArg, light_of, paint_of};
-use crate::cli::executor::{DeviceExecutor, GpuArgs};
+use crate::cli::card::CardArgs;
+use crate::cli::number;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
-use crate::cli::{number, switch};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -82,20 +82,8 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "F")]
     pub(super) storage: Vec<StorageArg>,
 
-    /// The card
-    #[arg(long, value_name = "D", default_value = "nv35")]
-    pub(super) device: String,
-
-    /// A switch of the device; may be given several times
-    #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
-    pub(super) switch: Vec<(String, String)>,
-
-    /// Which executor computes; the bits are the same
-    #[arg(long, value_enum, default_value = "batch")]
-    pub(super) executor: DeviceExecutor,
-
     #[command(flatten)]
-    pub(super) gpu: GpuArgs,
+    pub(super) card: CardArgs,
 
     /// Stop when the norm of the residual is at most this fraction of the emittance's [default: 1e-4; 0 with
     /// --iterations]

@@ -50,9 +50,9 @@ impl StudyArgs for Args {
             subdivision: ask::subdivision(self),
             factors: ask::requirements(self),
             ways: ask::methods(self)?,
-            profile: super::switch::device(&self.device, &self.switch)?,
-            switches: self.switch.clone(),
-            executor: self.executor.open(&self.gpu)?,
+            profile: self.card.profile()?,
+            switches: self.card.switches(),
+            executor: self.card.executor()?,
             options: Options {
                 tolerance: self.tolerance.unwrap_or(if self.iterations.is_some() { 0.0 } else { 1e-4 }),
                 most_iterations: self.iterations.unwrap_or(1000),

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use super::values::{
     ChannelsArg, ChoiceArg, CombineArg, FloatArg, FresnelArg, LightArg, MapArg, StageArg, YesNo, coefficient, place,
 };
-use crate::cli::executor::{DeviceExecutor, GpuArgs};
+use crate::cli::card::CardArgs;
+use crate::cli::number;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
-use crate::cli::{number, switch};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -122,20 +122,8 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "YES")]
     pub(super) all_pairs: Option<YesNo>,
 
-    /// The card
-    #[arg(long, value_name = "D", default_value = "nv35")]
-    pub(super) device: String,
-
-    /// A switch of the device; may be given several times
-    #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
-    pub(super) switch: Vec<(String, String)>,
-
-    /// Which executor computes; the bits are the same
-    #[arg(long, value_enum, default_value = "batch")]
-    pub(super) executor: DeviceExecutor,
-
     #[command(flatten)]
-    pub(super) gpu: GpuArgs,
+    pub(super) card: CardArgs,
 
     /// Pictures of the first way with the lights turned round the model in so many steps
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]

@@ -5,13 +5,13 @@ use glam::DVec3;
 use super::args::Args;
 use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg, YesNo};
 use crate::cli::Problem;
+use crate::cli::materials::published;
 use crate::io::load_irradiances;
-use crate::names::did_you_mean;
 use crate::scene::Camera;
 use crate::study::subsurface::{GatherWay, Lighting};
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::Light;
-use crate::subsurface::{Coefficients, Material, materials};
+use crate::subsurface::{Coefficients, Material};
 
 /// Texels along a side up to which all pairs are gathered unasked.
 const ALL_PAIRS: u32 = 64;
@@ -23,15 +23,7 @@ const ETA: f64 = 1.3;
 /// A published medium, or coefficients.
 pub(super) fn material(args: &Args) -> miette::Result<Material> {
     match (&args.material, args.sigma_s, args.sigma_a) {
-        (Some(name), ..) => match materials::named(name) {
-            Some(published) => Ok(published.material()),
-            None => {
-                let names: Vec<&str> = materials::MATERIALS.iter().map(|material| material.name).collect();
-                let meant = did_you_mean(name, names.iter().copied());
-                let help = format!("{meant}the materials are {}", names.join(", "));
-                Err(Problem::usage(format!("there is no material `{name}`"), help).into())
-            }
-        },
+        (Some(name), ..) => Ok(published(name)?.material()),
         (None, Some(s), Some(a)) => {
             let channel = |c: usize| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] };
             let made = Material::new("the coefficients given", [0, 1, 2].map(channel), args.eta.unwrap_or(ETA));
@@ -87,8 +79,10 @@ fn link_choice(choice: ChoiceArg, links: u32, side: u32) -> Result<LinkChoice, P
     match choice {
         ChoiceArg::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
         ChoiceArg::Fixed => {
-            let found = (0..=side.max(1).ilog2()).find(|&level| u64::from(side >> level).pow(2) == u64::from(links));
-            found.map(|level| LinkChoice::Fixed { level }).ok_or_else(|| {
+            let found = (0..=side.max(1).ilog2())
+                .map(|level| LinkChoice::Fixed { level })
+                .find(|fixed| fixed.per_texel(side) == u64::from(links));
+            found.ok_or_else(|| {
                 let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
                 Problem::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
             })

@@ -58,7 +58,7 @@ impl StudyArgs for Args {
         let material = ask::material(self)?;
         let ways = ask::ways(self, &material)?;
         let reference = ask::all_pairs(self)?;
-        let profile = super::switch::device(&self.device, &self.switch)?;
+        let profile = self.card.profile()?;
         let mesh = model_name::mesh(&self.model)?;
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {
@@ -69,8 +69,8 @@ impl StudyArgs for Args {
             tolerance: self.tolerance,
             stage: self.pass_1.into(),
             probes: self.probe.clone(),
-            switches: self.switch.clone(),
-            executor: self.executor.open(&self.gpu)?,
+            switches: self.card.switches(),
+            executor: self.card.executor()?,
             view: ViewKernel {
                 transmittance: self.fresnel.into(),
                 direct: self.direct.into(),

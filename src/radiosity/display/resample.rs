@@ -6,7 +6,7 @@ use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
 use super::corners::CornerSets;
-use crate::card::{FullScreenPass, PingPong, Texels};
+use crate::card::{FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::draw::{DrawError, bits};
 use crate::radiosity::kernels;
 
@@ -72,16 +72,16 @@ impl Resampler {
     /// Computes the texture of corners from one of patches.
     pub(super) fn run(&self, machine: &mut Machine, radiosity: TextureId) -> Result<TextureId, DrawError> {
         machine.clear_target(self.means.read_by(0), [0; 4])?;
-        let [width, height] = self.size.map(|side| side as f32);
         for (pass, &[numbers, weights]) in self.passes.iter().enumerate() {
             FullScreenPass {
                 program: &self.program,
                 constants: &self.constants,
-                textures: &[numbers, weights, self.means.read_by(pass), radiosity],
+                textures: &nearest([numbers, weights, self.means.read_by(pass), radiosity]),
                 target: self.means.written_by(pass),
                 mask: WriteMask::ALL,
+                part: None,
             }
-            .draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])?;
+            .draw_counting(machine, self.size.map(|side| side as usize))?;
         }
         Ok(self.means.read_by(self.passes.len()))
     }

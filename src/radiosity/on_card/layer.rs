@@ -6,7 +6,7 @@ use refsim::output::WriteMask;
 
 use super::programs::{BlockPass, Programs};
 use super::{CardError, Storage};
-use crate::card::{FullScreenPass, PingPong, Texels, new_target};
+use crate::card::{FullScreenPass, PingPong, Texels, nearest, new_target};
 use crate::radiosity::card_order::CardSystem;
 use crate::radiosity::packing::Packing;
 
@@ -115,9 +115,10 @@ impl Layer {
         FullScreenPass {
             program: &program.checked,
             constants: &Constants::default(),
-            textures: &[self.matrix, self.radiosity, before],
+            textures: &nearest([self.matrix, self.radiosity, before]),
             target: self.target(number),
             mask,
+            part: None,
         }
         .draw(machine, |u, _| [[column, u * rows + row, 0.5, 1.0], [u * width, 0.5, 0.0, 1.0]])?;
         Ok(())

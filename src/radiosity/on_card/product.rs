@@ -13,7 +13,7 @@ use super::fit::{limits, too_large};
 use super::layer::same;
 use super::programs::Programs;
 use super::{CardError, PassProgram};
-use crate::card::{FullScreenPass, PingPong, Texels};
+use crate::card::{FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::kernels;
 use crate::radiosity::packing::TooLarge;
 
@@ -56,7 +56,7 @@ pub fn product(
     let sums = PingPong::new(&mut machine, format, [size; 2])?;
     let side = size as f32;
     for (number, pass) in programs.passes.iter().enumerate() {
-        let textures = [left, right, sums.read_by(number)];
+        let textures = nearest([left, right, sums.read_by(number)]);
         let step = pass.from as f32 + 0.5;
         FullScreenPass {
             program: &programs.list[pass.program].checked,
@@ -65,6 +65,7 @@ pub fn product(
             textures: if number == 0 { &textures[..2] } else { &textures },
             target: sums.written_by(number),
             mask: WriteMask::ALL,
+            part: None,
         }
         .draw(&mut machine, |u, v| [[step, v * side, u * side, 1.0], [u * side, v * side, 0.0, 1.0]])?;
     }

@@ -3,7 +3,6 @@
 use miette::Diagnostic;
 use refsim::device::DeviceError;
 use refsim::machine::MachineError;
-use refsim::timing::TimingError;
 use thiserror::Error;
 
 use crate::names::did_you_mean;
@@ -12,7 +11,6 @@ use crate::radiosity::on_card::CardError;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::solve::SolveError;
 use crate::radiosity::{DrawError, FormFactorError, PatchError, SystemError};
-use crate::report::ReportError;
 use crate::study::timeline_trace::TimelineError;
 
 /// Why the study has no findings.
@@ -64,10 +62,6 @@ pub enum RadiosityError {
     #[error(transparent)]
     #[diagnostic(code(radiosity::rate))]
     Rate(#[from] RateError),
-    /// The timing model.
-    #[error(transparent)]
-    #[diagnostic(code(radiosity::timing))]
-    Timing(#[from] TimingError),
     /// The timeline.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -76,8 +70,4 @@ pub enum RadiosityError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// A file that cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
 }

@@ -122,12 +122,12 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     ReproduceEntry {
         id: "subsurface-counts",
         title: "Nodes, lookups, textures and instructions (subsurface scattering, sections 2.3 and 4.2)",
-        work: |_| subsurface::counts(),
+        work: subsurface::counts,
     },
     ReproduceEntry {
         id: "subsurface-table-1",
         title: "The time of pass 2, and frames locked to a display (subsurface scattering, table 1)",
-        work: |_| subsurface::table_1(),
+        work: subsurface::table_1,
     },
 ];
 

@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use super::ReproduceError;
+use super::subsurface::{CARD, GatherCost, all_costs};
 use super::tables::{SpeedUps, TeapotRoom, work_out};
 
 /// Renderings and runs of the engine that entries share.
@@ -10,6 +11,7 @@ use super::tables::{SpeedUps, TeapotRoom, work_out};
 pub(super) struct Shared {
     teapot: OnceCell<TeapotRoom>,
     speed_ups: OnceCell<SpeedUps>,
+    gather: OnceCell<Vec<GatherCost>>,
 }
 
 impl Shared {
@@ -21,6 +23,11 @@ impl Shared {
     /// The rows of Tables 3 to 5 and what explains them.
     pub(super) fn speed_ups(&self) -> Result<&SpeedUps, ReproduceError> {
         get_or_try(&self.speed_ups, || work_out(self.teapot()?))
+    }
+
+    /// Pass 2 of system 3 on the card of its Table 1, in each of its variants.
+    pub(super) fn gather(&self) -> Result<&[GatherCost], ReproduceError> {
+        Ok(get_or_try(&self.gather, || all_costs(CARD))?)
     }
 }
 

@@ -6,7 +6,6 @@ use thiserror::Error;
 
 use crate::atlas::AtlasError;
 use crate::picture::PictureError;
-use crate::report::ReportError;
 use crate::study::timeline_trace::TimelineError;
 use crate::subsurface::MaterialError;
 use crate::subsurface::factor::FactorError;
@@ -57,8 +56,4 @@ pub enum SubsurfaceError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// A file that cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
 }

@@ -24,7 +24,7 @@ pub use error::SubsurfaceError;
 pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;
 pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
-pub use truth::{RadiosityError, Truth};
+pub use truth::{GatherError, Truth};
 pub use way::WayRow;
 
 impl Study for Parameters {
@@ -52,7 +52,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
     progress("atlas", 0, 1);
     let atlas = Atlas::new(&parameters.mesh, parameters.side)?;
     let surface = SurfaceMoments::new(&atlas, parameters.mm_per_unit)?;
-    let lengths = ModelLengths::of(&atlas, parameters, &dipoles);
+    let lengths = ModelLengths::of(&atlas, &surface, parameters, &dipoles);
     let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
     let irradiance = match &parameters.lighting {
         Lighting::Lights(lights) => irradiance(&atlas, lights, eta),

@@ -5,6 +5,8 @@ use glam::DVec3;
 use super::{Parameters, SubsurfaceError};
 use crate::atlas::Atlas;
 use crate::subsurface::Dipole;
+use crate::subsurface::factor::SurfaceMoments;
+use crate::subsurface::links::Fitness;
 
 /// Lengths of the model beside those of the medium, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,18 +26,16 @@ pub struct ModelLengths {
 }
 
 impl ModelLengths {
-    pub(super) fn of(atlas: &Atlas, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
+    pub(super) fn of(atlas: &Atlas, surface: &SurfaceMoments, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
         let mm = parameters.mm_per_unit;
-        let mean_free_path = dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min);
-        let coarse = |area: f64| area.sqrt() * mm > mean_free_path;
-        let of_coarse: f64 = atlas.texels().iter().map(|t| t.area).filter(|&area| coarse(area)).sum();
+        let coarse = dipoles.iter().map(|dipole| Fitness::new(surface, dipole).coarse_fraction);
         let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
             (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
         });
         Self {
             texel: atlas.mean_texel_area().sqrt() * mm,
-            coarse: if atlas.area() > 0.0 { of_coarse / atlas.area() } else { 0.0 },
-            mean_free_path,
+            coarse: coarse.fold(0.0, f64::max),
+            mean_free_path: dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min),
             diffusion_length: dipoles.iter().map(Dipole::diffusion_length).fold(0.0, f64::max),
             diagonal: extent.length(),
             shortest_side: extent.min_element(),

@@ -89,23 +89,12 @@ pub struct GatherWay {
 }
 
 impl GatherWay {
-    /// Links per texel on an atlas of `side` texels along a side.
-    pub fn links_per_texel(&self, side: u32) -> u64 {
-        match self.choice {
-            LinkChoice::Fixed { level } => u64::from(side >> level.min(31)).pow(2),
-            LinkChoice::Adaptive { count } => count as u64,
-        }
-    }
-
     /// A name for tables and files.
     pub fn label(&self, side: u32) -> String {
-        let choice = match self.choice {
-            LinkChoice::Fixed { .. } => "fixed",
-            LinkChoice::Adaptive { .. } => "adaptive",
-        };
         let channels = if self.rgb { "-rgb" } else { "" };
         let half = if self.half { "-half" } else { "" };
-        format!("{choice}-{}{channels}-{}-map-{}{half}", self.links_per_texel(side), name(self.links), self.map)
+        let (choice, count) = (self.choice.word(), self.choice.per_texel(side));
+        format!("{choice}-{count}{channels}-{}-map-{}{half}", name(self.links), self.map)
     }
 }
 

@@ -26,7 +26,8 @@ pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
 pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
     let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
     let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();
-    let (width, height) = row.picture.display(exposure)?.dimensions();
+    let together = row.picture.display(exposure)?;
+    let (width, height) = together.dimensions();
     let direct = Picture::rgb(width, height, &direct).display(exposure)?;
     Ok(vec![
         NamedPicture::new("direct", direct, "without subsurface scattering: the difference of the other two"),

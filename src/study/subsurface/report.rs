@@ -5,7 +5,6 @@ use super::{Parameters, SubsurfaceError, SubsurfaceOutcome, WayRow, pictures, ta
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
 use crate::study::timeline_trace;
-use crate::subsurface::links::LinkChoice;
 
 pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, SubsurfaceError> {
     let mut found = Findings::new("Subsurface scattering");
@@ -75,7 +74,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     let mut lines: Vec<Series> = Vec::new();
     for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
         let label = line(row);
-        let point = (row.way.links_per_texel(parameters.side) as f64, 100.0 * error.rms);
+        let point = (row.way.choice.per_texel(parameters.side) as f64, 100.0 * error.rms);
         match lines.iter_mut().find(|line| line.label == label) {
             Some(line) => line.points.push(point),
             None => lines.push(Series { label, points: vec![point] }),
@@ -96,10 +95,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
 
 /// The way without its number of links.
 fn line(row: &WayRow) -> String {
-    let choice = match row.way.choice {
-        LinkChoice::Fixed { .. } => "fixed",
-        LinkChoice::Adaptive { .. } => "adaptive",
-    };
     let channels = if row.way.rgb { ", RGB" } else { "" };
+    let choice = row.way.choice.word();
     format!("{choice}{channels}, {} links, {} map", super::parameters::name(row.way.links), row.way.map)
 }

@@ -1,6 +1,6 @@
 //! The tables of the study.
 
-use super::{Parameters, RadiosityError, SubsurfaceOutcome, WayRow, model};
+use super::{GatherError, Parameters, SubsurfaceOutcome, WayRow, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 
@@ -54,9 +54,9 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
         "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B",
         "way links_rms_% links_largest_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
     );
-    let rms = |error: RadiosityError| Cell::percent(100.0 * error.rms);
-    let largest = |error: RadiosityError| Cell::percent(100.0 * error.largest);
-    let or_empty = |error: Option<RadiosityError>, of: fn(RadiosityError) -> Cell| error.map_or(Cell::Empty, of);
+    let rms = |error: GatherError| Cell::percent(100.0 * error.rms);
+    let largest = |error: GatherError| Cell::percent(100.0 * error.largest);
+    let or_empty = |error: Option<GatherError>, of: fn(GatherError) -> Cell| error.map_or(Cell::Empty, of);
     for row in &outcome.rows {
         table.push([
             row.label.as_str().into(),

@@ -16,14 +16,14 @@ pub struct Truth {
 
 /// How far radiosities are from others, as shares of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RadiosityError {
+pub struct GatherError {
     /// Root of the mean squared difference, over that of the others' values; by area, over all channels.
     pub rms: f64,
     /// The largest difference over the others' largest value.
     pub largest: f64,
 }
 
-impl RadiosityError {
+impl GatherError {
     /// Of `found` against `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let (mut squares, mut reference, mut largest, mut most) = (0.0, 0.0, 0.0_f64, 0.0_f64);

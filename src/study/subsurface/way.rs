@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
-use super::truth::{RadiosityError, Truth};
+use super::truth::{GatherError, Truth};
 use super::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceError};
 use crate::atlas::Atlas;
 use crate::picture::Picture;
@@ -13,9 +13,7 @@ use crate::study::ProgressFn;
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{DirectLight, ViewKernel};
-use crate::subsurface::links::{
-    EncodedLinks, IrradianceMeans, LinkChoice, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
-};
+use crate::subsurface::links::{EncodedLinks, IrradianceMeans, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, Light, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
     pass_times,
@@ -40,7 +38,7 @@ pub struct WayRow {
     pub label: String,
     /// The way.
     pub way: GatherWay,
-    /// Textures of links, and reads of links and of the map per texel.
+    /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
     pub lookups: [usize; 2],
     /// The card's memory: all of it, and of links alone, in bytes.
     pub memory: [u64; 2],
@@ -51,18 +49,18 @@ pub struct WayRow {
     /// Texel channels of the map at its largest value.
     pub saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
-    pub links_error: Option<RadiosityError>,
+    pub links_error: Option<GatherError>,
     /// The same with means by number of texels.
-    pub plain_error: Option<RadiosityError>,
+    pub plain_error: Option<GatherError>,
     /// The card's own error: against the host's sum over the same links.
-    pub card_error: RadiosityError,
+    pub card_error: GatherError,
     /// Both together: the card against all pairs.
-    pub error: Option<RadiosityError>,
+    pub error: Option<GatherError>,
     /// Modelled times of the passes; `None` for devices without time.
     pub times: Option<[PassTime; 4]>,
     /// B of every texel, by the card.
     pub radiosity: Vec<[f64; 3]>,
-    /// The irradiance map, by the card: E of every texel.
+    /// Of the first way, E of every texel as the card's map has it.
     pub irradiance: Vec<[f64; 3]>,
     /// Scattered and direct light.
     pub picture: Picture,
@@ -97,7 +95,7 @@ pub(super) fn run(
         Ok(links.gather(&IrradianceMeans::new(scene.surface, scene.irradiance, weighting)?))
     };
     let (summed, plain) = (host(MeanWeighting::Area)?, host(MeanWeighting::Count)?);
-    let lost = EncodedLinks::new(links, scene.surface, MeanWeighting::Area).lost(format(way.links));
+    let encoded = EncodedLinks::new(links, scene.surface, MeanWeighting::Area);
     let textures = LinkTextures::new(links, scene.surface, MeanWeighting::Area);
     progress(&format!("passes: {label}"), 1, 2);
     let options = SubsurfaceCardOptions {
@@ -125,15 +123,15 @@ pub(super) fn run(
     let scattered = card.view(&view(parameters, DirectLight::None))?;
     let radiosity: Vec<[f64; 3]> =
         card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
-    let irradiance = entered(scene, &card, options.map.scale())?;
-    let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| RadiosityError::between(scene.atlas, found, expected);
+    let irradiance = if first { entered(scene, &card, options.map.scale())? } else { Vec::new() };
+    let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| GatherError::between(scene.atlas, found, expected);
     let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, &truth.texels));
     let programs = card.gather_programs();
     let row = WayRow {
-        lookups: lookups(way, parameters.side),
+        lookups: [encoded.texture_count(), links.per_texel()],
         memory: [card.memory().bytes(), card.memory().parts.iter().filter(|part| part.0 == "links").map(|p| p.1).sum()],
         programs: programs.iter().map(|program| [program.instructions(), program.samplers()]).collect(),
-        lost,
+        lost: encoded.lost(format(way.links)),
         saturated: card.saturated()?,
         links_error: against_truth(&summed),
         plain_error: against_truth(&plain),
@@ -173,16 +171,6 @@ fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
     }
 }
 
-/// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
-fn lookups(way: GatherWay, side: u32) -> [usize; 2] {
-    let links = way.links_per_texel(side) as usize;
-    let channels = if way.rgb { 3 } else { 1 };
-    match way.choice {
-        LinkChoice::Fixed { .. } => [links.div_ceil(4) * channels, links],
-        LinkChoice::Adaptive { .. } => [links * if way.rgb { 2 } else { 1 }, links],
-    }
-}
-
 fn light(card: &mut SubsurfaceCard, lighting: &Lighting) -> Result<(), SubsurfaceError> {
     match lighting {
         Lighting::Lights(lights) => card.light(lights)?,
@@ -198,7 +186,7 @@ fn view(parameters: &Parameters, direct: DirectLight) -> View {
 
 /// E of every texel as the map has it; 0 where a texel has no area.
 fn entered(scene: &Scene<'_>, card: &SubsurfaceCard, scale: f64) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
-    let map = card.read_levels()?.swap_remove(0);
+    let map = card.read_map()?;
     let mean = scene.atlas.mean_texel_area();
     let texel = |(&[r, g, b, _], texel): (&[f32; 4], &crate::atlas::Texel)| {
         let factor = if texel.area > 0.0 { mean / (texel.area * scale) } else { 0.0 };

@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 
-use crate::card::{KernelError, checked};
+use crate::card::{KernelError, checked, instructions};
 
 /// How links are chosen, as the program sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -101,7 +101,7 @@ impl GatherKernel {
 
     /// Instructions for so many links.
     pub fn instructions(&self, links: usize) -> usize {
-        self.text(links).lines().filter(|line| line.ends_with(';')).count()
+        instructions(&self.text(links))
     }
 
     /// Samplers for so many links.

@@ -45,7 +45,11 @@ impl LightKernel {
 
     /// The most lights that a program with so many instruction slots and constants can take.
     pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
-        let [none, one] = [0, 1].map(|lights| self.slots(lights));
+        self.most_within([0, 1].map(|lights| self.slots(lights)), slots, constants)
+    }
+
+    /// The same for a program that takes `none` slots without a light and `one` with one.
+    pub(super) fn most_within(&self, [none, one]: [usize; 2], slots: usize, constants: usize) -> usize {
         let by_length = slots.saturating_sub(none) / one.saturating_sub(none).max(1);
         by_length.min(constants.saturating_sub(self.first) / self.step)
     }

@@ -12,7 +12,7 @@ use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 
 use super::LightKernel;
-use crate::card::{KernelError, KernelText, checked};
+use crate::card::{KernelError, KernelText, checked, instructions};
 
 /// The Fresnel transmittance towards the eye.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -206,10 +206,7 @@ impl ViewKernel {
 
     /// The most lights by fragment of a program with so many instruction slots and constants.
     pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
-        let instructions = |lights| self.text(lights).lines().filter(|line| line.ends_with(';')).count();
-        let [none, one] = [0, 1].map(instructions);
-        let by_length = slots.saturating_sub(none) / one.saturating_sub(none).max(1);
-        by_length.min(constants.saturating_sub(LIGHT_PART.first) / LIGHT_PART.step)
+        LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
     /// The program for so many lights by fragment, accepted by a device.

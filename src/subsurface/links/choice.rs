@@ -18,6 +18,24 @@ pub enum LinkChoice {
     },
 }
 
+impl LinkChoice {
+    /// Links per texel of an atlas of `side` texels along a side.
+    pub fn per_texel(self, side: u32) -> u64 {
+        match self {
+            Self::Fixed { level } => u64::from(side >> level.min(31)).pow(2),
+            Self::Adaptive { count } => count as u64,
+        }
+    }
+
+    /// "fixed" or "adaptive".
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Fixed { .. } => "fixed",
+            Self::Adaptive { .. } => "adaptive",
+        }
+    }
+}
+
 /// Chooses the links of a texel: while three more fit into `count`, the cluster with the highest factor (for RGB, the
 /// highest sum of the three) gives way to its children. A texel at the top is set aside, where it stays a link. Equal
 /// factors: the higher level first, then the lower row, then the lower column.

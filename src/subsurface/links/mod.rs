@@ -199,14 +199,14 @@ impl PackedCluster {
 /// The number of links per texel of a choice.
 fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, FactorError> {
     let side = surface.side();
-    let links = match choice {
+    match choice {
         LinkChoice::Fixed { level } if level >= surface.level_count() => {
             return Err(FactorError::Level { found: level, levels: surface.level_count() });
         }
-        LinkChoice::Fixed { level } => (side >> level) as usize * (side >> level) as usize,
         LinkChoice::Adaptive { count: 0 } => return Err(FactorError::NoLinks),
-        LinkChoice::Adaptive { count } => count,
-    };
+        LinkChoice::Fixed { .. } | LinkChoice::Adaptive { .. } => {}
+    }
+    let links = choice.per_texel(side) as usize;
     let texels = side as usize * side as usize;
     match texels.checked_mul(links).and_then(|all| all.checked_mul(channels)) {
         Some(all) if all <= MAX_FACTORS => Ok(links),

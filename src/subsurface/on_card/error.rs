@@ -3,7 +3,6 @@
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::MachineError;
-use refsim::timing::TimingError;
 use thiserror::Error;
 
 use crate::card::KernelError;
@@ -45,9 +44,6 @@ pub enum SubsurfaceCardError {
     /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The card's rates are not known.
-    #[error(transparent)]
-    Timing(#[from] TimingError),
 }
 
 impl SubsurfaceCardError {

@@ -3,13 +3,13 @@
 use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
+use refsim::output::WriteMask;
 
 use super::error::SubsurfaceCardError;
 use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::SubsurfaceCardOptions;
-use super::pass::{QuadPass, constants, nearest};
-use crate::card::new_target;
+use crate::card::{FullScreenPass, constants, nearest, new_target};
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 
 /// A program of pass 2, accepted by the device.
@@ -80,8 +80,9 @@ impl Gather {
             next += count;
             let constants = self.constants(program, pass + 1 == self.programs.len());
             let target = self.target(pass);
-            QuadPass { program: &program.checked, constants: &constants, textures: &textures, target, part: None }
-                .draw(machine, [self.side; 2])?;
+            let (program, constants, textures) = (&program.checked, &constants, &textures);
+            FullScreenPass { program, constants, textures, target, mask: WriteMask::ALL, part: None }
+                .draw_counting(machine, [self.side as usize; 2])?;
         }
         Ok(())
     }

@@ -3,13 +3,13 @@
 use refsim::device::Profile;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
+use refsim::output::WriteMask;
 use refsim::raster::Viewport;
 use refsim::texture::{MipFilter, SamplerState};
 
 use super::error::SubsurfaceCardError;
 use super::options::MapFormat;
-use super::pass::{QuadPass, ReadTexture, nearest};
-use crate::card::{KernelError, Levels, Texels, new_target};
+use crate::card::{FullScreenPass, KernelError, Levels, ReadTexture, Texels, nearest, new_target};
 use crate::subsurface::kernels::{self, LinkLayout};
 
 /// The map with its levels.
@@ -76,7 +76,8 @@ impl LeveledMap {
             let constants = &Constants::default();
             let part = Some(Viewport { x, ..Viewport::new(width, width) });
             let textures = &nearest([self.level(level)]);
-            QuadPass { program: copy, constants, textures, target: *row, part }.draw(machine, [width; 2])?;
+            FullScreenPass { program: copy, constants, textures, target: *row, mask: WriteMask::ALL, part }
+                .draw_counting(machine, [width as usize; 2])?;
         }
         Ok(())
     }

@@ -12,7 +12,6 @@ mod memory;
 mod model;
 mod options;
 pub mod order;
-mod pass;
 mod radiosity_map;
 mod time;
 mod view;
@@ -193,6 +192,14 @@ impl SubsurfaceCard {
         self.map.read_back(&self.machine)
     }
 
+    /// Reads the finest level of the radiosity map alone.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Machine`].
+    pub fn read_map(&self) -> Result<Texels, SubsurfaceCardError> {
+        Ok(Texels::read_back(&self.machine, self.map.map)?)
+    }
+
     /// Reads the scattered irradiance: B of equation 9 per texel.
     ///
     /// # Errors
@@ -207,7 +214,7 @@ impl SubsurfaceCard {
     /// [`SubsurfaceCardError::Machine`].
     pub fn saturated(&self) -> Result<usize, SubsurfaceCardError> {
         let largest = self.options.map.largest();
-        let map = self.read_levels()?.swap_remove(0);
+        let map = self.read_map()?;
         let channels = map.texels.iter().flat_map(|texel| &texel[..3]);
         Ok(channels.filter(|value| **value >= largest).count())
     }

@@ -1,7 +1,8 @@
 //! Pass 1 (4.2.2): the light that enters each texel, times the texel's area over the mean area.
 
-use refsim::exec::Constants;
+use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams};
+use refsim::output::WriteMask;
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::{SamplerState, TexelFormat};
 
@@ -9,8 +10,7 @@ use super::error::{SubsurfaceCardError, same};
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::{CardFace, CardModel};
 use super::options::{LightStage, MapFormat};
-use super::pass::{QuadPass, constants, nearest};
-use crate::card::{PingPong, Texels};
+use crate::card::{FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest};
 use crate::subsurface::fresnel::mean_transmittance;
 use crate::subsurface::kernels::{self, LightKernel};
 
@@ -169,8 +169,21 @@ impl LightPass {
         let constants = constants(head.into_iter().chain(self.of_lights(part.lights)));
         let mut textures = nearest([positions, normals]).to_vec();
         textures.extend(part.before.map(|before| (before, SamplerState::NEAREST_CLAMP)));
-        QuadPass { program: &program, constants: &constants, textures: &textures, target: part.target, part: None }
-            .draw(machine, [self.side; 2])
+        self.over_map(machine, &program, &constants, &textures, part.target)
+    }
+
+    /// Draws a texel each of the map, or of what is written before it.
+    fn over_map(
+        &self,
+        machine: &mut Machine,
+        program: &CheckedProgram,
+        constants: &Constants,
+        textures: &[ReadTexture],
+        target: TextureId,
+    ) -> Result<(), SubsurfaceCardError> {
+        FullScreenPass { program, constants, textures, target, mask: WriteMask::ALL, part: None }
+            .draw_counting(machine, [self.side as usize; 2])?;
+        Ok(())
     }
 
     /// Fills the map from a table of irradiances (equation 8), one per face.
@@ -203,9 +216,7 @@ impl LightPass {
             None => *self.table.insert(texels.upload(machine, TexelFormat::Rgba32f)?),
         };
         let program = kernels::COPY.checked(machine.profile())?;
-        let constants = Constants::default();
-        QuadPass { program: &program, constants: &constants, textures: &nearest([table]), target: map, part: None }
-            .draw(machine, [self.side; 2])
+        self.over_map(machine, &program, &Constants::default(), &nearest([table]), map)
     }
 }
 

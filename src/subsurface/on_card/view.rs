@@ -11,8 +11,7 @@ use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, 
 use super::error::SubsurfaceCardError;
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::CardModel;
-use super::pass::constants;
-use crate::card::NearestTarget;
+use crate::card::{NearestTarget, constants};
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};

@@ -1,9 +1,9 @@
 //! What section 4 counts: nodes, interactions, lookups, textures, instructions, samplers.
 
-use super::gather::{VARIANTS, cost};
+use super::gather::{GatherCost, VARIANTS};
 use super::{
-    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, failed,
-    number,
+    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
+    failed, number,
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
@@ -19,10 +19,11 @@ const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} 
     these need one sampler more than the card has, so a second pass reads the sum of the first. The clustering is our own, for the paper's is in \
     another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
-    let of = |fixed: bool| VARIANTS.iter().find(|variant| variant.fixed == fixed).copied();
-    let (Some(fixed), Some(adaptive)) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
-    let (fixed, adaptive) = (cost(CARD, fixed)?.lookups, cost(CARD, adaptive)?.lookups);
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let costs = shared.gather()?;
+    let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
+    let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
+    let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
     let links = LINKS as f64;
     let formula = |how: &str| Origin::Implied(how.to_owned());
     let lookups = |what: &str, ours: f64, paper: f64, how: &str| {
@@ -39,7 +40,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0)])],
         rows,
-        tables: vec![storage(), programs()?],
+        tables: vec![storage(), programs(costs)],
         questions: vec!["how the authors cluster faces, and which of the two choices of links was timed."],
         ..EntryFindings::default()
     })
@@ -79,11 +80,10 @@ fn storage() -> Table {
 }
 
 /// Instructions and samplers of each variant against the card's 1024 and 16.
-fn programs() -> Result<Table, ReproduceError> {
+fn programs(costs: &[GatherCost]) -> Table {
     let mut table = Table::of("Programs of pass 2 for 16 links", "variant passes instructions samplers");
-    for variant in VARIANTS {
-        let cost = cost(CARD, variant)?;
+    for (variant, cost) in VARIANTS.iter().zip(costs) {
         table.push([variant.name.into(), cost.programs.into(), cost.instructions.into(), cost.samplers.into()]);
     }
-    Ok(table)
+    table
 }

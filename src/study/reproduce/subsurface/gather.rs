@@ -8,7 +8,7 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
-use super::{LINKS, ReproduceError, failed};
+use super::{ReproduceError, failed};
 use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
@@ -17,6 +17,10 @@ use crate::subsurface::on_card::{
     SubsurfaceCardOptions, pass_times,
 };
 
+/// Links per texel in the paper's runs.
+pub(super) const LINKS: usize = 16;
+/// The card of Table 1: "a GeForce FX 5900".
+pub(in crate::study::reproduce) const CARD: &str = "fx5900";
 /// The squares that are timed.
 const SIDES: [u32; 3] = [32, 64, 128];
 /// The place of pass 2 among the times of passes.
@@ -47,7 +51,7 @@ pub(super) const VARIANTS: [Variant; 8] = [
 
 /// What a variant takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct GatherCost {
+pub(in crate::study::reproduce) struct GatherCost {
     /// Passes.
     pub(super) programs: usize,
     /// Instructions of all passes together.
@@ -70,8 +74,13 @@ impl GatherCost {
     }
 }
 
+/// All variants on a card, in the order of [`VARIANTS`].
+pub(in crate::study::reproduce) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, ReproduceError> {
+    VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
+}
+
 /// Runs a variant on a card.
-pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
+fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;

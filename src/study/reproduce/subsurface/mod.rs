@@ -5,15 +5,13 @@ mod gather;
 mod table_1;
 
 pub(super) use counts::findings as counts;
+use gather::LINKS;
+pub(super) use gather::{CARD, GatherCost, all_costs};
 pub(super) use table_1::findings as table_1;
 
 use super::pipeline::failed;
+use super::shared::Shared;
 use super::{
     Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Standing, Sweep,
     number,
 };
-
-/// Links per texel in the paper's runs.
-const LINKS: usize = 16;
-/// The card of Table 1: "a GeForce FX 5900".
-const CARD: &str = "fx5900";

@@ -4,15 +4,15 @@
 //! waits. Only pass 2 at 1024 x 1024 is longer than what it may hide, and alike on all three models.
 
 use super::counts::MODELS;
-use super::gather::{GatherCost, VARIANTS, cost};
+use super::gather::{GatherCost, VARIANTS, all_costs};
 use super::{
-    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Standing,
-    Sweep, number,
+    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared,
+    Standing, Sweep, number,
 };
 use crate::report::{Cell, Table};
 
 /// Cards beside the paper's.
-const CARDS: [&str; 4] = ["fx5900", "nv35", "fx5800", "nv30"];
+const OTHER_CARDS: [&str; 3] = ["nv35", "fx5800", "nv30"];
 /// Frames per second and the share of pass 2 in per cent, at 512 and at 1024 texels.
 const PRINTED: [[(f64, f64); 2]; 3] =
     [[(61.10, 82.0), (15.40, 85.0)], [(30.35, 43.0), (15.09, 85.0)], [(30.33, 34.0), (12.05, 68.0)]];
@@ -26,8 +26,8 @@ const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions
 const OPEN: &str = "Neither the format of the radiosity map nor which links were timed is printed. The rows are those of fixed links and an 8-bit map, \
     which automatic mipmaps (section 4.2.2) need on this card; the table has every variant, for every card of the time. They spread by a factor of {}.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
-    let costs = VARIANTS.map(|variant| cost(CARD, variant)).into_iter().collect::<Result<Vec<_>, _>>()?;
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let costs = shared.gather()?;
     let ms = |cost: &GatherCost| 1e3 * cost.seconds(SIDES[1]);
     let mut rows: Vec<PaperRow> = Vec::new();
     for ((model, ..), [_, (rate, share)]) in MODELS.iter().zip(PRINTED) {
@@ -48,7 +48,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         at: variant.name.to_owned(),
         values: vec![ms(cost); rows.len()],
     };
-    let settings = VARIANTS.iter().zip(&costs).map(setting).collect();
+    let settings = VARIANTS.iter().zip(costs).map(setting).collect();
     let sweep = Sweep { name: "What the text leaves open of pass 2", parameter: "variant", settings };
     sweep.explain(&mut rows);
     let times: Vec<f64> = costs.iter().map(ms).collect();
@@ -74,7 +74,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
             Prose::new(OPEN, [number(spread, 1)]),
         ],
         rows,
-        tables: vec![variants()?, frames()],
+        tables: vec![variants(costs)?, frames()],
         questions: vec![
             "the format of the radiosity map, the choice of links, and whether waits for the display are in the times.",
         ],
@@ -94,16 +94,17 @@ fn locked() -> [String; 3] {
 }
 
 /// Pass 2 at 1024 x 1024 of each variant on each card.
-fn variants() -> Result<Table, ReproduceError> {
+fn variants(costs: &[GatherCost]) -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         "Pass 2 of 16 links at 1024 x 1024 in ms, by the pipeline model; the paper's are 55.2 to 56.4",
         "variant fx5900 nv35 fx5800 nv30 ns_per_link",
     );
-    for variant in VARIANTS {
-        let seconds = CARDS.map(|card| Ok(cost(card, variant)?.seconds(SIDES[1])));
-        let seconds = seconds.into_iter().collect::<Result<Vec<f64>, ReproduceError>>()?;
-        let per_link = seconds[0] * 1e9 / (LINKS as f64 * SIDES[1] * SIDES[1]);
-        let times = seconds.iter().map(|seconds| Cell::measured(1e3 * seconds));
+    let others = OTHER_CARDS.map(all_costs).into_iter().collect::<Result<Vec<_>, _>>()?;
+    for (at, (variant, cost)) in VARIANTS.iter().zip(costs).enumerate() {
+        let seconds = |cost: &GatherCost| cost.seconds(SIDES[1]);
+        let per_link = seconds(cost) * 1e9 / (LINKS as f64 * SIDES[1] * SIDES[1]);
+        let on_all = std::iter::once(cost).chain(others.iter().map(|costs| &costs[at]));
+        let times = on_all.map(|cost| Cell::measured(1e3 * seconds(cost)));
         table.push(std::iter::once(Cell::from(variant.name)).chain(times).chain([Cell::measured(per_link)]));
     }
     Ok(table)
