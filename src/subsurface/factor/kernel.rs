@@ -9,7 +9,8 @@
 
 use std::f64::consts::PI;
 
-use super::moments::{BALL, Moments};
+use super::expansion::{Expansion, Taylor};
+use super::moments::{BALL, Covariance, Moments};
 use crate::elementary::{cbrt, exp};
 use crate::subsurface::Dipole;
 
@@ -24,6 +25,9 @@ const SLOPE: f64 = 3.0;
 /// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
 /// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
 const FAR: f64 = 0.5;
+/// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third order do
+/// not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
+pub(super) const SPREAD: f64 = 6.0;
 /// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of
 /// about 10 mean free paths.
 const HOPELESS: f64 = 30.0;
@@ -206,6 +210,34 @@ impl<const N: usize> DistanceTable<N> {
         (size_squared <= interval.negligible).then(|| self.at(squared))
     }
 
+    /// What receivers in a group, whose moments are given, get of a cluster: R_d times its area, by their offset from the
+    /// group's mean point. `None` if the two are too near.
+    pub(super) fn expansion(&self, receivers: &Moments, cluster: &Moments) -> Option<Expansion<N>> {
+        let apart = cluster.point - receivers.point;
+        let squared = apart.length_squared();
+        let (interval, t) = self.find(squared);
+        if SPREAD * receivers.size_squared + cluster.size_squared <= interval.reach {
+            let across = cluster.covariance.trace() * self.per_unit;
+            let along = 2.0 * cluster.covariance.along(apart) * self.per_unit * self.per_unit;
+            let channels = interval.cubic.map(|[c0, c1, c2, c3]| {
+                let value = c0 + t * (c1 + t * (c2 + t * c3));
+                let first = c1 + t * (2.0 * c2 + 3.0 * t * c3);
+                let second = 2.0 * c2 + 6.0 * t * c3;
+                // Of g(|apart - offset|^2) by the offset: -2 g' apart, and 2 g' 1 + 4 g'' apart apart^T.
+                let slope = 2.0 * cluster.area * first * self.per_unit;
+                let bend = 4.0 * cluster.area * second * self.per_unit * self.per_unit;
+                let mut matrix = Covariance::of([(bend, apart)]);
+                matrix.0[..3].iter_mut().for_each(|diagonal| *diagonal += slope);
+                let value = cluster.area * (value + first * across + second * along);
+                Taylor { value, gradient: -slope * apart, second: matrix }
+            });
+            return Some(Expansion { channels });
+        }
+        (receivers.size_squared + cluster.size_squared <= interval.negligible).then(|| Expansion {
+            channels: self.at(squared).map(|value| Taylor { value: cluster.area * value, ..Taylor::default() }),
+        })
+    }
+
     /// The mean of R_d over a disc of an area, from its center.
     pub(super) fn disc(&self, area: f64) -> [f64; N] {
         let radius = (area / PI).sqrt();
@@ -220,16 +252,24 @@ impl<const N: usize> DistanceTable<N> {
         size_squared > HOPELESS * self.unit
     }
 
-    /// How many times pieces whose squared sizes have this sum are to be halved to be far at distance 0.
-    pub(super) fn halvings(&self, size_squared: f64) -> u32 {
+    /// How many times two pieces are to be halved until their parts are far from each other.
+    pub(super) fn halvings(&self, one: &Moments, other: &Moments) -> u32 {
+        let balls = [one, other].map(|piece| (BALL * piece.size_squared).sqrt());
+        let apart = (one.point.distance(other.point) - balls[0] - balls[1]).max(0.0);
+        let reach = self.find(apart * apart).0.reach;
         let mut count = 0;
-        let mut left = size_squared;
-        while left > self.intervals[0].reach && count < u32::BITS {
+        let mut left = one.size_squared + other.size_squared;
+        while left > reach && count < u32::BITS {
             left *= 0.25;
             count += 1;
         }
         count
     }
+}
+
+/// Adds terms channel by channel.
+pub(super) fn add<const N: usize>(sum: &mut [f64; N], terms: &[f64; N]) {
+    sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
 }
 
 /// The derivatives of R_d by v = 1 + r^2 / unit.

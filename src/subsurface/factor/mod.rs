@@ -6,7 +6,9 @@
 //!
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 
+mod block;
 mod error;
+mod expansion;
 mod face_map;
 mod integrate;
 mod kernel;
@@ -14,9 +16,10 @@ mod moments;
 mod near;
 mod surface;
 
+pub(super) use block::{BLOCK_LEVEL, BlockReceiver, TexelFactors};
 pub use error::FactorError;
-pub(super) use integrate::Branch;
 pub use integrate::{Factors, Receiver};
+pub(super) use surface::to_morton;
 pub use surface::{ClusterId, SurfaceMoments};
 
 /// The default tolerance of a factor, relative.

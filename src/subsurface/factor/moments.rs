@@ -54,6 +54,12 @@ impl Covariance {
         self.0[0] + self.0[1] + self.0[2]
     }
 
+    /// The trace of the product of two matrices: the sum of the products of their elements.
+    pub(super) fn product_trace(&self, other: &Self) -> f64 {
+        let (a, b) = (&self.0, &other.0);
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+    }
+
     /// v^T C v.
     pub(super) fn along(&self, v: DVec3) -> f64 {
         let [xx, yy, zz, xy, xz, yz] = self.0;

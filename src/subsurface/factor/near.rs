@@ -3,14 +3,14 @@
 use glam::DVec3;
 
 use super::face_map::{FaceMap, Window};
-use super::kernel::DistanceTable;
+use super::kernel::{DistanceTable, add};
 use super::moments::Moments;
 use super::surface::SurfaceMoments;
 
 /// Texels are halved at most this often along a side.
 const MAX_HALVINGS: u32 = 4;
 /// Texels whose pieces are kept; a power of two.
-const SLOTS: usize = 1024;
+const SLOTS: usize = 4096;
 
 /// Pieces of texels that were near lately.
 #[derive(Clone, Debug)]
@@ -90,10 +90,9 @@ pub(super) fn texel_mean<const N: usize>(
     cache: &mut PieceCache,
 ) -> [f64; N] {
     let [from, to] = [one.min(other), one.max(other)];
-    let size = |texel: usize| surface.level(0)[texel].size_squared;
-    let size_squared = size(from) + size(to);
-    let most = if kernel.is_hopeless(size_squared) { 2 } else { MAX_HALVINGS };
-    let halvings = kernel.halvings(size_squared).min(most);
+    let [p, q] = [from, to].map(|texel| &surface.level(0)[texel]);
+    let most = if kernel.is_hopeless(p.size_squared + q.size_squared) { 2 } else { MAX_HALVINGS };
+    let halvings = kernel.halvings(p, q).min(most);
     let is_same = from == to;
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
     let displaced = if slots[0] == slots[1] && !is_same {
@@ -105,32 +104,54 @@ pub(super) fn texel_mean<const N: usize>(
         None
     };
     let from = &displaced.as_ref().unwrap_or(&cache.slots[slots[0]]).halvings;
-    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize, is_same }.mean(0, [0, 0])
+    Pair { kernel, from, to: &cache.slots[slots[1]].halvings, halvings: halvings as usize, is_same }
+        .mean(Piece::WHOLE, Piece::WHOLE)
 }
 
 impl<const N: usize> Pair<'_, N> {
-    /// The mean over two pieces after so many halvings.
-    fn mean(&self, halvings: usize, [i, j]: [usize; 2]) -> [f64; N] {
-        let (p, q) = (&self.from[halvings][i], &self.to[halvings][j]);
+    /// The mean over two pieces: how many times their texels were halved for them, and which ones they are.
+    fn mean(&self, from: Piece, to: Piece) -> [f64; N] {
+        let (p, q) = (&self.from[from.halvings][from.index], &self.to[to.halvings][to.index]);
         if let Some(mean) = self.kernel.mean(p, q) {
             return mean;
         }
-        if halvings == self.halvings {
-            if let Some(mean) = self.kernel.mean_of_last(p, q) {
-                return mean;
-            }
-            // Light that does not leave a piece is that within a disc of its area; what does comes from its middle. So
-            // light that one piece loses by this the next one gets.
-            let is_same = self.is_same && i == j;
-            return if is_same { self.kernel.disc(p.area) } else { self.kernel.at(p.point.distance_squared(q.point)) };
+        // The larger one is divided.
+        let [from_last, to_last] = [from, to].map(|piece| piece.halvings == self.halvings);
+        if from_last && to_last {
+            return self.mean_of_last(from, to);
         }
         let mut sum = [0.0; N];
-        for i in 4 * i..4 * i + 4 {
-            for j in 4 * j..4 * j + 4 {
-                let mean = self.mean(halvings + 1, [i, j]);
-                sum.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += mean);
-            }
+        if to_last || (!from_last && p.size_squared >= q.size_squared) {
+            from.quarters().for_each(|quarter| add(&mut sum, &self.mean(quarter, to)));
+        } else {
+            to.quarters().for_each(|quarter| add(&mut sum, &self.mean(from, quarter)));
         }
-        sum.map(|sum| sum / 16.0)
+        sum.map(|sum| 0.25 * sum)
+    }
+
+    /// The mean over two pieces that are not divided any more. Light that does not leave a piece is that within a disc of
+    /// its area; what does comes from its middle. So light that one piece loses by this the next one gets.
+    fn mean_of_last(&self, from: Piece, to: Piece) -> [f64; N] {
+        let (p, q) = (&self.from[from.halvings][from.index], &self.to[to.halvings][to.index]);
+        match self.kernel.mean_of_last(p, q) {
+            Some(mean) => mean,
+            None if self.is_same && from == to => self.kernel.disc(p.area),
+            None => self.kernel.at(p.point.distance_squared(q.point)),
+        }
+    }
+}
+
+/// A piece of a texel.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Piece {
+    halvings: usize,
+    index: usize,
+}
+
+impl Piece {
+    const WHOLE: Self = Self { halvings: 0, index: 0 };
+
+    fn quarters(self) -> impl Iterator<Item = Self> {
+        (4 * self.index..4 * self.index + 4).map(move |index| Self { halvings: self.halvings + 1, index })
     }
 }

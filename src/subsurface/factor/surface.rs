@@ -141,7 +141,7 @@ fn row_major(texel: usize, side: u32) -> usize {
 }
 
 /// The place in Morton order of column x, row y.
-pub(super) fn to_morton(x: u32, y: u32) -> usize {
+pub(in crate::subsurface) fn to_morton(x: u32, y: u32) -> usize {
     let spread = |value: u32| {
         let mut v = u64::from(value);
         v = (v | (v << 16)) & 0x0000_ffff_0000_ffff;

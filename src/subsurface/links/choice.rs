@@ -1,6 +1,9 @@
 //! Which clusters a texel has links to.
 
-use super::super::factor::{Branch, ClusterId, Receiver};
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+use super::super::factor::{ClusterId, TexelFactors, to_morton};
 
 /// Which clusters the texels of an atlas have links to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,34 +39,68 @@ impl LinkChoice {
     }
 }
 
-/// Chooses the links of a texel: while three more fit into `count`, the cluster with the highest factor (for RGB, the
-/// highest sum of the three) gives way to its children. A texel at the top is set aside, where it stays a link. Equal
-/// factors: the higher level first, then the lower row, then the lower column.
-///
-/// `chosen` receives positions in `tree`: 1 + 3 k of them.
-pub(super) fn adaptive<const N: usize>(
-    receiver: &mut Receiver<'_, N>,
-    texel: [u32; 2],
-    count: usize,
-    tree: &mut Vec<Branch<N>>,
-    chosen: &mut Vec<usize>,
-) {
-    receiver.tree(texel, tree);
-    chosen.clear();
-    chosen.push(0);
-    while chosen.len() + 3 <= count {
-        let key = |at: usize| {
-            let branch = &tree[at];
-            let ClusterId { level, x, y } = branch.cluster();
-            (branch.factor.iter().sum::<f64>(), (level, std::cmp::Reverse(y), std::cmp::Reverse(x)))
-        };
-        let divisible = (0..chosen.len()).filter(|&k| tree[chosen[k]].level > 0);
-        let top = divisible.max_by(|&a, &b| {
-            let [(left, left_tie), (right, right_tie)] = [key(chosen[a]), key(chosen[b])];
-            left.total_cmp(&right).then(left_tie.cmp(&right_tie))
-        });
-        let Some(top) = top else { return };
-        let Some(first) = receiver.children(texel, tree, chosen[top]) else { return };
-        chosen.splice(top..=top, first..first + 4);
+/// A link of a texel that may give way to its four children.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate<const N: usize> {
+    node: usize,
+    pub(super) cluster: ClusterId,
+    pub(super) factor: [f64; N],
+}
+
+impl<const N: usize> Candidate<N> {
+    fn new(texel: &TexelFactors<'_, '_, N>, node: usize) -> Self {
+        Self { node, cluster: texel.cluster(node), factor: texel.factor(node) }
     }
+
+    fn is_texel(&self) -> bool {
+        self.cluster.level == 0
+    }
+
+    /// Where the cluster begins in Morton order.
+    fn place(&self) -> u64 {
+        let ClusterId { level, y, x } = self.cluster;
+        (to_morton(x, y) as u64) << (2 * level)
+    }
+}
+
+/// Texels last; then the highest factor first (for RGB, the highest sum of the three), the higher level, the lower row,
+/// the lower column.
+impl<const N: usize> Ord for Candidate<N> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let sum = |link: &Self| link.factor.iter().sum::<f64>();
+        let tie = |link: &Self| (link.cluster.level, Reverse(link.cluster.y), Reverse(link.cluster.x));
+        let divisible = other.is_texel().cmp(&self.is_texel());
+        divisible.then(sum(self).total_cmp(&sum(other))).then(tie(self).cmp(&tie(other)))
+    }
+}
+
+impl<const N: usize> PartialOrd for Candidate<N> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<const N: usize> PartialEq for Candidate<N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl<const N: usize> Eq for Candidate<N> {}
+
+/// Chooses the links of a texel, from the root of its tree: while three more fit into `count`, the cluster with the
+/// highest factor gives way to its children. A texel at the top stays a link. Returns 1 + 3 k links in the order of the
+/// tree.
+pub(super) fn adaptive<const N: usize>(texel: &mut TexelFactors<'_, '_, N>, count: usize) -> Vec<Candidate<N>> {
+    let mut queue = BinaryHeap::with_capacity(count);
+    queue.push(Candidate::new(texel, 0));
+    while queue.len() + 3 <= count {
+        let Some(top) = queue.peek() else { break };
+        let Some(first) = texel.children(top.node) else { break };
+        queue.pop();
+        queue.extend((first..first + 4).map(|node| Candidate::new(texel, node)));
+    }
+    let mut links = queue.into_vec();
+    links.sort_unstable_by_key(Candidate::place);
+    links
 }

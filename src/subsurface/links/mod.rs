@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::Dipole;
-use super::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
+use super::factor::{BLOCK_LEVEL, BlockReceiver, ClusterId, FactorError, Factors, SurfaceMoments};
 
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
@@ -27,8 +27,8 @@ pub const SCALAR_CHANNEL: usize = 1;
 /// The largest number of factors: 1 GiB of them.
 pub const MAX_FACTORS: usize = 1 << 28;
 
-/// Rows of texels that are computed together, in squares of this side: near texels share work.
-const BAND: usize = 16;
+/// Rows of texels that are computed together.
+const BAND: usize = 1 << BLOCK_LEVEL;
 
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
 /// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
@@ -99,13 +99,14 @@ impl Links {
         self.clusters = ids.iter().copied().map(PackedCluster::new).collect();
         let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
         bands.enumerate().for_each(|(band, into)| {
-            let mut receiver = factors.receiver();
-            for (at, texel) in band_texels(side, band) {
-                let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
-                for (into, &cluster) in into.zip(&ids) {
-                    let factor = receiver.factor(texel, cluster);
-                    into.iter_mut().zip(factor).for_each(|(into, factor)| *into = factor as f32);
-                }
+            let mut block = BlockReceiver::new(factors.receiver());
+            for square in squares(side, band) {
+                block.visit(square, &ids, &mut |texel| {
+                    let into = &mut into[place_in_band(side, texel.texel()) * per_texel * N..][..per_texel * N];
+                    for (node, into) in into.chunks_exact_mut(N).enumerate() {
+                        into.iter_mut().zip(texel.factor(node)).for_each(|(into, factor)| *into = factor as f32);
+                    }
+                });
             }
             progress.band_done();
         });
@@ -119,15 +120,18 @@ impl Links {
         let bands = self.clusters.par_chunks_mut(BAND * side * per_texel);
         let bands = bands.zip(self.factors.par_chunks_mut(BAND * side * per_texel * N));
         bands.enumerate().for_each(|(band, (ids, into))| {
-            let (mut receiver, mut tree, mut chosen) = (factors.receiver(), Vec::new(), Vec::new());
-            for (at, texel) in band_texels(side as u32, band) {
-                choice::adaptive(&mut receiver, texel, count, &mut tree, &mut chosen);
-                let ids = &mut ids[at * per_texel..][..per_texel];
-                let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
-                for ((id, into), &branch) in ids.iter_mut().zip(into).zip(&chosen) {
-                    *id = PackedCluster::new(tree[branch].cluster());
-                    into.iter_mut().zip(tree[branch].factor).for_each(|(into, factor)| *into = factor as f32);
-                }
+            let mut block = BlockReceiver::new(factors.receiver());
+            for square in squares(side as u32, band) {
+                block.visit(square, &[root], &mut |texel| {
+                    let links = choice::adaptive(texel, count);
+                    let at = place_in_band(side as u32, texel.texel());
+                    let ids = &mut ids[at * per_texel..][..per_texel];
+                    let into = into[at * per_texel * N..][..per_texel * N].chunks_exact_mut(N);
+                    for ((id, into), link) in ids.iter_mut().zip(into).zip(&links) {
+                        *id = PackedCluster::new(link.cluster);
+                        into.iter_mut().zip(link.factor).for_each(|(into, factor)| *into = factor as f32);
+                    }
+                });
             }
             progress.band_done();
         });
@@ -214,16 +218,15 @@ fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Resul
     }
 }
 
-/// The texels of a band, square by square: where each stands in the band, and its column and row.
-fn band_texels(side: u32, band: usize) -> impl Iterator<Item = (usize, [u32; 2])> {
-    let first = (band * BAND) as u32;
-    let rows = (side - first).min(BAND as u32);
-    let squares = (0..side).step_by(BAND);
-    let texels = squares.flat_map(move |left| {
-        let columns = left..side.min(left + BAND as u32);
-        (0..rows).flat_map(move |row| columns.clone().map(move |x| (row, x)))
-    });
-    texels.map(move |(row, x)| ((row * side + x) as usize, [x, first + row]))
+/// The squares of a band of rows.
+fn squares(side: u32, band: usize) -> impl Iterator<Item = ClusterId> {
+    let level = BLOCK_LEVEL.min(side.ilog2());
+    (0..side >> level).map(move |x| ClusterId { level, y: band as u32, x })
+}
+
+/// Where a texel stands in its band.
+fn place_in_band(side: u32, (x, y): (u32, u32)) -> usize {
+    ((y % BAND as u32) * side + x) as usize
 }
 
 /// Counts rows of texels.

@@ -155,6 +155,14 @@ impl SubsurfaceCard {
         self.note(PassKind::RadiosityMap);
         self.map.fill(&mut self.machine)?;
         self.note(PassKind::Levels);
+        self.gather()
+    }
+
+    /// Pass 2 over the present map, as [`Self::light`] and [`Self::irradiate`] end with it.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Machine`].
+    pub fn gather(&mut self) -> Result<(), SubsurfaceCardError> {
         self.gather.run(&mut self.machine, &self.map)?;
         self.note(PassKind::Gather);
         Ok(())

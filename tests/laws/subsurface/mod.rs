@@ -1,5 +1,6 @@
 //! Laws of system 3.
 
+mod links_blocks;
 mod links_choice;
 mod links_factors;
 mod links_models;

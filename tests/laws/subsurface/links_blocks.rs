@@ -1,0 +1,46 @@
+//! Squares of texels that gather together against texels that gather alone.
+
+use crossbar::subsurface::Dipole;
+use crossbar::subsurface::factor::Factors;
+use crossbar::subsurface::links::{LinkChoice, Links};
+
+use super::links_models::{atlas, figure_7, medium, sphere, surface, texels};
+
+/// The largest difference between the factors of links and those that a texel gathers by itself with a tolerance a
+/// hundred times smaller, each relative to the factor and 1e-5 of the light that the plane returns.
+fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64 {
+    let surface = surface(&atlas(&sphere(6, 0.2), side), mm_per_unit);
+    let links = Links::new(&surface, &[dipole], choice, 0.01, &|_, _| ()).expect("links");
+    let fine = Factors::new(&surface, [dipole], 1e-4).expect("a tolerance");
+    let mut receiver = fine.receiver();
+    let mut worst: f64 = 0.0;
+    for texel in texels(side).step_by(211) {
+        // Links that are not used have the factor 0.
+        for (cluster, factor) in links.of(texel).filter(|(_, factor)| factor[0] > 0.0) {
+            let [exact] = receiver.factor(texel, cluster);
+            worst = worst.max((f64::from(factor[0]) - exact).abs() / (exact + 1e-5 * dipole.total()));
+        }
+    }
+    worst
+}
+
+#[test]
+fn links_keep_their_tolerance() {
+    let [fixed, adaptive] = [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 64 }];
+    for (mm_per_unit, dipole) in [(1.5, figure_7()), (5.0, figure_7()), (15.0, figure_7()), (8.0, medium(0.74, 0.9))] {
+        for choice in [fixed, adaptive] {
+            let worst = worst(mm_per_unit, dipole, 32, choice);
+            assert!(worst <= 0.01, "{mm_per_unit} mm, {choice:?}: {worst}");
+            assert!(worst > 1e-4, "{mm_per_unit} mm, {choice:?}: {worst} leaves nothing to test");
+        }
+    }
+}
+
+/// Of large clusters the errors of parts cancel: a quarter of the tolerance is enough.
+#[test]
+fn sixteen_links_are_far_within_it() {
+    for mm_per_unit in [1.5, 5.0] {
+        let worst = worst(mm_per_unit, figure_7(), 64, LinkChoice::Fixed { level: 4 });
+        assert!(worst <= 0.01 / 4.0, "{mm_per_unit} mm: {worst}");
+    }
+}
