@@ -4,14 +4,14 @@ use crossbar::subsurface::Dipole;
 use crossbar::subsurface::factor::Factors;
 use crossbar::subsurface::links::{LinkChoice, Links};
 
-use super::links_models::{atlas, figure_7, medium, sphere, surface, texels};
+use super::links_models::{atlas, figure_7, fine_tolerance, medium, sphere, surface, texels};
 
-/// The largest difference between the factors of links and those that a texel gathers by itself with a tolerance a
-/// hundred times smaller, each relative to the factor and 1e-5 of the light that the plane returns.
+/// The largest difference between the factors of links and those that a texel gathers by itself with a finer
+/// tolerance, each relative to the factor and 1e-5 of the light that the plane returns.
 fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64 {
     let surface = surface(&atlas(&sphere(6, 0.2), side), mm_per_unit);
     let links = Links::new(&surface, &[dipole], choice, 0.01, &|_, _| ()).expect("links");
-    let fine = Factors::new(&surface, [dipole], 1e-4).expect("a tolerance");
+    let fine = Factors::new(&surface, [dipole], fine_tolerance()).expect("a tolerance");
     let mut receiver = fine.receiver();
     let mut worst: f64 = 0.0;
     for texel in texels(side).step_by(211) {

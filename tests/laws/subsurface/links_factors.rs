@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use crossbar::subsurface::factor::{ClusterId, FactorError, Factors, SurfaceMoments};
 use crossbar::subsurface::{Reference, point_to_polygon, uniform_sphere};
 
-use super::links_models::{atlas, figure_7, level, medium, root, sphere, subdivided, surface, texels};
+use super::links_models::{atlas, figure_7, fine_tolerance, level, medium, root, sphere, subdivided, surface, texels};
 
 #[test]
 fn factors_times_areas_are_symmetric_between_texels() {
@@ -24,14 +24,13 @@ fn factors_times_areas_are_symmetric_between_texels() {
     }
 }
 
-/// The tolerance is measured against factors of a tolerance a hundred times smaller; these against contour integrals
-/// below.
+/// The tolerance is measured against finer factors; these against contour integrals below.
 #[test]
 fn factors_keep_their_tolerance() {
     let atlas = atlas(&sphere(6, 0.2), 32);
     for (mm_per_unit, dipole) in [(1.5, figure_7()), (5.0, figure_7()), (15.0, figure_7()), (8.0, medium(0.74, 0.9))] {
         let surface = surface(&atlas, mm_per_unit);
-        let fine = Factors::new(&surface, [dipole], 1e-4).expect("a tolerance");
+        let fine = Factors::new(&surface, [dipole], fine_tolerance()).expect("a tolerance");
         for tolerance in [0.01] {
             let coarse = Factors::new(&surface, [dipole], tolerance).expect("a tolerance");
             let (mut fine, mut coarse) = (fine.receiver(), coarse.receiver());

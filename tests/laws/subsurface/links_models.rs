@@ -77,3 +77,8 @@ pub(crate) fn level(surface: &SurfaceMoments, level: u32) -> Vec<ClusterId> {
 pub(crate) fn texels(side: u32) -> impl Iterator<Item = [u32; 2]> {
     (0..side).flat_map(move |y| (0..side).map(move |x| [x, y]))
 }
+
+/// The tolerance of factors that others are held against: a tenth of theirs, in the full form a hundredth.
+pub(crate) fn fine_tolerance() -> f64 {
+    if std::env::var_os("CROSSBAR_FULL").is_some() { 1e-4 } else { 1e-3 }
+}
