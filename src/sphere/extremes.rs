@@ -9,8 +9,12 @@ use super::rule::DirectionRule;
 
 /// Peaks of the samples from which the search starts.
 const STARTS: usize = 16;
-/// Halvings of the search's step: from a sample's distance to far below where a smooth peak changes its value.
-const HALVINGS: usize = 40;
+/// Steps of the search.
+const MAX_STEPS: usize = 100;
+/// The shortest step, in radians: far below where a smooth peak changes its value.
+const SHORTEST_STEP: f64 = 1e-10;
+/// The distance of differences, in radians: off by its square times third derivatives.
+const STENCIL: f64 = 1e-4;
 
 /// The least and the largest value of a function on the sphere, and where they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,24 +63,39 @@ fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVe
     starts
 }
 
-/// A pattern search: the best of four neighbors, or half the step.
-fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut step: f64) -> (f64, DVec3) {
-    let (mut value, mut at) = (evaluate(coefficients, start), start);
-    let mut halvings = 0;
-    while halvings < HALVINGS {
-        let [u, v] = [at.any_orthonormal_vector(), at.cross(at.any_orthonormal_vector())];
-        let neighbors = [u, -u, v, -v].map(|side| (at + step * side).normalize());
-        let best = neighbors.map(|at| (evaluate(coefficients, at), at)).into_iter();
-        let best = best.reduce(|a, b| if sign * b.0 > sign * a.0 { b } else { a });
-        match best {
-            Some((better, there)) if sign * better > sign * value => (value, at) = (better, there),
-            _ => {
-                step *= 0.5;
-                halvings += 1;
-            }
+/// Newton's method in the tangent plane, by differences; along the gradient where the surface is no peak. A step that does
+/// not climb is halved.
+fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f64, DVec3) {
+    let (mut value, mut at) = (sign * evaluate(coefficients, start), start);
+    for _ in 0..MAX_STEPS {
+        let u = at.any_orthonormal_vector();
+        let w = at.cross(u);
+        let there = |x: f64, y: f64| (at + x * u + y * w).normalize();
+        let f = |x: f64, y: f64| sign * evaluate(coefficients, there(x * STENCIL, y * STENCIL));
+        let [left, right, below, above] = [f(-1.0, 0.0), f(1.0, 0.0), f(0.0, -1.0), f(0.0, 1.0)];
+        let gradient = [(right - left) / (2.0 * STENCIL), (above - below) / (2.0 * STENCIL)];
+        let square = STENCIL * STENCIL;
+        let [xx, yy] = [(left + right - 2.0 * value) / square, (below + above - 2.0 * value) / square];
+        let xy = (f(1.0, 1.0) + f(-1.0, -1.0) - f(1.0, -1.0) - f(-1.0, 1.0)) / (4.0 * square);
+        let [gx, gy] = gradient;
+        let determinant = xx * yy - xy * xy;
+        let peak = xx < 0.0 && determinant > 0.0;
+        let [x, y] =
+            if peak { [(xy * gy - yy * gx) / determinant, (xy * gx - xx * gy) / determinant] } else { gradient };
+        let length = (x * x + y * y).sqrt();
+        if length == 0.0 || longest < SHORTEST_STEP {
+            break;
+        }
+        let scale = if peak && length <= longest { 1.0 } else { longest / length };
+        let next = there(scale * x, scale * y);
+        let better = sign * evaluate(coefficients, next);
+        if better > value {
+            (value, at) = (better, next);
+        } else {
+            longest = 0.5 * (scale * length).min(longest);
         }
     }
-    (value, at)
+    (sign * value, at)
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod parabolic;
 mod projection;
 mod rotation;
 mod rule;
+mod singular;
 mod sky;
 mod texels;
 mod window;

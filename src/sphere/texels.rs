@@ -28,7 +28,7 @@ pub(super) fn project<const N: usize>(
     radiance: impl Fn(usize) -> [f32; N] + Sync,
 ) -> [Vec<f64>; N] {
     let (count, [columns, rows]) = (function_count(order), grid.size());
-    let rule = rule_for(columns.max(rows));
+    let rule = rule_for((columns * rows).isqrt());
     let of_row = |row: usize| {
         let mut sums = [const { [0.0; MAX_ORDER * MAX_ORDER] }; N];
         let [mut y, mut of_texel] = [[0.0; MAX_ORDER * MAX_ORDER]; 2];
@@ -78,12 +78,12 @@ fn texel(
     }
 }
 
-/// A rule for a texel of a picture with so many texels along its longer side.
+/// A rule for a texel of a picture with the square of this number of texels.
 fn rule_for(side: usize) -> Vec<GaussPoint> {
     gauss_legendre(match side {
-        0..32 => 8,
-        32..128 => 5,
-        128..512 => 3,
+        0..24 => 8,
+        24..96 => 5,
+        96..384 => 3,
         _ => 2,
     })
 }
