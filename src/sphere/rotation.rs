@@ -139,8 +139,8 @@ fn check(rotation: &DMat3) -> Result<(), RotationError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));
         let expected = if columns[0] == columns[1] { 1.0 } else { 0.0 };
-        // Written so that NaN fails.
-        if !((found - expected).abs() <= MAX_SKEW) {
+        let off = (found - expected).abs();
+        if off.is_nan() || off > MAX_SKEW {
             return Err(RotationError::NotOrthonormal { columns, found });
         }
     }

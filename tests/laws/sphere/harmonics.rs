@@ -80,7 +80,7 @@ proptest! {
     #[test]
     fn opposite_directions_have_the_sign_of_the_band(v in direction()) {
         for (index, (here, there)) in functions(MAX_ORDER, v).into_iter().zip(functions(MAX_ORDER, -v)).enumerate() {
-            let sign = if function_band(index).0 % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if function_band(index).0.is_multiple_of(2) { 1.0 } else { -1.0 };
             prop_assert_eq!(here, sign * there);
         }
     }
