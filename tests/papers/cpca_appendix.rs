@@ -1,4 +1,4 @@
-//! The appendix of papers/000's third part: every printed digit, and the fractions behind them.
+//! The appendix of "Clustered Principal Components" (2003): every printed digit, and the fractions behind them.
 
 use crossbar::linalg::SymmetricEigen;
 use crossbar::sphere::{
