@@ -81,6 +81,8 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "cli")]
 pub mod shader;
+#[cfg(feature = "systems")]
+pub mod sphere;
 #[cfg(feature = "cli")]
 pub mod study;
 #[cfg(feature = "systems")]

@@ -1,5 +1,7 @@
 //! Gauss-Legendre rules on [0, 1]: n points integrate polynomials up to degree 2 n - 1 exactly.
 
+use crate::elementary;
+
 /// A point and its weight; weights sum to 1.
 pub type GaussPoint = (f64, f64);
 
@@ -48,6 +50,50 @@ pub const SIXTEEN: [GaussPoint; 16] = rule([
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
 ]);
 
+/// Most points of a rule by [`gauss_legendre`].
+pub const MAX_POINTS: usize = 1024;
+
+/// Steps of Newton's method: from the asymptotic roots, three reach the last bits and two more change nothing.
+const NEWTON_STEPS: usize = 5;
+
+/// The rule of any number of points from 1 to [`MAX_POINTS`], from 0 to 1: Newton's method on the roots of the Legendre
+/// polynomial.
+///
+/// # Panics
+/// If there are no points, or more than [`MAX_POINTS`].
+pub fn gauss_legendre(points: usize) -> Vec<GaussPoint> {
+    assert!((1..=MAX_POINTS).contains(&points), "1 to {MAX_POINTS} points");
+    // Roots come in pairs; the negative one of each pair is found.
+    let negative = |i: usize| {
+        let turns = (i as f64 + 0.75) / (points as f64 + 0.5) / 2.0;
+        let mut x = if 2 * i + 1 == points { 0.0 } else { -elementary::on_circle(turns)[0] };
+        for _ in 0..NEWTON_STEPS {
+            let [value, slope] = legendre(points, x);
+            x -= value / slope;
+        }
+        let [_, slope] = legendre(points, x);
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    };
+    let mut rule = vec![(0.0, 0.0); points];
+    for i in 0..points.div_ceil(2) {
+        let (x, weight) = negative(i);
+        rule[i] = (0.5 + 0.5 * x, 0.5 * weight);
+        rule[points - 1 - i] = (0.5 - 0.5 * x, 0.5 * weight);
+    }
+    rule
+}
+
+/// The Legendre polynomial of a degree of at least 1, and its derivative, at x.
+fn legendre(degree: usize, x: f64) -> [f64; 2] {
+    let ([mut before, mut now], [mut slope_before, mut slope]) = ([1.0, x], [0.0, 1.0]);
+    for l in 1..degree {
+        let odd = (2 * l + 1) as f64;
+        [slope_before, slope] = [slope, slope_before + odd * now];
+        [before, now] = [now, (odd * x * now - l as f64 * before) / (l + 1) as f64];
+    }
+    [now, slope]
+}
+
 /// The sixteen points of an interval and their weights, which sum to its length.
 pub fn integral_points(from: f64, to: f64) -> [GaussPoint; 16] {
     SIXTEEN.map(|(x, weight)| (from + (to - from) * x, (to - from) * weight))
@@ -95,6 +141,25 @@ mod tests {
                 let exact = 1.0 / (power + 1) as f64;
                 assert!(abs_diff_eq!(sum, exact, epsilon = 4e-16), "{} points, degree {power}: {sum}", rule.len());
             }
+        }
+    }
+
+    #[test]
+    fn rules_of_any_size_are_those_of_the_tables_and_exact() {
+        for table in [&THREE[..], &FIVE, &EIGHT, &SIXTEEN] {
+            for (found, expected) in gauss_legendre(table.len()).iter().zip(table) {
+                assert!(abs_diff_eq!(found.0, expected.0, epsilon = 1e-15), "{found:?} {expected:?}");
+                assert!(abs_diff_eq!(found.1, expected.1, epsilon = 1e-15), "{found:?} {expected:?}");
+            }
+        }
+        assert_eq!(gauss_legendre(1), [(0.5, 1.0)]);
+        for points in [2, 7, 33, 128, MAX_POINTS] {
+            let rule = gauss_legendre(points);
+            for power in [0, 1, 2, points, 2 * points - 1] {
+                let sum: f64 = rule.iter().map(|&(x, weight)| weight * elementary::pow(x, power as f64)).sum();
+                assert!(abs_diff_eq!(sum, 1.0 / (power + 1) as f64, epsilon = 2e-14), "{points}, {power}: {sum}");
+            }
+            assert!(rule.is_sorted_by(|a, b| a.0 < b.0), "{points} points in increasing order");
         }
     }
 

@@ -1,0 +1,164 @@
+//! Real spherical harmonics by polynomial recurrences.
+
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+use glam::DVec3;
+
+/// The highest order: order n has n bands, l = 0 to n - 1, and n^2 functions.
+pub const MAX_ORDER: usize = 10;
+
+/// Factors of the recurrences, by l and m.
+struct Recurrence {
+    /// y_mm without (x + iy)^m, by m.
+    diagonal: [f64; MAX_ORDER],
+    /// What z times the band below is multiplied by.
+    rise: [[f64; MAX_ORDER]; MAX_ORDER],
+    /// What the band two below is multiplied by.
+    fall: [[f64; MAX_ORDER]; MAX_ORDER],
+}
+
+static RECURRENCE: LazyLock<Recurrence> = LazyLock::new(|| {
+    let mut table = Recurrence {
+        diagonal: [0.0; MAX_ORDER],
+        rise: [[0.0; MAX_ORDER]; MAX_ORDER],
+        fall: [[0.0; MAX_ORDER]; MAX_ORDER],
+    };
+    // The product of (2k + 1) / 2k for k = 1 to m.
+    let mut product = 1.0;
+    for m in 0..MAX_ORDER {
+        let sides = if m == 0 { 1.0 } else { 2.0 };
+        table.diagonal[m] = (sides * product / (4.0 * PI)).sqrt();
+        product *= (2 * m + 3) as f64 / (2 * m + 2) as f64;
+        for l in m + 1..MAX_ORDER {
+            table.rise[l][m] = 1.0 / coupling(l, m);
+            table.fall[l][m] = coupling(l - 1, m) / coupling(l, m);
+        }
+    }
+    table
+});
+
+/// The factor of y_(l-1)m in z y_lm, which is also that of y_lm in z y_(l-1)m: sqrt((l^2 - m^2) / (4 l^2 - 1)).
+pub(super) fn coupling(l: usize, m: usize) -> f64 {
+    (((l * l - m * m) as f64) / (4.0 * (l * l) as f64 - 1.0)).sqrt()
+}
+
+/// The number of functions of an order.
+///
+/// # Panics
+/// If the order is not 1 to [`MAX_ORDER`].
+pub fn function_count(order: usize) -> usize {
+    assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
+    order * order
+}
+
+/// Index of y_lm: l (l + 1) + m.
+///
+/// # Panics
+/// If |m| exceeds l.
+pub fn function_index(l: usize, m: isize) -> usize {
+    let index = (l * (l + 1)).checked_add_signed(m).filter(|_| m.unsigned_abs() <= l);
+    index.expect("|m| at most l")
+}
+
+/// Band and position in the band, l and m, of the function of an index.
+pub fn function_band(index: usize) -> (usize, isize) {
+    let l = index.isqrt();
+    let distance = |from: usize, to: usize| isize::try_from(to - from).expect("an index of a harmonic is small");
+    let middle = l * (l + 1);
+    (l, if index < middle { -distance(index, middle) } else { distance(middle, index) })
+}
+
+/// The n^2 functions of an order at a direction of length 1, by index l (l + 1) + m. For m > 0, y_lm has the factor
+/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m.
+///
+/// # Panics
+/// If the order is not 1 to [`MAX_ORDER`], or `into` has not n^2 values.
+pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
+    assert_eq!(into.len(), function_count(order), "values of order {order}");
+    let table = &*RECURRENCE;
+    let DVec3 { x, y, z } = direction;
+    let [mut re, mut im] = [1.0, 0.0];
+    for m in 0..order {
+        let [mut before, mut now] = [0.0, table.diagonal[m]];
+        for l in m..order {
+            let middle = l * (l + 1);
+            into[middle - m] = now * im;
+            into[middle + m] = now * re;
+            if l + 1 < order {
+                [before, now] = [now, table.rise[l + 1][m] * z * now - table.fall[l + 1][m] * before];
+            }
+        }
+        [re, im] = [x * re - y * im, x * im + y * re];
+    }
+}
+
+/// The value at a direction of the function with these coefficients.
+///
+/// # Panics
+/// If the number of coefficients is no square of 1 to [`MAX_ORDER`].
+pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
+    let mut values = [0.0; MAX_ORDER * MAX_ORDER];
+    let values = &mut values[..coefficients.len()];
+    harmonics(order_of(coefficients), direction, values);
+    values.iter().zip(coefficients).map(|(y, c)| y * c).sum()
+}
+
+/// The order of which there are so many coefficients.
+///
+/// # Panics
+/// If their number is no square of 1 to [`MAX_ORDER`].
+pub fn order_of(coefficients: &[f64]) -> usize {
+    let order = coefficients.len().isqrt();
+    assert_eq!(coefficients.len(), function_count(order), "n^2 coefficients");
+    order
+}
+
+/// Coefficients for D3DX's functions instead of ours, or back: D3DX has the Condon-Shortley sign (-1)^m.
+pub fn swap_d3dx_signs(coefficients: &mut [f64]) {
+    for (index, coefficient) in coefficients.iter_mut().enumerate() {
+        if function_band(index).1 % 2 != 0 {
+            *coefficient = -*coefficient;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::abs_diff_eq;
+
+    #[test]
+    fn the_first_three_bands_are_the_known_polynomials() {
+        let v = DVec3::new(2.0, -3.0, 6.0) / 7.0;
+        let mut found = [0.0; 9];
+        harmonics(3, v, &mut found);
+        let [one, two] = [(3.0 / (4.0 * PI)).sqrt(), (15.0 / (4.0 * PI)).sqrt()];
+        let expected = [
+            (1.0 / (4.0 * PI)).sqrt(),
+            one * v.y,
+            one * v.z,
+            one * v.x,
+            two * v.x * v.y,
+            two * v.y * v.z,
+            two / 12f64.sqrt() * (3.0 * v.z * v.z - 1.0),
+            two * v.x * v.z,
+            two / 2.0 * (v.x * v.x - v.y * v.y),
+        ];
+        for (index, (found, expected)) in found.iter().zip(expected).enumerate() {
+            assert!(abs_diff_eq!(*found, expected, epsilon = 2e-16), "{index}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn indices_and_signs() {
+        for index in 0..MAX_ORDER * MAX_ORDER {
+            let (l, m) = function_band(index);
+            assert_eq!(function_index(l, m), index);
+        }
+        let mut coefficients = [1.0; 9];
+        swap_d3dx_signs(&mut coefficients);
+        assert_eq!(coefficients, [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0]);
+        assert!(abs_diff_eq!(evaluate(&[2.0 * PI.sqrt()], DVec3::X), 1.0, epsilon = 2e-16));
+    }
+}

@@ -1,0 +1,200 @@
+//! Harmonics over the hemisphere z >= 0, where they are not orthogonal (appendix of the paper, section 9.1).
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::harmonics::{function_band, function_count, function_index, harmonics};
+use super::singular::singular_values;
+use crate::linalg::{Matrix, SymmetricEigen, dot};
+use crate::quadrature;
+
+/// Why there is no Gram matrix of a set of functions.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum HemisphereError {
+    /// A dropped function that the order has not, or that was dropped before.
+    #[error("expected distinct functions below {functions} to drop, found {found}")]
+    Dropped { functions: usize, found: usize },
+    /// Nothing is left.
+    #[error("expected functions that are kept, found all {functions} dropped")]
+    Empty { functions: usize },
+}
+
+/// The Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
+///
+/// Functions of different m are orthogonal there too, so A falls into blocks; within a block, products of functions
+/// whose bands differ by an even number integrate to half of their integral over the sphere, 1/2 or 0. Each block is
+/// M^T M, where M holds the functions at the points of a rule that is exact for their products; inverse and spectrum
+/// come from the singular values of M, so only the square root of A's condition is lost to rounding.
+#[derive(Clone, Debug)]
+pub struct Hemisphere {
+    order: usize,
+    functions: Vec<usize>,
+    gram: Matrix,
+    inverse: Matrix,
+    spectrum: SymmetricEigen,
+}
+
+impl Hemisphere {
+    /// Of all n^2 functions of an order.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn new(order: usize) -> Self {
+        Self::without(order, &[]).expect("nothing is dropped")
+    }
+
+    /// Of the functions of an order but for some, given by index: section 6.1 drops l = 1, m = 0, index 2, of order 5.
+    ///
+    /// # Errors
+    /// [`HemisphereError`] if a dropped function is unknown or named twice, or nothing is left.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn without(order: usize, dropped: &[usize]) -> Result<Self, HemisphereError> {
+        let count = function_count(order);
+        let mut kept = vec![true; count];
+        for &found in dropped {
+            if !kept.get(found).is_some_and(|&kept| kept) {
+                return Err(HemisphereError::Dropped { functions: count, found });
+            }
+            kept[found] = false;
+        }
+        let functions: Vec<usize> = (0..count).filter(|&index| kept[index]).collect();
+        if functions.is_empty() {
+            return Err(HemisphereError::Empty { functions: count });
+        }
+        Ok(Self::of(order, functions))
+    }
+
+    fn of(order: usize, functions: Vec<usize>) -> Self {
+        let size = functions.len();
+        let zeros = || Matrix::zeros([size; 2]).expect("at most 100 rows and columns");
+        let [mut gram, mut inverse, mut vectors] = [zeros(), zeros(), zeros()];
+        let (values, mut eigen) = (radial(order), Vec::new());
+        for m in 1 - order.cast_signed()..order.cast_signed() {
+            let of_m: Vec<usize> = (0..size).filter(|&i| function_band(functions[i]).1 == m).collect();
+            let azimuths = if m == 0 { TAU } else { PI };
+            let column = |&i: &usize| -> Vec<f64> {
+                let index = function_index(function_band(functions[i]).0, m.abs());
+                values.iter().map(|(root, y)| azimuths.sqrt() * root * y[index]).collect()
+            };
+            let columns: Vec<Vec<f64>> = of_m.iter().map(column).collect();
+            let singular = singular_values(columns.clone());
+            write_block(&mut gram, &of_m, |a, b| match [a, b].map(|at| function_band(functions[of_m[at]]).0) {
+                [l, k] if l == k => 0.5,
+                [l, k] if (l + k) % 2 == 0 => 0.0,
+                _ => dot(&columns[a], &columns[b]),
+            });
+            write_block(&mut inverse, &of_m, |a, b| singular.iter().map(|(s, v)| v[a] * v[b] / (s * s)).sum());
+            eigen.extend(singular.into_iter().map(|(value, vector)| (value * value, vector, of_m.clone())));
+        }
+        eigen.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
+        for (row, (_, vector, of_m)) in eigen.iter().enumerate() {
+            let largest = vector.iter().fold(0.0, |most: f64, v| if v.abs() > most.abs() { *v } else { most });
+            of_m.iter().zip(vector).for_each(|(&i, component)| vectors.row_mut(row)[i] = component * largest.signum());
+        }
+        let values = eigen.into_iter().map(|(value, ..)| value).collect();
+        Self { order, functions, gram, inverse, spectrum: SymmetricEigen { values, vectors } }
+    }
+
+    /// The order.
+    pub const fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Indices of the functions that rows and columns are about, in increasing order.
+    pub fn functions(&self) -> &[usize] {
+        &self.functions
+    }
+
+    /// A.
+    pub const fn gram(&self) -> &Matrix {
+        &self.gram
+    }
+
+    /// The inverse of A. Its elements grow to the condition of A, 10^5 at order 5 and 10^12 at order 10, and a product
+    /// with it is as many times 2^-53 off; [`Self::least_squares`] is not.
+    pub const fn inverse(&self) -> &Matrix {
+        &self.inverse
+    }
+
+    /// Eigenvalues and eigenvectors of A.
+    pub const fn spectrum(&self) -> &SymmetricEigen {
+        &self.spectrum
+    }
+
+    /// The coefficients A^-1 b nearest to a function f, of which b are the integrals of f y_k over the hemisphere.
+    ///
+    /// In the basis of A's eigenvectors, so that rounding grows along those alone that hardly change the function on
+    /// the hemisphere: its values there lose the root of the condition.
+    ///
+    /// # Panics
+    /// If there is not one integral per function.
+    pub fn least_squares(&self, b: &[f64]) -> Vec<f64> {
+        assert_eq!(b.len(), self.functions.len(), "an integral per function");
+        let mut coefficients = vec![0.0; b.len()];
+        for (value, vector) in self.spectrum.values.iter().zip(self.spectrum.vectors.rows()) {
+            let along = dot(vector, b) / value;
+            coefficients.iter_mut().zip(vector).for_each(|(c, v)| *c += along * v);
+        }
+        coefficients
+    }
+
+    /// For each function the squared error, over the hemisphere, of the best combination of all others in its place.
+    pub fn drop_costs(&self) -> Vec<f64> {
+        self.inverse.diagonal().into_iter().map(f64::recip).collect()
+    }
+
+    /// The squared norm over the hemisphere of the function with these coefficients, c^T A c.
+    ///
+    /// # Panics
+    /// If there is not one coefficient per function.
+    pub fn energy(&self, coefficients: &[f64]) -> f64 {
+        assert_eq!(coefficients.len(), self.functions.len(), "a coefficient per function");
+        coefficients.iter().zip(self.gram.times(coefficients)).map(|(c, b)| c * b).sum()
+    }
+}
+
+/// Per Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z), where
+/// the azimuth's factor of m >= 0 is 1.
+fn radial(order: usize) -> Vec<(f64, Vec<f64>)> {
+    let points = quadrature::gauss_legendre(order).into_iter();
+    let values = points.map(|(z, weight)| {
+        let mut y = vec![0.0; function_count(order)];
+        harmonics(order, DVec3::new(((1.0 - z) * (1.0 + z)).sqrt(), 0.0, z), &mut y);
+        (weight.sqrt(), y)
+    });
+    values.collect()
+}
+
+/// Writes the elements of a block of functions into the whole matrix.
+fn write_block(whole: &mut Matrix, block: &[usize], element: impl Fn(usize, usize) -> f64) {
+    for (a, &row) in block.iter().enumerate() {
+        for (b, &column) in block.iter().enumerate() {
+            whole.row_mut(row)[column] = element(a, b);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_has_half_of_its_energy_on_the_hemisphere() {
+        let hemisphere = Hemisphere::new(1);
+        assert!((hemisphere.energy(&[1.0]) - 0.5).abs() < 1e-15 && (hemisphere.drop_costs()[0] - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_cannot_be_dropped_is_refused() {
+        let error = |dropped: &[usize]| Hemisphere::without(2, dropped).map(|_| ()).expect_err("refused");
+        assert_eq!(error(&[4]), HemisphereError::Dropped { functions: 4, found: 4 });
+        assert_eq!(error(&[1, 1]), HemisphereError::Dropped { functions: 4, found: 1 });
+        assert_eq!(error(&[0, 1, 2, 3]), HemisphereError::Empty { functions: 4 });
+    }
+}

@@ -1,0 +1,177 @@
+//! Rotation of functions on the sphere.
+
+use std::sync::OnceLock;
+
+use glam::{DMat3, DVec3};
+use thiserror::Error;
+
+use super::harmonics::{MAX_ORDER, function_count, harmonics};
+use super::rule::DirectionRule;
+use crate::linalg::dot;
+
+/// Largest distance of an element of R^T R from the identity's: frames made in f64 pass, those rounded to f32 do not.
+pub const MAX_SKEW: f64 = 1e-9;
+
+/// A matrix that turns nothing.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum RotationError {
+    /// Columns that are not orthonormal, or not finite.
+    #[error(
+        "expected a rotation matrix with orthonormal columns (to {MAX_SKEW}), found columns {columns:?} (counted from 0) with product {found}; orthonormalize them in double precision"
+    )]
+    NotOrthonormal { columns: [usize; 2], found: f64 },
+    /// A reflection: harmonics of a mirrored function are no rotated ones.
+    #[error("expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or negate one")]
+    Reflection,
+}
+
+/// The directions of a rule for one order with weight times harmonics of each.
+struct RotationRule {
+    directions: Vec<DVec3>,
+    weighted: Vec<f64>,
+}
+
+/// One rule per order, made when first needed.
+static RULES: [OnceLock<RotationRule>; MAX_ORDER] = [const { OnceLock::new() }; MAX_ORDER];
+
+/// What a rotation does to coefficients: one matrix per band.
+///
+/// Element (i, j) is the integral of y_i(R v) y_j(v), by a rule that is exact for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HarmonicRotation {
+    order: usize,
+    /// Row-major blocks, of 2 l + 1 rows and columns, from l = 0 up.
+    bands: Vec<f64>,
+}
+
+impl HarmonicRotation {
+    /// Of an order and a rotation R: (R f)(R v) = f(v).
+    ///
+    /// # Errors
+    /// [`RotationError`] if the columns are not orthonormal, or the matrix is a reflection.
+    ///
+    /// # Panics
+    /// If the order is not 1 to [`MAX_ORDER`].
+    pub fn new(order: usize, rotation: &DMat3) -> Result<Self, RotationError> {
+        check(rotation)?;
+        let count = function_count(order);
+        let rule = RULES[order - 1].get_or_init(|| rotation_rule(order));
+        let mut turned = [0.0; MAX_ORDER * MAX_ORDER];
+        let mut bands = vec![0.0; first_of_band(order)];
+        for (&direction, weighted) in rule.directions.iter().zip(rule.weighted.chunks_exact(count)) {
+            harmonics(order, *rotation * direction, &mut turned[..count]);
+            let mut rest = bands.as_mut_slice();
+            for l in 0..order {
+                let (band, functions) = (2 * l + 1, l * l..(l + 1) * (l + 1));
+                let (block, after) = rest.split_at_mut(band * band);
+                for (row, y) in block.chunks_exact_mut(band).zip(&turned[functions.clone()]) {
+                    row.iter_mut().zip(&weighted[functions.clone()]).for_each(|(sum, from)| *sum += y * from);
+                }
+                rest = after;
+            }
+        }
+        Ok(Self { order, bands })
+    }
+
+    /// The order.
+    pub const fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The matrix of a band, 2 l + 1 rows and columns, row by row.
+    ///
+    /// # Panics
+    /// If there is no such band.
+    pub fn band(&self, l: usize) -> &[f64] {
+        assert!(l < self.order, "a band of order {}", self.order);
+        &self.bands[first_of_band(l)..first_of_band(l + 1)]
+    }
+
+    /// The coefficients of the rotated function.
+    ///
+    /// # Panics
+    /// If there are not n^2 coefficients and places.
+    pub fn apply(&self, coefficients: &[f64], into: &mut [f64]) {
+        let count = function_count(self.order);
+        assert_eq!([coefficients.len(), into.len()], [count; 2], "coefficients of order {}", self.order);
+        for l in 0..self.order {
+            let functions = l * l..(l + 1) * (l + 1);
+            for (row, value) in self.band(l).chunks_exact(2 * l + 1).zip(&mut into[functions.clone()]) {
+                *value = dot(row, &coefficients[functions.clone()]);
+            }
+        }
+    }
+
+    /// The rotation back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let mut bands = Vec::with_capacity(self.bands.len());
+        for l in 0..self.order {
+            let (band, size) = (self.band(l), 2 * l + 1);
+            bands.extend((0..size * size).map(|k| band[k % size * size + k / size]));
+        }
+        Self { order: self.order, bands }
+    }
+}
+
+/// Elements of all bands below l.
+fn first_of_band(l: usize) -> usize {
+    (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
+}
+
+/// Products of two functions of a band are the same at opposite points, so rings above the equator count twice.
+fn rotation_rule(order: usize) -> RotationRule {
+    let whole = DirectionRule::sphere(2 * order - 2);
+    let mut rule = RotationRule { directions: Vec::new(), weighted: Vec::new() };
+    let mut y = vec![0.0; function_count(order)];
+    for (&at, weight) in whole.directions().iter().zip(whole.weights()).filter(|(at, _)| at.z >= 0.0) {
+        let weight = if at.z > 0.0 { 2.0 * weight } else { *weight };
+        harmonics(order, at, &mut y);
+        rule.directions.push(at);
+        rule.weighted.extend(y.iter().map(|y| weight * y));
+    }
+    rule
+}
+
+fn check(rotation: &DMat3) -> Result<(), RotationError> {
+    for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
+        let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));
+        let expected = if columns[0] == columns[1] { 1.0 } else { 0.0 };
+        let off = (found - expected).abs();
+        if off.is_nan() || off > MAX_SKEW {
+            return Err(RotationError::NotOrthonormal { columns, found });
+        }
+    }
+    if rotation.determinant() < 0.0 { Err(RotationError::Reflection) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_rotation_is_refused() {
+        let mirrored = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
+        assert_eq!(HarmonicRotation::new(3, &mirrored), Err(RotationError::Reflection));
+        let skewed = DMat3::from_cols(DVec3::X, DVec3::new(0.5, 1.0, 0.0), DVec3::Z);
+        let skew = RotationError::NotOrthonormal { columns: [1, 1], found: 1.25 };
+        assert_eq!(HarmonicRotation::new(3, &skewed), Err(skew));
+        assert!(HarmonicRotation::new(3, &DMat3::from_diagonal(DVec3::NAN)).is_err());
+    }
+
+    #[test]
+    fn a_quarter_turn_around_z_moves_x_to_y() {
+        let turn = DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z);
+        let rotation = HarmonicRotation::new(2, &turn).expect("a rotation");
+        let mut found = [0.0; 4];
+        rotation.apply(&[1.0, 0.0, 5.0, 7.0], &mut found);
+        for (found, expected) in found.iter().zip([1.0, 7.0, 5.0, 0.0]) {
+            assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+        }
+        let mut back = [0.0; 4];
+        rotation.inverse().apply(&found, &mut back);
+        assert!(back.iter().zip([1.0, 0.0, 5.0, 7.0]).all(|(a, b)| (a - b).abs() < 1e-14), "{back:?}");
+    }
+}

@@ -1,0 +1,152 @@
+//! Directions and weights that integrate polynomials exactly.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::harmonics::{function_count, harmonics};
+use crate::{elementary, quadrature};
+
+/// The highest degree of a rule.
+pub const MAX_DEGREE: usize = 1023;
+
+/// Directions and weights over the sphere, or over the hemisphere z >= 0, which integrate polynomials in x, y, z of a
+/// degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
+///
+/// Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions for degree d,
+/// rings from the least z up. Every second ring is turned by half a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectionRule {
+    directions: Vec<DVec3>,
+    weights: Vec<f64>,
+    degree: usize,
+}
+
+impl DirectionRule {
+    /// Over the sphere. Degree 2n - 2 integrates products of two functions of order n.
+    ///
+    /// # Panics
+    /// If the degree exceeds [`MAX_DEGREE`].
+    pub fn sphere(degree: usize) -> Self {
+        Self::between(-1.0, degree)
+    }
+
+    /// Over the hemisphere z >= 0.
+    ///
+    /// # Panics
+    /// If the degree exceeds [`MAX_DEGREE`].
+    pub fn hemisphere(degree: usize) -> Self {
+        Self::between(0.0, degree)
+    }
+
+    fn between(least_z: f64, degree: usize) -> Self {
+        assert!(degree <= MAX_DEGREE, "a degree of at most {MAX_DEGREE}, not {degree}");
+        let (rings, azimuths) = (quadrature::gauss_legendre(degree / 2 + 1), degree + 1);
+        let mut rule = Self { directions: Vec::new(), weights: Vec::new(), degree };
+        for (ring, (at, weight)) in rings.into_iter().enumerate() {
+            let z = least_z + (1.0 - least_z) * at;
+            let radius = ((1.0 - z) * (1.0 + z)).sqrt();
+            let turn = if ring % 2 == 0 { 0.25 } else { 0.75 };
+            for azimuth in 0..azimuths {
+                let [x, y] = elementary::on_circle((azimuth as f64 + turn) / azimuths as f64);
+                rule.directions.push(DVec3::new(radius * x, radius * y, z));
+                rule.weights.push((1.0 - least_z) * weight * TAU / azimuths as f64);
+            }
+        }
+        rule
+    }
+
+    /// The directions, of length 1.
+    pub fn directions(&self) -> &[DVec3] {
+        &self.directions
+    }
+
+    /// The weight of each direction, in steradians.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The degree up to which polynomials are integrated exactly.
+    pub const fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// The number of directions.
+    pub fn len(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// Always false: a rule has at least one direction.
+    pub fn is_empty(&self) -> bool {
+        self.directions.is_empty()
+    }
+
+    /// Each ring: its directions and their weights.
+    fn rings(&self) -> impl Iterator<Item = impl Iterator<Item = (DVec3, f64)>> {
+        let rings = self.directions.chunks(self.degree + 1).zip(self.weights.chunks(self.degree + 1));
+        rings.map(|(directions, weights)| directions.iter().copied().zip(weights.iter().copied()))
+    }
+
+    /// The integral of a function: summed ring by ring.
+    pub fn integral(&self, value: impl Fn(DVec3) -> f64) -> f64 {
+        self.rings().map(|ring| ring.map(|(at, weight)| weight * value(at)).sum::<f64>()).sum()
+    }
+
+    /// The integrals of a function times each of the n^2 harmonics of an order: over the sphere its coefficients, over
+    /// the hemisphere its zero-hemisphere projection. Exact for a polynomial f of degree d if the rule's degree is at
+    /// least d + n - 1.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn project(&self, order: usize, value: impl Fn(DVec3) -> f64) -> Vec<f64> {
+        let mut sums = vec![0.0; function_count(order)];
+        let [mut of_ring, mut y] = [sums.clone(), sums.clone()];
+        for ring in self.rings() {
+            of_ring.fill(0.0);
+            for (at, weight) in ring {
+                harmonics(order, at, &mut y);
+                let weighted = weight * value(at);
+                of_ring.iter_mut().zip(&y).for_each(|(sum, y)| *sum += weighted * y);
+            }
+            sums.iter_mut().zip(&of_ring).for_each(|(sum, of_ring)| *sum += of_ring);
+        }
+        sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::abs_diff_eq;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn rules_have_the_size_of_their_degree_and_the_solid_angle_as_their_sum() {
+        let [sphere, hemisphere] = [DirectionRule::sphere(8), DirectionRule::hemisphere(63)];
+        assert_eq!([sphere.len(), hemisphere.len()], [45, 2048]);
+        assert!(abs_diff_eq!(sphere.integral(|_| 1.0), 4.0 * PI, epsilon = 1e-14));
+        assert!(abs_diff_eq!(hemisphere.integral(|_| 1.0), 2.0 * PI, epsilon = 1e-14));
+        assert!(abs_diff_eq!(hemisphere.integral(|v| v.z), PI, epsilon = 1e-14));
+        assert!(hemisphere.directions().iter().all(|v| v.z > 0.0 && (v.length() - 1.0).abs() < 4e-16));
+    }
+
+    #[test]
+    fn monomials_are_integrated_up_to_the_degree_and_not_beyond() {
+        // Over the sphere, the integral of z^k is 4 pi / (k + 1) for even k; over the hemisphere 2 pi / (k + 1).
+        for degree in 0..=12 {
+            let [sphere, hemisphere] = [DirectionRule::sphere(degree), DirectionRule::hemisphere(degree)];
+            for k in 0..=degree {
+                let power = |x: f64| (0..k).fold(1.0, |product, _| product * x);
+                let whole = if k % 2 == 0 { 4.0 * PI / (k + 1) as f64 } else { 0.0 };
+                for axis in 0..3 {
+                    assert!(abs_diff_eq!(sphere.integral(|v| power(v[axis])), whole, epsilon = 2e-14), "{degree} {k}");
+                    let half = if axis == 2 { 2.0 * PI / (k + 1) as f64 } else { whole / 2.0 };
+                    assert!(abs_diff_eq!(hemisphere.integral(|v| power(v[axis])), half, epsilon = 2e-14), "{k}");
+                }
+            }
+            let next = degree + 2 + degree % 2;
+            let power = |x: f64| (0..next).fold(1.0, |product, _| product * x);
+            assert!(!abs_diff_eq!(sphere.integral(|v| power(v.z)), 4.0 * PI / (next + 1) as f64, epsilon = 1e-9));
+        }
+    }
+}
