@@ -98,9 +98,11 @@ impl Programs {
         self.0.iter().map(|p| p.devices.len() as u64).sum()
     }
 
-    /// Pair number `seed`, over and over.
+    /// Pair number `seed`, over and over: first every second one, which the short form takes, then the others.
     fn pair(&self, seed: u64) -> (&Program, &str) {
-        let mut left = seed % self.pairs().max(1);
+        let (pairs, seconds) = (self.pairs().max(1), self.pairs().div_ceil(2));
+        let number = seed % pairs;
+        let mut left = if number < seconds { 2 * number } else { 2 * (number - seconds) + 1 };
         for program in &self.0 {
             if left < program.devices.len() as u64 {
                 return (program, &program.devices[left as usize]);
