@@ -39,6 +39,9 @@ pub enum ClusteringError {
     /// Vectors that are not orthonormal.
     #[error("expected orthonormal vectors in cluster {cluster}, found others")]
     NotOrthonormal { cluster: usize },
+    /// Eigenvalues out of order.
+    #[error("expected eigenvalues of at least 0 in decreasing order in cluster {cluster}, found others")]
+    Eigenvalues { cluster: usize },
     /// A point names a cluster that there is not.
     #[error("expected a cluster below {clusters} for point {point}, found {found}")]
     Cluster { point: usize, clusters: usize, found: u32 },
@@ -164,6 +167,9 @@ fn check_subspace(cluster: usize, subspace: &AffineSubspace, dimension: usize) -
     if !mean.iter().chain(vectors).chain(eigenvalues).all(|value| value.is_finite()) {
         return Err(ClusteringError::NotFinite { what: "cluster", index: cluster });
     }
+    if !eigenvalues.iter().chain(&[0.0]).is_sorted_by(|a, b| a >= b) {
+        return Err(ClusteringError::Eigenvalues { cluster });
+    }
     for (i, a) in subspace.vectors().enumerate() {
         let wrong = |(j, b)| (dot(a, b) - f64::from(u8::from(i == j))).abs() > ORTHONORMAL;
         if subspace.vectors().enumerate().take(i + 1).any(wrong) {
@@ -180,4 +186,47 @@ fn begins(subspaces: &[AffineSubspace], of_point: &[u32]) -> Vec<usize> {
         end
     });
     std::iter::once(0).chain(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn subspace() -> AffineSubspace {
+        AffineSubspace { mean: vec![1.0, 2.0], vectors: vec![0.6, 0.8], eigenvalues: vec![3.0] }
+    }
+
+    #[test]
+    fn an_approximation_is_the_mean_and_weighted_vectors() {
+        let alone = AffineSubspace { mean: vec![-1.0, 0.0], vectors: vec![], eigenvalues: vec![] };
+        let clustering = Clustering::new(vec![subspace(), alone], vec![1, 0], vec![10.0]).expect("a clustering");
+        let mut point = [0.0; 2];
+        clustering.approximation(1, &mut point);
+        assert_eq!((point, clustering.weights(0), clustering.weights(1)), ([7.0, 10.0], &[][..], &[10.0][..]));
+        let signal = Signal::new(2, vec![-1.0, 2.0, 7.0, 9.0]).expect("a signal");
+        assert_eq!(clustering.squared_error(&signal), 4.0 + 1.0);
+        assert_eq!(clustering.stored_numbers(), 1 + 2 + 2 + 2);
+    }
+
+    #[test]
+    fn parts_that_do_not_go_together_are_refused() {
+        let new = |change: &dyn Fn(&mut AffineSubspace), of_point, weights| {
+            let mut subspace = subspace();
+            change(&mut subspace);
+            Clustering::new(vec![subspace], of_point, weights).expect_err("refused")
+        };
+        let same = |_: &mut AffineSubspace| ();
+        assert_eq!(new(&same, vec![], vec![]), ClusteringError::Empty { clusters: 1, points: 0, dimension: 2 });
+        assert_eq!(new(&same, vec![1], vec![1.0]), ClusteringError::Cluster { point: 0, clusters: 1, found: 1 });
+        assert_eq!(new(&same, vec![0], vec![]), ClusteringError::Weights { expected: 1, found: 0 });
+        let (what, index) = ("weight", 0);
+        assert_eq!(new(&same, vec![0], vec![f64::NAN]), ClusteringError::NotFinite { what, index });
+        let broken = |change: &dyn Fn(&mut AffineSubspace)| new(change, vec![0], vec![1.0]);
+        let cluster = 0;
+        assert_eq!(broken(&|s| s.vectors.push(0.0)), ClusteringError::Subspace { cluster, dimension: 2 });
+        assert_eq!(broken(&|s| s.vectors[0] = 0.7), ClusteringError::NotOrthonormal { cluster });
+        assert_eq!(broken(&|s| s.eigenvalues[0] = -1.0), ClusteringError::Eigenvalues { cluster });
+        let what = "cluster";
+        assert_eq!(broken(&|s| s.mean[0] = f64::INFINITY), ClusteringError::NotFinite { what, index: 0 });
+    }
 }

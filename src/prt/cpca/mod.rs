@@ -3,6 +3,7 @@
 //!
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
+//! - [`refit`]: principal components anew, for points that were moved;
 //! - [`reference`](self::reference): the same by plain loops, for tests.
 //!
 //! What the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error from a
@@ -20,9 +21,11 @@ mod nearest;
 mod options;
 mod products;
 pub mod reference;
+mod refit;
 mod subspace;
 
 pub use clustering::{Clustering, ClusteringError};
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
 pub use options::{CpcaError, CpcaMethod, CpcaOptions, StartPoints};
+pub use refit::refit;
 pub use subspace::AffineSubspace;

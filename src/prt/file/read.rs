@@ -41,13 +41,15 @@ pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
     for _ in 0..header.sections {
         let (tag, mut section) = reader.section()?;
         match &tag {
-            TRANSFER if file.transfer.is_none() => file.transfer = Some(section.transfer(header.points, dimension)?),
+            TRANSFER if file.transfer.is_none() && file.clustering.is_none() => {
+                file.transfer = Some(section.transfer(header.points, dimension)?)
+            }
             CLUSTERING if file.clustering.is_none() => {
                 file.clustering = Some(section.clustering(header.points, dimension)?);
             }
             other => {
                 let found = format!("{:?}", String::from_utf8_lossy(other));
-                return Err(reader.field("section", "\"TRAN\" or \"CLUS\", each once", found));
+                return Err(reader.field("section", "\"TRAN\", then \"CLUS\", each at most once", found));
             }
         }
         section.end()?;
