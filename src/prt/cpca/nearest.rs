@@ -198,10 +198,10 @@ impl Estimates {
         for ((errors, distances), &(mean, vectors)) in
             self.errors.iter_mut().zip(&self.distances).zip(&estimator.bounds)
         {
+            let root = vectors.sqrt();
             for lane in 0..LANES {
-                let bound = bound(estimator.error, lengths[lane] + mean, distances[lane], vectors);
-                let greatest = errors[lane] + bound;
-                least[lane] = if greatest < least[lane] { greatest } else { least[lane] };
+                let bound = bound(estimator.error, lengths[lane] + mean, distances[lane], vectors, root);
+                least[lane] = least[lane].min(errors[lane] + bound);
                 errors[lane] -= bound;
             }
         }
@@ -216,11 +216,11 @@ impl Estimates {
 
 /// How far an estimate may be off. `error` is e, `sum` is S, `distance` the estimate of D^2.
 #[inline(always)]
-fn bound(error: f32, sum: f32, distance: f32, vectors: f32) -> f32 {
+fn bound(error: f32, sum: f32, distance: f32, vectors: f32, root_of_vectors: f32) -> f32 {
     let weight = error * sum;
     // The estimate of D^2 is itself off by at most e S^2.
-    let distance = distance + weight * sum;
-    let squares = 2.0 * vectors.sqrt() * weight * distance.sqrt() + vectors * weight * weight;
+    let distance = (distance + weight * sum).max(0.0);
+    let squares = 2.0 * root_of_vectors * weight * distance.sqrt() + vectors * weight * weight;
     weight * sum + squares + 4.0 * (vectors + 8.0) * UNIT * distance + SMALL
 }
 
@@ -283,6 +283,27 @@ mod tests {
                         let best = least(signal.point(point), &subspaces, all.clone(), &mut scratch);
                         let found = (found.cluster[point], found.squared_error[point]);
                         assert_eq!(found, best, "{dimension} numbers, scale {scale}, offset {offset}, point {point}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn errors_are_above_their_lower_bounds() {
+        for (dimension, vectors) in [(3, 2), (40, 5), (300, 7)] {
+            for offset in [0.0, 1e4] {
+                let (signal, subspaces) = far_apart(dimension, 1.0, offset, vectors);
+                let (subspaces, mut scratch): (Vec<_>, _) = (subspaces.iter().collect(), Vec::new());
+                let points = Points::new(&signal, SimdLevel::widest());
+                let mut groups = [(); GROUPS].map(|()| Estimates::new(subspaces.len()));
+                points.estimate(0, LANES * GROUPS, &points.estimator(&subspaces), &mut groups);
+                for point in 0..LANES * GROUPS {
+                    let (group, lane) = (&groups[point / LANES], point % LANES);
+                    for (subspace, lower) in subspaces.iter().zip(&group.errors) {
+                        let error = subspace.squared_error(signal.point(point), &mut scratch);
+                        let error = error * points.scale * points.scale;
+                        assert!(f64::from(lower[lane]) <= error, "{} for {error}", lower[lane]);
                     }
                 }
             }

@@ -20,7 +20,7 @@ pub enum PrtFileError {
     Read(#[from] ReadError),
     /// It does not begin as such a file.
     #[error("{}: expected a .prt file, found another beginning", path.display())]
-    #[diagnostic(code(crossbar::prt::magic), help("`crossbar prt precompute` writes such files"))]
+    #[diagnostic(code(crossbar::prt::magic), help("is it a .prt file, and copied as one?"))]
     Magic { path: PathBuf },
     /// It is of a version that is not known.
     #[error("{}: expected a .prt file of version 1 to {VERSION}, found version {found}", path.display())]

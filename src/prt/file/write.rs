@@ -63,7 +63,7 @@ fn header(file: &PrtFile) -> Vec<u8> {
 }
 
 fn write_transfer(transfer: &Signal, section: &mut Section<'_>) -> io::Result<()> {
-    transfer.values().iter().try_for_each(|value| section.write(&value.to_le_bytes()))
+    section.write_all(transfer.values().iter().map(|value| value.to_le_bytes()))
 }
 
 fn clustering_length(clustering: &Clustering) -> u64 {
@@ -74,16 +74,17 @@ fn clustering_length(clustering: &Clustering) -> u64 {
 
 fn write_clustering(clustering: &Clustering, section: &mut Section<'_>) -> io::Result<()> {
     section.write(&(clustering.subspaces().len() as u32).to_le_bytes())?;
+    section.write_all(clustering.subspaces().iter().map(|subspace| (subspace.len() as u32).to_le_bytes()))?;
     for subspace in clustering.subspaces() {
-        section.write(&(subspace.len() as u32).to_le_bytes())?;
+        let numbers = subspace.mean.iter().chain(&subspace.eigenvalues).chain(&subspace.vectors);
+        section.write_all(numbers.map(|value| value.to_le_bytes()))?;
     }
-    for subspace in clustering.subspaces() {
-        let mut numbers = subspace.mean.iter().chain(&subspace.eigenvalues).chain(&subspace.vectors);
-        numbers.try_for_each(|value| section.write(&value.to_le_bytes()))?;
-    }
-    clustering.of_point().iter().try_for_each(|cluster| section.write(&cluster.to_le_bytes()))?;
-    clustering.all_weights().iter().try_for_each(|weight| section.write(&weight.to_le_bytes()))
+    section.write_all(clustering.of_point().iter().map(|cluster| cluster.to_le_bytes()))?;
+    section.write_all(clustering.all_weights().iter().map(|weight| weight.to_le_bytes()))
 }
+
+/// Numbers that are written at a time.
+const BUFFERED: usize = 1 << 14;
 
 /// A part with its length before and its checksum behind it.
 struct Section<'a> {
@@ -102,6 +103,17 @@ impl<'a> Section<'a> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.crc.update(bytes);
         self.out.write_all(bytes)
+    }
+
+    /// Writes numbers, many at a time.
+    fn write_all<const N: usize>(&mut self, mut numbers: impl Iterator<Item = [u8; N]>) -> io::Result<()> {
+        loop {
+            let some: Vec<u8> = numbers.by_ref().take(BUFFERED).flatten().collect();
+            if some.is_empty() {
+                return Ok(());
+            }
+            self.write(&some)?;
+        }
     }
 
     fn end(self) -> io::Result<()> {
