@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Dyn};
 use thiserror::Error;
 
-use super::Matrix;
+use super::{Matrix, MatrixError};
 
 /// Iterations per row or column after which an eigenvalue or singular value counts as not found.
 const MAX_ITERATIONS: usize = 100;
@@ -26,6 +26,12 @@ pub enum FactorError {
         "expected {columns} independent columns, found column {column} (counted from 0) to depend on those before it"
     )]
     RankDeficient { columns: usize, column: usize },
+    /// An eigenvalue and its vector that do not belong together: rounding has spoilt the factorisation.
+    #[error("expected eigenvectors with A v = lambda v, found some of {size} x {size} elements that are not")]
+    Residual { size: usize },
+    /// A matrix that is needed on the way cannot be made.
+    #[error(transparent)]
+    Matrix(#[from] MatrixError),
 }
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.

@@ -98,6 +98,15 @@ impl Matrix {
         self.values.par_chunks_exact_mut(self.columns.max(1))
     }
 
+    /// The elements of `count` rows at a time, row by row, to be written; fewer rows in the last block.
+    ///
+    /// # Panics
+    /// If `count` is 0.
+    pub fn row_blocks_mut(&mut self, count: usize) -> impl ExactSizeIterator<Item = &mut [f64]> {
+        assert!(count > 0, "at least one row");
+        self.values.chunks_mut(count * self.columns.max(1))
+    }
+
     /// The elements of the diagonal.
     pub fn diagonal(&self) -> Vec<f64> {
         self.rows().take(self.columns).enumerate().map(|(i, row)| row[i]).collect()

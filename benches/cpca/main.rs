@@ -1,0 +1,44 @@
+//! How fast signals are compressed: a signal of order-5 diffuse transfer (25 numbers per point) beside plain loops, and
+//! one of glossy transfer (24 x 25 numbers).
+//!
+//! Figure to beat: ten times as fast as the plain loops on two threads. Ratios are of one run. One element is
+//! one point.
+//!
+//! `cargo bench -p crossbar-benches --bench cpca`
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use crossbar::prt::Signal;
+use crossbar::prt::cpca::{CpcaMethod, CpcaOptions, StartPoints, compress, reference};
+use crossbar::prt::synthetic::torus_signal;
+
+/// Points of both signals.
+const POINTS: usize = 3000;
+
+fn options(clusters: usize, vectors: usize) -> CpcaOptions {
+    CpcaOptions { clusters, vectors, iterations: 3, method: CpcaMethod::Iterative, start: StartPoints::Seed(1) }
+}
+
+fn fast(signal: &Signal, options: &CpcaOptions) -> f64 {
+    compress(signal, options, |_| ()).expect("compressed").clustering.squared_error(signal)
+}
+
+fn main() {
+    let mut criterion = Criterion::default().sample_size(10).configure_from_args();
+    let mut group = criterion.benchmark_group("compression");
+    group.throughput(Throughput::Elements(POINTS as u64));
+    let (diffuse, diffuse_options) = (torus_signal(POINTS, 25, 1), options(64, 4));
+    group.bench_function(BenchmarkId::new("diffuse", "fast"), |bench| {
+        bench.iter(|| black_box(fast(&diffuse, &diffuse_options)));
+    });
+    group.bench_function(BenchmarkId::new("diffuse", "plain loops"), |bench| {
+        bench.iter(|| black_box(reference::compress(&diffuse, &diffuse_options).expect("compressed")));
+    });
+    let (glossy, glossy_options) = (torus_signal(POINTS, 600, 1), options(16, 4));
+    group.bench_function(BenchmarkId::new("glossy", "fast"), |bench| {
+        bench.iter(|| black_box(fast(&glossy, &glossy_options)));
+    });
+    group.finish();
+    criterion.final_summary();
+}

@@ -1,0 +1,287 @@
+//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order, as a table. The
+//! first axis counts rows; the others together are its columns. f8 is rounded to the nearest f32.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::number_table::NumberTable;
+use super::{quoted, to_f32};
+
+/// How such a file begins.
+pub const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// Why a file is no array that can be read.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum NpyError {
+    /// The file ends too early.
+    #[error("{}: expected {expected} bytes of {what}, found {found}", path.display())]
+    #[diagnostic(code(crossbar::npy::truncated), help("the file is cut; write it again"))]
+    Truncated { path: PathBuf, what: &'static str, expected: usize, found: usize },
+    /// A part of the file is not what belongs there.
+    #[error("{}: {what}: expected {expected}, found {found}", path.display())]
+    #[diagnostic(code(crossbar::npy::header), help("write it with numpy.save"))]
+    Header { path: PathBuf, what: &'static str, expected: &'static str, found: String },
+    /// Numbers of a type that is not read.
+    #[error("{}: expected numbers of type <f4, <f8, >f4 or >f8, found {found}", path.display())]
+    #[diagnostic(code(crossbar::npy::dtype), help("convert the array: a.astype('<f4')"))]
+    Type { path: PathBuf, found: String },
+    /// Columns first.
+    #[error("{}: expected an array in C order, found Fortran order", path.display())]
+    #[diagnostic(code(crossbar::npy::order), help("convert the array: numpy.ascontiguousarray(a)"))]
+    FortranOrder { path: PathBuf },
+    /// More or fewer numbers than the shape says, or none.
+    #[error("{}: expected {expected} of numbers, found {found}", path.display())]
+    #[diagnostic(code(crossbar::npy::size))]
+    Size { path: PathBuf, expected: String, found: String },
+    /// A number that f32 cannot hold.
+    #[error("{}: number {index} (counted from 0) is too large for a 32-bit float: {value:e}", path.display(),
+        value = f64::from_bits(*bits))]
+    #[diagnostic(code(crossbar::npy::range))]
+    TooLarge { path: PathBuf, index: usize, bits: u64 },
+}
+
+/// Reads an array from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`NpyError`].
+pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
+    let (text, data) = split(bytes, name)?;
+    let header = Header::parse(text).map_err(|(what, expected)| NpyError::Header {
+        path: name.into(),
+        what,
+        expected,
+        found: quoted(text),
+    })?;
+    if header.fortran_order {
+        return Err(NpyError::FortranOrder { path: name.into() });
+    }
+    let unknown = || NpyError::Type { path: name.into(), found: quoted(header.descr.as_bytes()) };
+    let (is_big, size) = match header.descr.as_str() {
+        "<f4" => (false, 4),
+        "<f8" => (false, 8),
+        ">f4" => (true, 4),
+        ">f8" => (true, 8),
+        _ => return Err(unknown()),
+    };
+    let wrong = |expected: String| NpyError::Size { path: name.into(), expected, found: format!("{:?}", header.shape) };
+    let columns = header.shape.iter().skip(1).try_fold(1_usize, |product, &axis| product.checked_mul(axis));
+    let rows = header.shape.first().copied().unwrap_or(0);
+    let count = columns.filter(|&columns| columns > 0 && rows > 0).and_then(|columns| columns.checked_mul(rows));
+    let (Some(columns), Some(count)) = (columns, count) else {
+        return Err(wrong("a shape".to_owned()));
+    };
+    if count.checked_mul(size) != Some(data.len()) {
+        let found = format!("{} bytes", data.len());
+        return Err(NpyError::Size { path: name.into(), expected: format!("{count} x {size} bytes"), found });
+    }
+    let values = match size {
+        4 => data
+            .as_chunks()
+            .0
+            .iter()
+            .map(|&b| if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) })
+            .collect(),
+        _ => singles(data, is_big).map_err(|(index, bits)| NpyError::TooLarge { path: name.into(), index, bits })?,
+    };
+    Ok(NumberTable { columns, values })
+}
+
+fn singles(data: &[u8], is_big: bool) -> Result<Vec<f32>, (usize, u64)> {
+    let bytes = data.as_chunks().0.iter().enumerate();
+    let numbers = bytes.map(|(i, &b)| (i, if is_big { f64::from_be_bytes(b) } else { f64::from_le_bytes(b) }));
+    numbers.map(|(i, number)| to_f32(number).map_err(|_| (i, number.to_bits()))).collect()
+}
+
+/// The text of the header, and what stands behind it.
+fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), NpyError> {
+    let path = || name.to_path_buf();
+    let Some(rest) = bytes.strip_prefix(MAGIC) else {
+        let found = quoted(&bytes[..bytes.len().min(MAGIC.len())]);
+        return Err(NpyError::Header { path: path(), what: "the first bytes", expected: "\\x93NUMPY", found });
+    };
+    let cut = |what, expected, found| NpyError::Truncated { path: path(), what, expected, found };
+    let [major, _minor, rest @ ..] = rest else { return Err(cut("its version", 2, rest.len())) };
+    let (length, rest) = match (major, rest) {
+        (1, [a, b, rest @ ..]) => (usize::from(u16::from_le_bytes([*a, *b])), rest),
+        (2 | 3, [a, b, c, d, rest @ ..]) => (u32::from_le_bytes([*a, *b, *c, *d]) as usize, rest),
+        (1..=3, _) => return Err(cut("the header's length", if *major == 1 { 2 } else { 4 }, rest.len())),
+        _ => {
+            let found = major.to_string();
+            return Err(NpyError::Header { path: path(), what: "its version", expected: "1, 2 or 3", found });
+        }
+    };
+    rest.split_at_checked(length).ok_or_else(|| cut("the header", length, rest.len()))
+}
+
+/// The dictionary of the header.
+#[derive(Debug, Default)]
+struct Header {
+    descr: String,
+    fortran_order: bool,
+    shape: Vec<usize>,
+}
+
+impl Header {
+    /// What is wrong, and what was expected, on failure.
+    fn parse(text: &[u8]) -> Result<Self, (&'static str, &'static str)> {
+        let text = std::str::from_utf8(text).map_err(|_| ("the header", "a Python dictionary in ASCII"))?;
+        let inside = text.trim().strip_prefix('{').and_then(|text| text.strip_suffix('}'));
+        let mut rest = inside.ok_or(("the header", "a Python dictionary"))?.trim();
+        let (mut descr, mut order, mut shape) = (None, None, None);
+        while !rest.is_empty() {
+            let (key, after) = string(rest).ok_or(("a key of the header", "a string"))?;
+            let value = after.trim_start().strip_prefix(':').ok_or(("a key of the header", "`:` behind it"))?.trim();
+            rest = match key {
+                "descr" => keep(&mut descr, string(value), "`descr`", "one string, such as '<f4'")?,
+                "fortran_order" => keep(&mut order, boolean(value), "`fortran_order`", "True or False, once")?,
+                "shape" => keep(&mut shape, tuple(value), "`shape`", "a tuple of whole numbers, once")?,
+                _ => return Err(("the header", "no keys but `descr`, `fortran_order` and `shape`")),
+            };
+            rest = match rest.trim_start() {
+                "" => "",
+                more => more.strip_prefix(',').ok_or(("the header", "`,` between its entries"))?.trim_start(),
+            };
+        }
+        Ok(Self {
+            descr: descr.ok_or(("the header", "a key `descr`"))?.to_owned(),
+            fortran_order: order.ok_or(("the header", "a key `fortran_order`"))?,
+            shape: shape.ok_or(("the header", "a key `shape`"))?,
+        })
+    }
+}
+
+/// Keeps a value, if there is one and none was kept before; gives the text behind it.
+fn keep<'a, T>(
+    slot: &mut Option<T>,
+    found: Option<(T, &'a str)>,
+    what: &'static str,
+    expected: &'static str,
+) -> Result<&'a str, (&'static str, &'static str)> {
+    match found {
+        Some((value, rest)) if slot.is_none() => {
+            *slot = Some(value);
+            Ok(rest)
+        }
+        _ => Err((what, expected)),
+    }
+}
+
+fn string(text: &str) -> Option<(&str, &str)> {
+    let quote = text.chars().next().filter(|quote| matches!(quote, '\'' | '"'))?;
+    text[1..].split_once(quote)
+}
+
+fn boolean(text: &str) -> Option<(bool, &str)> {
+    let is_true = text.strip_prefix("True").map(|rest| (true, rest));
+    is_true.or_else(|| text.strip_prefix("False").map(|rest| (false, rest)))
+}
+
+fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
+    let (inside, rest) = text.strip_prefix('(')?.split_once(')')?;
+    let inside = inside.trim();
+    let inside = inside.strip_suffix(',').unwrap_or(inside);
+    let numbers = inside.split(',').map(str::trim).filter(|_| !inside.is_empty());
+    // Python 2 wrote long integers with an L.
+    Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
+}
+
+/// Writes a table as an array of little-endian f4, of version 1.
+///
+/// # Errors
+/// Those of `out`.
+///
+/// # Panics
+/// If the values are not whole rows.
+pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
+    let NumberTable { columns, values } = table;
+    assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
+    let shape = format!("({}, {columns})", values.len() / columns);
+    let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    // The data begin at a multiple of 64 bytes, behind a line feed.
+    let padding = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - (MAGIC.len() + 4 + header.len() + 1);
+    header.extend(std::iter::repeat_n(' ', padding).chain(['\n']));
+    out.write_all(MAGIC)?;
+    out.write_all(&[1, 0])?;
+    out.write_all(&(header.len() as u16).to_le_bytes())?;
+    out.write_all(header.as_bytes())?;
+    values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
+        let length = (header.len() as u32).to_le_bytes();
+        let length = if version == 1 { &length[..2] } else { &length[..] };
+        [MAGIC, &[version, 0], length, header.as_bytes(), data].concat()
+    }
+
+    fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
+        parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn all_versions_and_types_are_read() {
+        let values = [1.5_f32, -2.0, 0.1, 3e38, 0.0, -0.0];
+        let bytes = |descr: &str| -> Vec<u8> {
+            let one = |&value: &f32| match descr {
+                "<f4" => value.to_le_bytes().to_vec(),
+                ">f4" => value.to_be_bytes().to_vec(),
+                "<f8" => f64::from(value).to_le_bytes().to_vec(),
+                _ => f64::from(value).to_be_bytes().to_vec(),
+            };
+            values.iter().flat_map(one).collect()
+        };
+        for (version, shape, columns) in [(1, "(2, 3)", 3), (2, "(3, 1, 2L)", 2), (3, "(6,)", 1)] {
+            for descr in ["<f4", ">f4", "<f8", ">f8"] {
+                let header = format!(" {{\"descr\": '{descr}', 'shape': {shape}, 'fortran_order': False}}  \n");
+                let expected = NumberTable { columns, values: values.to_vec() };
+                assert_eq!(parse(&file(version, &header, &bytes(descr))), Ok(expected), "{version} {descr}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let table = NumberTable { columns: 3, values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0] };
+        let mut bytes = Vec::new();
+        write_npy(&table, &mut bytes).expect("written");
+        assert_eq!((bytes.len() - 24) % 64, 0);
+        assert_eq!(parse(&bytes), Ok(table));
+        for length in 0..bytes.len() {
+            assert!(parse(&bytes[..length]).is_err(), "{length} bytes");
+        }
+        assert!(parse(&[&bytes[..], &[0]].concat()).is_err());
+    }
+
+    #[test]
+    fn what_is_not_read_is_named() {
+        let error = |header: &str, data: &[u8]| parse(&file(1, header, data)).expect_err("no table");
+        let with = |descr: &str, order: &str, shape: &str| {
+            format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}}}")
+        };
+        let order = error(&with("'<f4'", "True", "(1, 1)"), &[0; 4]);
+        assert_eq!(order, "a.npy: expected an array in C order, found Fortran order");
+        let integers = error(&with("'<i4'", "False", "(1, 1)"), &[0; 4]);
+        assert_eq!(integers, "a.npy: expected numbers of type <f4, <f8, >f4 or >f8, found `<i4`");
+        let short = error(&with("'<f4'", "False", "(2, 3)"), &[0; 20]);
+        assert_eq!(short, "a.npy: expected 6 x 4 bytes of numbers, found 20 bytes");
+        for shape in ["()", "(0, 3)", "(3, 0)", "(9999999999999, 9999999999999)"] {
+            assert!(error(&with("'<f4'", "False", shape), &[]).starts_with("a.npy: expected"), "{shape}");
+        }
+        let range = error(&with("'<f8'", "False", "(1,)"), &1e39_f64.to_le_bytes());
+        assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
+        let twice = error("{'shape': (1,), 'shape': (1,)}", &[]);
+        assert!(twice.contains("`shape`: expected a tuple of whole numbers, once"), "{twice}");
+        for header in ["", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"] {
+            assert!(error(header, &[]).contains("expected"), "{header}");
+        }
+        assert_eq!(parse(b"PK").expect_err("no table"), "a.npy: the first bytes: expected \\x93NUMPY, found `PK`");
+        assert_eq!(parse(&file(4, "", &[])).expect_err("none"), "a.npy: its version: expected 1, 2 or 3, found 4");
+    }
+}

@@ -1,0 +1,119 @@
+//! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
+//!
+//! Comma-separated: a row per line, as many numbers in each; a first line without any number is a header. Numbers are
+//! rounded to the nearest f32.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::error::ReadError;
+use super::lines::single;
+use super::{NumberError, quoted};
+
+/// Longest file that is read, in bytes (2 GiB).
+pub const MAX_BYTES: u64 = 1 << 31;
+
+/// Rows of as many numbers each, row by row. They may be infinite or NaN where the file can say so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberTable {
+    /// Numbers per row.
+    pub columns: usize,
+    /// All numbers: a multiple of `columns`.
+    pub values: Vec<f32>,
+}
+
+/// Why a file is no table of numbers. Lines and fields count from 1.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum NumberTableError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// A line has more or fewer fields than the first.
+    #[error("{}:{line}: expected {expected} numbers as in the first row, found {found} fields", path.display())]
+    #[diagnostic(code(crossbar::table::ragged), help("give every row the same number of fields"))]
+    Ragged { path: PathBuf, line: u64, expected: usize, found: usize },
+    /// A field is not a number of single precision.
+    #[error("{}:{line}: expected {} in field {field}, found {found}", path.display(), reason.expected())]
+    #[diagnostic(code(crossbar::table::number))]
+    Number { path: PathBuf, line: u64, field: usize, reason: NumberError, found: String },
+    /// No row.
+    #[error("{}: expected at least one row of numbers, found none", path.display())]
+    #[diagnostic(code(crossbar::table::empty))]
+    Empty { path: PathBuf },
+    /// The table's syntax is broken.
+    #[error("{}: the table cannot be read: {reason}", path.display())]
+    #[diagnostic(code(crossbar::table::syntax))]
+    Syntax { path: PathBuf, reason: String },
+}
+
+/// Reads a comma-separated table from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`NumberTableError`], with the line where there is one.
+pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable, NumberTableError> {
+    // Some programs mark UTF-8 with three bytes.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let broken = |reason: csv::Error| NumberTableError::Syntax { path: name.into(), reason: reason.to_string() };
+    let (mut columns, mut values, mut record) = (0, Vec::new(), csv::ByteRecord::new());
+    let mut is_first = true;
+    while reader.read_byte_record(&mut record).map_err(broken)? {
+        let header = record.iter().all(|field| single(field) == Err(NumberError::NoNumber));
+        if std::mem::take(&mut is_first) && header {
+            continue;
+        }
+        let line = record.position().map_or(0, csv::Position::line);
+        if columns != 0 && record.len() != columns {
+            return Err(NumberTableError::Ragged { path: name.into(), line, expected: columns, found: record.len() });
+        }
+        columns = record.len();
+        for (field, text) in (1..).zip(&record) {
+            let path = || name.to_path_buf();
+            let number = single(text).map_err(|reason| NumberTableError::Number {
+                path: path(),
+                line,
+                field,
+                reason,
+                found: quoted(text),
+            });
+            values.push(number?);
+        }
+    }
+    if values.is_empty() {
+        return Err(NumberTableError::Empty { path: name.into() });
+    }
+    Ok(NumberTable { columns, values })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<NumberTable, String> {
+        parse_number_table(text.as_bytes(), Path::new("s.csv")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_line_is_a_row() {
+        let table = Ok(NumberTable { columns: 2, values: vec![1.0, 0.5, -2e3, 0.0] });
+        assert_eq!(parse("1, 0.5\n-2e3,0\n"), table);
+        assert_eq!(parse("\u{feff}x,y\r\n1,0.5\r\n\r\n-2e3,0"), table);
+    }
+
+    #[test]
+    fn bad_tables_are_named() {
+        let error = |text: &str| parse(text).expect_err("no table");
+        assert_eq!(error(""), "s.csv: expected at least one row of numbers, found none");
+        assert_eq!(error("x,y\n"), "s.csv: expected at least one row of numbers, found none");
+        assert_eq!(error("x,y\n1,2\n3\n"), "s.csv:3: expected 2 numbers as in the first row, found 1 fields");
+        assert_eq!(error("1,2\n3,4,5\n"), "s.csv:2: expected 2 numbers as in the first row, found 3 fields");
+        assert_eq!(error("1,x\n"), "s.csv:1: expected a number in field 2, found `x`");
+        assert_eq!(error("1,2\n1,nan\n"), "s.csv:2: expected a finite number in field 2, found `nan`");
+        assert_eq!(error("1,2\na,b\n"), "s.csv:2: expected a number in field 1, found `a`");
+    }
+}

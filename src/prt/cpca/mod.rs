@@ -1,0 +1,31 @@
+//! Clustered principal component analysis: points are shared out to clusters, each of which is approximated by an
+//! affine subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper).
+//!
+//! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
+//!   adaptive;
+//! - [`refit`]: principal components anew, for points that were moved;
+//! - [`reference`](self::reference): the same by plain loops, for tests.
+//!
+//! What the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error from a
+//! cluster that has others; of each vector the component of largest magnitude is positive; loops end when no point
+//! moves. Distances are compared as in f64. A point whose squared error is at most 2^-40 of its squared distance from
+//! the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the cluster's largest
+//! are left out. Results have the same bits on every processor and number of threads.
+
+mod budget;
+mod clustering;
+mod compress;
+mod fit;
+mod members;
+mod nearest;
+mod options;
+mod products;
+pub mod reference;
+mod refit;
+mod subspace;
+
+pub use clustering::{Clustering, ClusteringError};
+pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
+pub use options::{CpcaError, CpcaMethod, CpcaOptions, StartPoints};
+pub use refit::refit;
+pub use subspace::AffineSubspace;

@@ -1,0 +1,221 @@
+//! Reading: nothing is allocated that the bytes at hand do not fill.
+
+use std::path::Path;
+
+use super::{
+    CLUSTERING, CONVENTIONS, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError, PrtMeaning, TRANSFER, VERSION,
+};
+use crate::io::{ReadError, read_limited};
+use crate::prt::Signal;
+use crate::prt::cpca::{AffineSubspace, Clustering};
+
+/// Fields of 32 bits between the version and the exit functions.
+const FIELDS: usize = 12;
+
+/// Reads a file; of `mesh`, if one is given.
+///
+/// # Errors
+/// [`PrtFileError`].
+pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFileError> {
+    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
+    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
+    let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?;
+    let file = parse_prt(&bytes, path)?;
+    match mesh {
+        Some(&expected) if file.mesh != Some(expected) => {
+            Err(PrtFileError::OtherMesh { path: path.into(), expected, found: file.mesh })
+        }
+        _ => Ok(file),
+    }
+}
+
+/// Reads a file from bytes; `name` stands for it in messages.
+///
+/// # Errors
+/// [`PrtFileError`].
+pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
+    let mut reader = Reader { bytes, at: 0, name };
+    let header = reader.header()?;
+    let mut file = PrtFile { meaning: header.meaning, mesh: header.mesh, transfer: None, clustering: None };
+    let dimension = file.meaning.dimension().unwrap_or(usize::MAX);
+    for _ in 0..header.sections {
+        let (tag, mut section) = reader.section()?;
+        match &tag {
+            TRANSFER if file.transfer.is_none() && file.clustering.is_none() => {
+                file.transfer = Some(section.transfer(header.points, dimension)?)
+            }
+            CLUSTERING if file.clustering.is_none() => {
+                file.clustering = Some(section.clustering(header.points, dimension)?);
+            }
+            other => {
+                let found = format!("{:?}", String::from_utf8_lossy(other));
+                return Err(reader.field("section", "\"TRAN\", then \"CLUS\", each at most once", found));
+            }
+        }
+        section.end()?;
+    }
+    reader.end()?;
+    match file.fault() {
+        Some((field, expected, found)) => Err(reader.field(field, expected, found)),
+        None => Ok(file),
+    }
+}
+
+struct PrtHeader {
+    meaning: PrtMeaning,
+    mesh: Option<MeshDigest>,
+    points: usize,
+    sections: u32,
+}
+
+/// Bytes, from a place on. A section's reader ends with the section.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    name: &'a Path,
+}
+
+impl<'a> Reader<'a> {
+    fn field(&self, field: &'static str, expected: impl Into<String>, found: impl Into<String>) -> PrtFileError {
+        PrtFileError::Field { path: self.name.into(), field, expected: expected.into(), found: found.into() }
+    }
+
+    /// The next `needed` bytes.
+    fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], PrtFileError> {
+        let rest = &self.bytes[self.at..];
+        match usize::try_from(needed).ok().and_then(|needed| rest.get(..needed)) {
+            Some(taken) => {
+                self.at += taken.len();
+                Ok(taken)
+            }
+            None => {
+                let (path, offset) = (self.name.into(), self.at);
+                Err(PrtFileError::Truncated { path, what, offset, needed, found: rest.len() })
+            }
+        }
+    }
+
+    fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], PrtFileError> {
+        let mut bytes = [0; N];
+        bytes.copy_from_slice(self.take(N as u64, what)?);
+        Ok(bytes)
+    }
+
+    fn integer(&mut self, what: &'static str) -> Result<u32, PrtFileError> {
+        self.array(what).map(u32::from_le_bytes)
+    }
+
+    /// The next `count` numbers of N bytes.
+    fn numbers<const N: usize>(&mut self, count: usize, what: &'static str) -> Result<&'a [[u8; N]], PrtFileError> {
+        let bytes = (count as u64).saturating_mul(N as u64);
+        Ok(self.take(bytes, what)?.as_chunks().0)
+    }
+
+    fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, PrtFileError> {
+        Ok(self.numbers(count, what)?.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect())
+    }
+
+    fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, PrtFileError> {
+        Ok(self.numbers(count, what)?.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
+    }
+
+    /// Compares the checksum that follows with that of all bytes from `first` on.
+    fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), PrtFileError> {
+        let found = crc32fast::hash(&self.bytes[first..self.at]);
+        let expected = self.integer("checksum")?;
+        if found == expected {
+            return Ok(());
+        }
+        Err(PrtFileError::Checksum { path: self.name.into(), what, offset: first, expected, found })
+    }
+
+    fn end(&self) -> Result<(), PrtFileError> {
+        match self.bytes.len() - self.at {
+            0 => Ok(()),
+            found => Err(PrtFileError::Trailing { path: self.name.into(), offset: self.at, found }),
+        }
+    }
+
+    fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
+        if !self.bytes.starts_with(MAGIC) {
+            return Err(PrtFileError::Magic { path: self.name.into() });
+        }
+        self.at = MAGIC.len();
+        // The version first: what follows depends on it.
+        let found = self.integer("header")?;
+        if found != VERSION {
+            return Err(PrtFileError::Version { path: self.name.into(), found });
+        }
+        let mut fields = [0; FIELDS];
+        for field in &mut fields {
+            *field = self.integer("header")?;
+        }
+        let [conventions, channels, rows, columns, albedo, points, is_of_mesh, mesh @ .., sections] = fields;
+        let exit_functions = self.numbers(rows as usize, "exit functions")?;
+        let exit_functions: Vec<u16> = exit_functions.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
+        self.checksum(0, "the header")?;
+        // What is not used is 0, so that equal contents have equal bytes.
+        let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(is_of_mesh > 0));
+        let fields = [
+            ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
+            ("number of exit functions", rows, 0..=matrix * u32::MAX),
+            ("albedo", albedo, 0..=matrix),
+            ("mesh", is_of_mesh, 0..=1),
+            ("mesh's digest", mesh.iter().copied().max().unwrap_or(0), 0..=of_mesh * u32::MAX),
+            ("number of sections", sections, 1..=2),
+        ];
+        for (field, found, expected) in fields {
+            if !expected.contains(&found) {
+                return Err(self.field(
+                    field,
+                    format!("{} to {}", expected.start(), expected.end()),
+                    found.to_string(),
+                ));
+            }
+        }
+        let [vertices, triangles, vertex_crc, triangle_crc] = mesh;
+        let digest = MeshDigest { vertices, triangles, vertex_crc, triangle_crc };
+        let meaning = match channels {
+            0 => PrtMeaning::Numbers { dimension: columns },
+            _ => PrtMeaning::Transfer { channels, exit_functions, light_order: columns, includes_albedo: albedo == 1 },
+        };
+        Ok(PrtHeader { meaning, mesh: (is_of_mesh == 1).then_some(digest), points: points as usize, sections })
+    }
+
+    /// The next section, its checksum compared.
+    fn section(&mut self) -> Result<([u8; 4], Self), PrtFileError> {
+        let first = self.at;
+        let tag = self.array("section")?;
+        let length = u64::from_le_bytes(self.array("section")?);
+        let begin = self.at;
+        self.take(length, "section")?;
+        let end = self.at;
+        self.checksum(first, "a section")?;
+        Ok((tag, Self { bytes: &self.bytes[..end], at: begin, name: self.name }))
+    }
+
+    fn transfer(&mut self, points: usize, dimension: usize) -> Result<Signal, PrtFileError> {
+        let values = self.numbers(points.saturating_mul(dimension), "transfer")?;
+        let values = values.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        Signal::new(dimension, values).map_err(|reason| PrtFileError::Transfer { path: self.name.into(), reason })
+    }
+
+    fn clustering(&mut self, points: usize, dimension: usize) -> Result<Clustering, PrtFileError> {
+        let clusters = self.integer("number of clusters")? as usize;
+        let counts = self.integers(clusters, "numbers of vectors")?;
+        let mut subspaces = Vec::new();
+        for &count in &counts {
+            subspaces.push(AffineSubspace {
+                mean: self.doubles(dimension, "mean")?,
+                eigenvalues: self.doubles(count as usize, "eigenvalues")?,
+                vectors: self.doubles((count as usize).saturating_mul(dimension), "vectors")?,
+            });
+        }
+        let of_point = self.integers(points, "clusters of points")?;
+        let count = |&cluster: &u32| counts.get(cluster as usize).map_or(0, |&count| count as usize);
+        let weights = of_point.iter().map(count).fold(0, usize::saturating_add);
+        let weights = self.doubles(weights, "weights")?;
+        Clustering::new(subspaces, of_point, weights)
+            .map_err(|reason| PrtFileError::Clustering { path: self.name.into(), reason })
+    }
+}

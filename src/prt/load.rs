@@ -1,0 +1,61 @@
+//! Signals from files.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::file::{self, PrtFileError, parse_prt};
+use super::{Signal, SignalError};
+use crate::io::{
+    NpyError, NumberTableError, ReadError, npy, number_table, parse_npy, parse_number_table, read_limited,
+};
+
+/// Why a file is no signal.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum SignalFileError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// It is a `.prt` file that cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Prt(#[from] PrtFileError),
+    /// It is a `.prt` file of clusters alone.
+    #[error("{}: expected transfer, found clusters alone", path.display())]
+    #[diagnostic(code(crossbar::signal::compressed), help("name the file that it was compressed from"))]
+    NoTransfer { path: PathBuf },
+    /// It is an array of NumPy's that cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Npy(#[from] NpyError),
+    /// It is a table that cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Table(#[from] NumberTableError),
+    /// Its numbers are no signal.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(code(crossbar::signal::numbers))]
+    Signal { path: PathBuf, reason: SignalError },
+}
+
+/// Reads a signal from a file: the transfer of a `.prt` file, an array of NumPy's, or comma-separated values, told
+/// apart by how they begin.
+///
+/// # Errors
+/// [`SignalFileError`].
+pub fn load_signal(path: &Path) -> Result<Signal, SignalFileError> {
+    let limit = file::MAX_BYTES.max(number_table::MAX_BYTES);
+    let unreadable = |source| ReadError::Unreadable { what: "signal", path: path.into(), source };
+    let bytes = read_limited(path, limit).map_err(unreadable)?;
+    let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: "signal", path: path.into(), limit })?;
+    if bytes.starts_with(file::MAGIC) {
+        let transfer = parse_prt(&bytes, path)?.transfer;
+        return transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() });
+    }
+    let table =
+        if bytes.starts_with(npy::MAGIC) { parse_npy(&bytes, path)? } else { parse_number_table(&bytes, path)? };
+    Signal::new(table.columns, table.values).map_err(|reason| SignalFileError::Signal { path: path.into(), reason })
+}

@@ -1,0 +1,165 @@
+//! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
+
+use crossbar::geom::Mesh;
+use crossbar::geom::random::CounterRng;
+use crossbar::prt::Signal;
+use crossbar::prt::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
+use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
+use proptest::prelude::*;
+
+/// A grid of `size` x `size` vertices, two triangles per cell.
+fn grid(size: u32) -> Vec<[u32; 3]> {
+    let cells = (0..size - 1).flat_map(|y| (0..size - 1).map(move |x| y * size + x));
+    cells.flat_map(|a| [[a, a + 1, a + size], [a + 1, a + size + 1, a + size]]).collect()
+}
+
+/// A smooth signal over the grid with a noise that makes clusters ragged.
+fn ragged(size: u32, noise: f32) -> Signal {
+    let random = CounterRng::new(5);
+    let value = |at: u32, j: u32| {
+        let (x, y) = ((at % size) as f32 / size as f32, (at / size) as f32 / size as f32);
+        let smooth = [x, y, x * y, (x - 0.5) * (x - 0.5)][j as usize];
+        smooth + noise * random.unit(u64::from(at), u64::from(j), 0) as f32
+    };
+    let values = (0..size * size).flat_map(|at| (0..4).map(move |j| value(at, j)));
+    Signal::new(4, values.collect()).expect("a signal")
+}
+
+fn clustered(signal: &Signal, clusters: usize) -> Clustering {
+    let options =
+        CpcaOptions { clusters, vectors: 1, iterations: 6, method: CpcaMethod::Iterative, start: StartPoints::Seed(4) };
+    compress(signal, &options, |_| ()).expect("compressed").clustering
+}
+
+fn mean(drawn: u64, triangles: &[[u32; 3]]) -> f64 {
+    drawn as f64 / triangles.len() as f64
+}
+
+#[test]
+fn each_technique_draws_fewer_triangles_and_both_the_fewest() {
+    let (signal, triangles) = (ragged(40, 0.03), grid(40));
+    let original = clustered(&signal, 30);
+    let before = overdraw(&triangles, original.of_point());
+    let registers = ConstantRegisters::glossy(256, 24);
+    let merged = |clustering: &Clustering| {
+        let superclusters = Superclusters::new(clustering, &triangles, registers).expect("superclusters");
+        superclusters.overdraw(clustering, &triangles)
+    };
+    let moved = reclassify(&signal, &original, &triangles, 0.05).expect("reclassified");
+    assert_eq!(moved.drawn, [before, overdraw(&triangles, moved.clustering.of_point())]);
+    let drawn = [before, moved.drawn[1], merged(&original), merged(&moved.clustering)].map(|d| mean(d, &triangles));
+    assert!(drawn[1] < drawn[0] - 0.02 && drawn[2] < drawn[0] - 0.2, "{drawn:?}");
+    assert!(drawn[3] < drawn[1] && drawn[3] < drawn[2], "{drawn:?}");
+    // What was added is within the budget, and is what it was said to be.
+    let (error, after) = (original.squared_error(&signal), moved.clustering.squared_error(&signal));
+    assert!((after - error - moved.added_error).abs() < 1e-9 * error && after <= 1.05 * error, "{error} to {after}");
+    assert_eq!(moved.clustering.subspaces(), original.subspaces(), "the basis stays");
+    let refitted = refit(&signal, &moved.clustering).expect("fitted");
+    assert_eq!(refitted.of_point(), moved.clustering.of_point());
+    assert!(refitted.squared_error(&signal) < after, "principal components leave the least error");
+}
+
+#[test]
+fn without_a_budget_no_error_is_added() {
+    let (signal, triangles) = (ragged(20, 0.05), grid(20));
+    let original = clustered(&signal, 12);
+    let moved = reclassify(&signal, &original, &triangles, 0.0).expect("reclassified");
+    assert!(moved.added_error <= 0.0);
+    let large = reclassify(&signal, &original, &triangles, 1e9).expect("reclassified");
+    assert!(large.moved > moved.moved && large.drawn[1] < moved.drawn[1]);
+}
+
+#[test]
+fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
+    let (signal, triangles) = (ragged(40, 0.02), grid(40));
+    let clustering = clustered(&signal, 30);
+    let mut before = u64::MAX;
+    for limit in [12, 24, 60, 126, 10_000] {
+        let registers = ConstantRegisters::glossy(limit, 24);
+        let superclusters = Superclusters::new(&clustering, &triangles, registers).expect("superclusters");
+        let mut used = vec![0; superclusters.count()];
+        for (subspace, &of) in clustering.subspaces().iter().zip(superclusters.of_cluster()) {
+            used[of as usize] += registers.needed(subspace.len());
+        }
+        assert!(used.iter().all(|&used| used <= limit), "{used:?}");
+        for corners in &triangles {
+            let of = corners.map(|corner| clustering.of_point()[corner as usize] as usize);
+            let of = of.map(|cluster| superclusters.of_cluster()[cluster] as usize);
+            for (a, b) in [(of[0], of[1]), (of[1], of[2]), (of[2], of[0])] {
+                assert!(a == b || used[a] + used[b] > limit, "{a} and {b} fit together");
+            }
+        }
+        let drawn = superclusters.overdraw(&clustering, &triangles);
+        assert!(drawn <= before, "more registers, more triangles");
+        before = drawn;
+    }
+    assert_eq!(before, triangles.len() as u64, "all clusters fit: each triangle is drawn once");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let (signal, triangles) = (ragged(6, 0.0), grid(6));
+    let clustering = clustered(&signal, 3);
+    let outside = [[0, 1, 2], [3, 36, 4]];
+    let error = reclassify(&signal, &clustering, &outside, 0.1).unwrap_err();
+    assert_eq!(error.to_string(), "triangle 1 has the vertex 36, expected one of the clustering's 36 points");
+    let registers = ConstantRegisters::glossy(11, 24);
+    assert_eq!(Superclusters::new(&clustering, &outside, registers).unwrap_err(), error);
+    let error = Superclusters::new(&clustering, &triangles, registers).unwrap_err();
+    let expected = "cluster 0 needs 12 constant registers, expected at most 11; take fewer vectors";
+    assert_eq!(error.to_string(), expected);
+    for budget in [-0.1, f64::NAN, f64::INFINITY] {
+        let error = reclassify(&signal, &clustering, &triangles, budget).unwrap_err();
+        assert!(matches!(error, CoherenceError::Budget { .. }));
+    }
+    let other = ragged(7, 0.0);
+    let error = reclassify(&other, &clustering, &triangles, 0.1).unwrap_err();
+    assert_eq!(error.to_string(), "expected a signal of 36 x 4 numbers, found 49 x 4");
+}
+
+/// Any triangles over the points, degenerate ones too.
+fn any_mesh() -> impl Strategy<Value = (Signal, Vec<[u32; 3]>, usize)> {
+    (3..30_u32).prop_flat_map(|points| {
+        let values = prop::collection::vec(-4_i8..=4, points as usize * 2);
+        let triangles = prop::collection::vec([0..points, 0..points, 0..points], 0..40);
+        (values, triangles, 1..=points as usize).prop_map(|(values, triangles, clusters)| {
+            let signal = Signal::new(2, values.into_iter().map(f32::from).collect()).expect("a signal");
+            (signal, triangles, clusters)
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn no_technique_draws_more((signal, triangles, clusters) in any_mesh(), budget in 0.0..0.5_f64, limit in 2_usize..40) {
+        let original = clustered(&signal, clusters);
+        let before = overdraw(&triangles, original.of_point());
+        let moved = reclassify(&signal, &original, &triangles, budget).expect("reclassified");
+        prop_assert_eq!(moved.drawn[0], before);
+        prop_assert!(moved.drawn[1] <= before && moved.drawn[1] >= triangles.len() as u64);
+        let (error, after) = (original.squared_error(&signal), moved.clustering.squared_error(&signal));
+        prop_assert!(after <= (1.0 + budget) * error + 1e-9);
+        let refitted = refit(&signal, &moved.clustering).expect("fitted").squared_error(&signal);
+        prop_assert!(refitted <= after + 1e-9, "{} after {}", refitted, after);
+        let superclusters = Superclusters::new(&original, &triangles, ConstantRegisters::diffuse(limit)).expect("fit");
+        prop_assert!(superclusters.overdraw(&original, &triangles) <= before);
+    }
+}
+
+/// The digest is of all that a transfer depends on.
+#[test]
+fn digests_tell_meshes_apart() {
+    use crossbar::prt::file::MeshDigest;
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
+    let mesh = Mesh::new(corners.clone(), vec![[0, 1, 2], [2, 1, 3]]).expect("a mesh");
+    let mut moved = corners.clone();
+    moved[3][2] = 0.25;
+    let others = [
+        Mesh::new(moved, vec![[0, 1, 2], [2, 1, 3]]).expect("a mesh"),
+        Mesh::new(corners, vec![[0, 1, 2], [1, 3, 2]]).expect("a mesh"),
+        mesh.clone().with_normals(vec![[0.0, 0.0, 1.0]; 4]).expect("normals"),
+        mesh.clone().with_texcoords(vec![[0.0, 1.0]; 4]).expect("coordinates"),
+    ];
+    assert_eq!(MeshDigest::new(&mesh), MeshDigest::new(&mesh.clone()));
+    assert!(others.iter().all(|other| MeshDigest::new(other) != MeshDigest::new(&mesh)));
+}

@@ -1,0 +1,218 @@
+//! Compression against plain loops, closed forms, and what must hold of every step.
+
+use crossbar::linalg::{Matrix, SymmetricEigen};
+use crossbar::prt::Signal;
+use crossbar::prt::cpca::{
+    Compression, CpcaError, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
+};
+use crossbar::prt::synthetic::torus_signal;
+use proptest::prelude::*;
+
+const METHODS: [CpcaMethod; 3] = [CpcaMethod::Static, CpcaMethod::Iterative, CpcaMethod::Adaptive { rounds: 6 }];
+
+fn options(clusters: usize, vectors: usize, method: CpcaMethod) -> CpcaOptions {
+    CpcaOptions { clusters, vectors, iterations: 8, method, start: StartPoints::Seed(3) }
+}
+
+fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
+    compress(signal, options, |_| ()).expect("compressed")
+}
+
+/// The squared distance of all points from their mean.
+fn energy(signal: &Signal) -> f64 {
+    let n = signal.dimension();
+    let mean: Vec<f64> = (0..n)
+        .map(|j| (0..signal.points()).map(|p| f64::from(signal.point(p)[j])).sum::<f64>() / signal.points() as f64)
+        .collect();
+    let square = |p: usize| -> f64 {
+        signal.point(p).iter().zip(&mean).map(|(&x, m)| (f64::from(x) - m) * (f64::from(x) - m)).sum()
+    };
+    (0..signal.points()).map(square).sum()
+}
+
+/// Errors are compared up to the share of the energy that counts as no error.
+fn near(a: f64, b: f64, energy: f64) -> bool {
+    (a - b).abs() <= 1e-11 * energy
+}
+
+fn check_steps(signal: &Signal, compression: &Compression) {
+    let energy = energy(signal);
+    for pair in compression.steps.windows(2) {
+        let fixed = pair[0].vectors == pair[1].vectors && pair[1].kind != CpcaStepKind::Redistributed;
+        let rises = pair[1].squared_error > pair[0].squared_error + 1e-11 * energy;
+        assert!(!(fixed && rises), "{:?} after {:?}", pair[1], pair[0]);
+    }
+    let (last, direct) = (compression.steps.last().expect("steps"), compression.clustering.squared_error(signal));
+    assert!(near(last.squared_error, direct, energy), "{last:?} but {direct} by the approximations");
+}
+
+#[test]
+fn clusters_are_those_of_plain_loops() {
+    for (points, dimension, clusters, vectors) in [(500, 4, 12, 2), (700, 9, 10, 4), (300, 25, 6, 3), (90, 40, 5, 6)] {
+        for seed in 0..3 {
+            let signal = torus_signal(points, dimension, seed);
+            for method in METHODS {
+                let options = options(clusters, vectors, method);
+                let fast = compressed(&signal, &options);
+                check_steps(&signal, &fast);
+                let plain = reference::compress(&signal, &options).expect("compressed");
+                let fast = fast.clustering;
+                assert_eq!(fast.of_point(), plain.of_point(), "{points} x {dimension}, {method:?}, seed {seed}");
+                let energy = energy(&signal);
+                assert!(near(fast.squared_error(&signal), plain.squared_error(&signal), energy));
+                for (a, b) in fast.subspaces().iter().zip(plain.subspaces()) {
+                    assert_eq!(a.len(), b.len());
+                    assert!(a.mean.iter().zip(&b.mean).all(|(a, b)| (a - b).abs() < 1e-12));
+                    assert!(a.eigenvalues.iter().zip(&b.eigenvalues).all(|(a, b)| near(*a, *b, energy)));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn ties_go_to_the_lower_cluster() {
+    // Whole numbers: distances are exact. Point 2 is between the start points.
+    let signal = Signal::new(1, vec![0.0, 4.0, 2.0, 0.0, 4.0]).expect("a signal");
+    for (start, of_point) in [(vec![0, 1], [0, 1, 0, 0, 1]), (vec![1, 0], [1, 0, 0, 1, 0])] {
+        let options =
+            CpcaOptions { iterations: 1, start: StartPoints::Given(start), ..options(2, 0, CpcaMethod::Static) };
+        assert_eq!(compressed(&signal, &options).clustering.of_point(), of_point);
+        assert_eq!(reference::compress(&signal, &options).expect("compressed").of_point(), of_point);
+    }
+}
+
+#[test]
+fn one_cluster_leaves_the_tail_of_its_eigenvalues() {
+    for (points, dimension) in [(200, 12), (20, 30)] {
+        let signal = torus_signal(points, dimension, 5);
+        let mean: Vec<f64> = (0..dimension)
+            .map(|j| (0..points).map(|p| f64::from(signal.point(p)[j])).sum::<f64>() / points as f64)
+            .collect();
+        let mut products = Matrix::zeros([dimension; 2]).expect("a matrix");
+        for i in 0..dimension {
+            for j in 0..dimension {
+                let residual = |p: usize, j: usize| f64::from(signal.point(p)[j]) - mean[j];
+                products.row_mut(i)[j] = (0..points).map(|p| residual(p, i) * residual(p, j)).sum();
+            }
+        }
+        let eigenvalues = SymmetricEigen::new(&products).expect("eigenvalues").values;
+        for vectors in 0..dimension {
+            for method in METHODS {
+                let clustering = compressed(&signal, &options(1, vectors, method)).clustering;
+                let tail: f64 = eigenvalues[vectors..].iter().sum();
+                let error = clustering.squared_error(&signal);
+                assert!(near(error, tail, energy(&signal)), "{vectors} vectors: {error}, expected {tail}");
+                for (a, b) in clustering.subspaces()[0].eigenvalues.iter().zip(&eigenvalues) {
+                    assert!(near(*a, *b, energy(&signal)));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn as_many_vectors_as_dimensions_are_exact() {
+    let signal = torus_signal(300, 6, 7);
+    for clusters in [1, 7] {
+        for method in [CpcaMethod::Static, CpcaMethod::Iterative] {
+            let clustering = compressed(&signal, &options(clusters, 6, method)).clustering;
+            let mut point = [0.0; 6];
+            for p in 0..300 {
+                clustering.approximation(p, &mut point);
+                // Rounding to f32 leaves 2^-25 of each number.
+                assert!(point.iter().zip(signal.point(p)).all(|(a, &b)| (a - f64::from(b)).abs() < 2e-7), "{p}");
+            }
+        }
+    }
+}
+
+#[test]
+fn each_method_leaves_less_error_than_the_one_before() {
+    let signal = torus_signal(4000, 25, 2);
+    let errors = METHODS.map(|method| compressed(&signal, &options(24, 4, method)).clustering.squared_error(&signal));
+    assert!(errors[1] < 0.8 * errors[0] && errors[2] < 0.98 * errors[1], "{errors:?}");
+}
+
+#[test]
+fn redistributed_vectors_stay_within_the_budget() {
+    let signal = torus_signal(900, 16, 4);
+    let even = compressed(&signal, &options(15, 3, CpcaMethod::Iterative)).clustering;
+    let adaptive = compressed(&signal, &options(15, 3, CpcaMethod::Adaptive { rounds: 9 })).clustering;
+    assert_eq!(even.all_weights().len(), 3 * 900);
+    assert!(adaptive.all_weights().len() <= 3 * 900);
+    let counts: Vec<usize> = adaptive.subspaces().iter().map(|subspace| subspace.len()).collect();
+    assert!(counts.iter().any(|&count| count > 3) && counts.iter().any(|&count| count < 3), "{counts:?}");
+    // What is left of the budget is too little for one more vector of any cluster.
+    let left = 3 * 900 - adaptive.all_weights().len();
+    for (cluster, subspace) in adaptive.subspaces().iter().enumerate() {
+        let size = adaptive.of_point().iter().filter(|&&of| of as usize == cluster).count();
+        assert!(size > left || subspace.len() == 16.min(size - 1), "cluster {cluster} of {size} points");
+    }
+}
+
+#[test]
+fn stored_numbers_are_the_papers_metric() {
+    let signal = torus_signal(500, 25, 1);
+    let clustering = compressed(&signal, &options(8, 4, CpcaMethod::Iterative)).clustering;
+    assert_eq!(clustering.stored_numbers(), 500 * 4 + 8 * (4 + 1) * 25);
+}
+
+#[test]
+fn options_that_do_not_fit_are_refused() {
+    let signal = torus_signal(10, 3, 0);
+    let refused = |change: &dyn Fn(&mut CpcaOptions)| {
+        let mut options = options(4, 2, CpcaMethod::Static);
+        change(&mut options);
+        let error = compress(&signal, &options, |_| ()).expect_err("refused");
+        assert_eq!(reference::compress(&signal, &options).expect_err("refused"), error);
+        error.to_string()
+    };
+    assert_eq!(refused(&|o| o.clusters = 0), "expected 1 to 10 clusters, one per point at most, found 0");
+    assert_eq!(refused(&|o| o.clusters = 11), "expected 1 to 10 clusters, one per point at most, found 11");
+    assert_eq!(refused(&|o| o.vectors = 4), "expected at most 3 vectors per cluster, one per dimension, found 4");
+    assert_eq!(refused(&|o| o.iterations = 0), "expected at least 1 iteration for each number of vectors, found 0");
+    let given = |points: &[u32]| refused(&|o| o.start = StartPoints::Given(points.to_vec()));
+    assert_eq!(given(&[0, 1, 2]), "expected 4 start points, one per cluster, found 3");
+    assert_eq!(given(&[0, 1, 2, 10]), "expected start points below 10 (counted from 0), found 10");
+    assert_eq!(given(&[0, 7, 2, 7]), "expected different start points, found 7 twice");
+    assert_eq!(StartPoints::parse("3\n\n 1 \n"), Ok(StartPoints::Given(vec![3, 1])));
+    for text in ["3\n\n-1", "1\n2\n3.5", "\n\nx", "0\n1\n99999999999"] {
+        assert_eq!(StartPoints::parse(text), Err(CpcaError::StartText { line: 3 }), "{text:?}");
+    }
+}
+
+/// Small signals with many equal numbers: duplicates, ties, clusters without points and of low rank.
+fn coarse_signal() -> impl Strategy<Value = Signal> {
+    (1..=5usize, 1..=40usize).prop_flat_map(|(dimension, points)| {
+        let scale = prop::sample::select(vec![1.0_f32, 1e-30, 2e37, 1e-3]);
+        let offset = prop::sample::select(vec![0.0_f32, 1.0, 1000.0]);
+        let values = prop::collection::vec(-3_i8..=3, points * dimension);
+        (values, scale, offset).prop_map(move |(values, scale, offset)| {
+            let values = values.into_iter().map(|value| scale * (offset * 0.01 + f32::from(value)));
+            Signal::new(dimension, values.collect()).expect("a signal")
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn any_signal_is_compressed((signal, clusters, vectors, method, seed) in coarse_signal().prop_flat_map(|signal| {
+        let (points, dimension) = (signal.points(), signal.dimension());
+        (Just(signal), 1..=points, 0..=dimension, prop::sample::select(METHODS.to_vec()), 0..9_u64)
+    })) {
+        let options = CpcaOptions { clusters, vectors, iterations: 5, method, start: StartPoints::Seed(seed) };
+        let compression = compressed(&signal, &options);
+        check_steps(&signal, &compression);
+        let clustering = &compression.clustering;
+        prop_assert!(clustering.all_weights().len() <= vectors * signal.points());
+        // The vectors are orthonormal, and their largest components positive: `new` checks the former.
+        let parts = (clustering.subspaces().to_vec(), clustering.of_point().to_vec(), clustering.all_weights().to_vec());
+        let again = crossbar::prt::cpca::Clustering::new(parts.0, parts.1, parts.2);
+        prop_assert_eq!(again.as_ref(), Ok(clustering));
+        for vector in clustering.subspaces().iter().flat_map(|subspace| subspace.vectors()) {
+            let largest = vector.iter().copied().fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });
+            prop_assert!(largest > 0.0);
+        }
+    }
+}
