@@ -1,0 +1,4 @@
+//! System 4: precomputed radiance transfer, compressed by clustered principal components.
+
+pub mod brdf;
+pub mod transfer;

@@ -1,0 +1,307 @@
+//! The rays of all vertices: which are blocked, and what they hit.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::error::TransferError;
+use super::origins::{Origin, origins};
+use super::skyline::{Occluders, SkyPart};
+use super::vertices::Vertices;
+use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::{Hit, Ray};
+use crate::sphere::DirectionRule;
+use crate::tracer::Caster;
+
+/// Vertices whose rays are traced together.
+const BLOCK: usize = 64;
+/// The largest length of a ray, 2^126: single precision ends at 2^128.
+const MAX_REACH: f64 = (1_u128 << 126) as f64;
+
+/// Numbers of rays, and vertices that something is wrong with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TransferCounts {
+    /// Rays: vertices times directions.
+    pub rays: u64,
+    /// Those that were traced; the others certainly meet nothing, or run below the geometric horizon.
+    pub traced: u64,
+    /// Those that are blocked.
+    pub blocked: u64,
+    /// Blocked rays that run below the geometric horizon: into all triangles that meet at the vertex.
+    pub below_horizon: u64,
+    /// Blocked rays that end at the back of a triangle, which is black. Counted only where hits are kept.
+    pub from_behind: u64,
+    /// Vertices whose rays are all blocked.
+    pub dark: Vec<u32>,
+    /// Dark vertices more than half of whose rays first meet the back of a triangle: they lie inside of something.
+    pub buried: Vec<u32>,
+    /// Vertices where triangles meet so that no origin of rays is in front of all of them.
+    pub unclear: Vec<u32>,
+}
+
+/// Where a blocked ray ends: on the front of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FrontHit {
+    /// The ray's direction, by its place in the rule.
+    pub(crate) direction: u32,
+    pub(crate) triangle: u32,
+    /// Barycentric weights of the second and third corner.
+    weights: [f32; 2],
+}
+
+impl FrontHit {
+    /// Barycentric weights of the corners; they sum to 1.
+    pub(crate) fn weights(&self) -> [f64; 3] {
+        let [b, c] = self.weights.map(f64::from);
+        [1.0 - b - c, b, c]
+    }
+}
+
+/// What the rays of all vertices meet: one ray per vertex and direction of a hemisphere rule in the vertex's local
+/// frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracedRays {
+    rule: DirectionRule,
+    /// Words of bits per vertex.
+    words: usize,
+    blocked: Vec<u64>,
+    hits: Vec<Vec<FrontHit>>,
+    keeps_hits: bool,
+    /// How many, and what is wrong.
+    pub counts: TransferCounts,
+}
+
+impl TracedRays {
+    /// Traces the directions of a rule over the hemisphere from each vertex. The caster must be one of the mesh that the
+    /// vertices were made from, and see both sides of triangles. `keep_hits` is for interreflection: it takes 16 bytes
+    /// per blocked ray.
+    ///
+    /// The answers are those of tracing every ray, in any number of threads; directions in which a vertex certainly
+    /// sees nothing but the sky are not traced.
+    ///
+    /// # Errors
+    /// [`TransferError::Cast`] if the caster fails.
+    pub fn trace(
+        vertices: &Vertices,
+        rule: DirectionRule,
+        caster: &mut dyn Caster,
+        keep_hits: bool,
+    ) -> Result<Self, TransferError> {
+        let words = rule.len().div_ceil(64);
+        let mut traced = Self {
+            words,
+            blocked: vec![0; words * vertices.len()],
+            hits: Vec::new(),
+            keeps_hits: keep_hits,
+            counts: TransferCounts { rays: (vertices.len() * rule.len()) as u64, ..TransferCounts::default() },
+            rule,
+        };
+        let origins = origins(vertices);
+        traced.counts.unclear = (0..).zip(&origins).filter(|(_, origin)| !origin.is_clear).map(|(at, _)| at).collect();
+        let shooter = Shooter::new(vertices, &traced.rule, &origins);
+        traced.shadows(&shooter, caster)?;
+        traced.hits(&shooter, caster)?;
+        Ok(traced)
+    }
+
+    /// The rule whose directions were traced.
+    pub fn rule(&self) -> &DirectionRule {
+        &self.rule
+    }
+
+    /// Whether the ray of a vertex in a direction is blocked.
+    ///
+    /// # Panics
+    /// If there is no such vertex or direction.
+    pub fn is_blocked(&self, vertex: usize, direction: usize) -> bool {
+        assert!(direction < self.rule.len(), "a direction of the rule");
+        self.blocked[vertex * self.words + direction / 64] >> (direction % 64) & 1 != 0
+    }
+
+    /// The number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.blocked.len() / self.words
+    }
+
+    /// Whether [`Self::trace`] was asked to keep hits.
+    pub fn keeps_hits(&self) -> bool {
+        self.keeps_hits
+    }
+
+    /// The front faces that a vertex sees.
+    pub(crate) fn front_hits(&self, vertex: usize) -> &[FrontHit] {
+        self.hits.get(vertex).map_or(&[], Vec::as_slice)
+    }
+
+    /// The directions in which a vertex is blocked, in rising order.
+    pub(crate) fn blocked_directions(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
+        let words = &self.blocked[vertex * self.words..(vertex + 1) * self.words];
+        words.iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
+    }
+
+    fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
+        let occluders = Occluders::new(shooter.vertices);
+        let parts: Vec<SkyPart> = self.rule.directions().iter().map(|&local| SkyPart::of(local)).collect();
+        for (first, blocked) in (0..).step_by(BLOCK).zip(self.blocked.chunks_mut(BLOCK * self.words)) {
+            let asked: Vec<Asked> = blocked
+                .par_chunks_mut(self.words)
+                .enumerate()
+                .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, &occluders, &parts, waiting, bits))
+                .collect();
+            let rays: Vec<Ray> = asked.iter().flat_map(|asked| &asked.rays).copied().collect();
+            let mut answers = caster.occluded(&rays)?.into_iter();
+            self.counts.traced += rays.len() as u64;
+            for (bits, asked) in blocked.chunks_mut(self.words).zip(&asked) {
+                for (&direction, is_blocked) in asked.directions.iter().zip(answers.by_ref()) {
+                    bits[direction as usize / 64] |= u64::from(is_blocked) << (direction % 64);
+                }
+                self.counts.below_horizon += asked.below_horizon;
+            }
+        }
+        let total = self.blocked.par_iter().map(|bits| u64::from(bits.count_ones())).sum();
+        self.counts.blocked = total;
+        let all = self.rule.len() as u32;
+        let blocked = self.blocked.chunks(self.words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
+        self.counts.dark = (0..).zip(blocked).filter(|&(_, blocked)| blocked == all).map(|(vertex, _)| vertex).collect();
+        Ok(())
+    }
+
+    /// Finds what blocked rays hit: of all vertices if hits are kept, else of the dark ones, to see which are buried.
+    fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
+        let wanted: Vec<u32> = match self.keeps_hits {
+            true => (0..self.vertex_count() as u32).collect(),
+            false => self.counts.dark.clone(),
+        };
+        for block in wanted.chunks(BLOCK) {
+            let asked: Vec<(Vec<u32>, Vec<Ray>)> =
+                block.par_iter().map(|&vertex| shooter.rays(vertex as usize, self.blocked_directions(vertex as usize))).collect();
+            let rays: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
+            let mut answers = caster.cast(&rays)?.into_iter();
+            let answered: Vec<Vec<Option<Hit>>> =
+                asked.iter().map(|(_, rays)| answers.by_ref().take(rays.len()).collect()).collect();
+            let found: Vec<(Vec<FrontHit>, u64)> = asked
+                .par_iter()
+                .zip(&answered)
+                .map(|((directions, rays), hits)| shooter.front_hits(directions, rays, hits))
+                .collect();
+            for (&vertex, (front, behind)) in block.iter().zip(found) {
+                if self.counts.dark.binary_search(&vertex).is_ok() && 2 * behind > self.rule.len() as u64 {
+                    self.counts.buried.push(vertex);
+                }
+                if self.keeps_hits {
+                    self.counts.from_behind += behind;
+                    self.hits.push(front);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The bits that are set, from the lowest up.
+fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (bits != 0).then(|| {
+            let lowest = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            lowest
+        })
+    })
+}
+
+/// The rays of a vertex that must be traced.
+struct Asked {
+    directions: Vec<u32>,
+    rays: Vec<Ray>,
+    below_horizon: u64,
+}
+
+/// What makes the rays.
+struct Shooter<'a> {
+    vertices: &'a Vertices,
+    rule: DirectionRule,
+    origins: &'a [Origin],
+    /// Length of rays: a power of two, so that it changes no bit of their directions; t = 1 lies outside of the mesh.
+    reach: f64,
+}
+
+impl<'a> Shooter<'a> {
+    fn new(vertices: &'a Vertices, rule: &DirectionRule, origins: &'a [Origin]) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &position in vertices.positions() {
+            (low, high) = (low.min(wide(position)), high.max(wide(position)));
+        }
+        let diagonal = (high - low).length();
+        let mut reach = 1.0;
+        while reach < 2.0 * diagonal && reach < MAX_REACH {
+            reach *= 2.0;
+        }
+        Self { vertices, rule: rule.clone(), origins, reach }
+    }
+
+    fn ray(&self, vertex: usize, direction: DVec3) -> Option<Ray> {
+        Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
+    }
+
+    /// The rays that must be traced; `bits` receives those that are blocked without.
+    fn shadow_rays(
+        &self,
+        vertex: usize,
+        occluders: &Occluders,
+        parts: &[SkyPart],
+        waiting: &mut Vec<u32>,
+        bits: &mut [u64],
+    ) -> Asked {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let skyline = occluders.skyline(wide(origin.at), frame, waiting);
+        let mut asked = Asked { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
+        for (at, (&local, &part)) in self.rule.directions().iter().zip(parts).enumerate() {
+            let direction = frame.to_global(local);
+            if origin.is_below_horizon(direction) {
+                asked.below_horizon += 1;
+                bits[at / 64] |= 1 << (at % 64);
+            } else if skyline.is_marked(part)
+                && let Some(ray) = self.ray(vertex, direction)
+            {
+                asked.directions.push(at as u32);
+                asked.rays.push(ray);
+            }
+        }
+        asked
+    }
+
+    /// The rays of a vertex in some directions, without those below the horizon.
+    fn rays(&self, vertex: usize, directions: impl Iterator<Item = usize>) -> (Vec<u32>, Vec<Ray>) {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let ray = |at: usize| {
+            let direction = frame.to_global(self.rule.directions()[at]);
+            let ray = self.ray(vertex, direction).filter(|_| !origin.is_below_horizon(direction))?;
+            Some((at as u32, ray))
+        };
+        directions.filter_map(ray).unzip()
+    }
+
+    /// The fronts that rays hit, and the number of backs.
+    fn front_hits(&self, directions: &[u32], rays: &[Ray], hits: &[Option<Hit>]) -> (Vec<FrontHit>, u64) {
+        let (mut front, mut behind) = (Vec::new(), 0);
+        for ((&direction, ray), hit) in directions.iter().zip(rays).zip(hits) {
+            let Some(hit) = hit else { continue };
+            let [a, b, c] = self.vertices.corners(hit.triangle);
+            let Some(normal) = unit((b - a).cross(c - a)) else { continue };
+            if normal.dot(wide(ray.direction())) >= 0.0 {
+                behind += 1;
+                continue;
+            }
+            let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
+            front.push(FrontHit { direction, triangle: hit.triangle, weights: barycentric([a, b, c], normal, at) });
+        }
+        (front, behind)
+    }
+}
+
+/// The weights of the second and third corner at a point on or near a triangle, brought into the triangle.
+fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, at: DVec3) -> [f32; 2] {
+    let part = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
+    let parts = [part(b, c), part(c, a), part(a, b)];
+    let sum: f64 = parts.iter().sum();
+    if sum > 0.0 { [(parts[1] / sum) as f32, (parts[2] / sum) as f32] } else { [0.0; 2] }
+}

@@ -1,0 +1,3 @@
+//! System 4: radiance transfer at the vertices of a mesh.
+
+mod models;
