@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::models::Brdf;
-use crate::linalg::{Matrix, MatrixError};
+use crate::linalg::{Matrix, MatrixError, dot};
 use crate::sphere::{
     DirectionRule, Hemisphere, HemisphereError, MAX_ORDER, function_count, function_index, harmonics,
 };
@@ -80,6 +80,55 @@ impl ExitBasis {
     }
 }
 
+/// A basis, with the means to project onto it by integrals.
+///
+/// Least squares applies A^-1, of condition 151,695 for order 5, and equation 1 does so twice. Integrals of the basis's
+/// own functions would lose its square to rounding. Those of orthonormal combinations of them, psi = W^T y with
+/// A^-1 = W W^T, lose only the square root each: a function's coefficients are W times its integrals with psi.
+pub(crate) struct Projector<'a> {
+    basis: &'a ExitBasis,
+    /// W^T, a row per combination; `None` for integrals with the functions themselves.
+    combinations: Option<Matrix>,
+}
+
+impl<'a> Projector<'a> {
+    /// Onto the least-squares coefficients in a basis (`inverse`), or onto integrals with its functions.
+    pub(crate) fn new(basis: &'a ExitBasis, inverse: bool) -> Self {
+        let combinations = match basis {
+            ExitBasis::Harmonics(hemisphere) if inverse => {
+                let mut vectors = hemisphere.spectrum().vectors.clone();
+                for (k, value) in hemisphere.spectrum().values.iter().enumerate() {
+                    vectors.row_mut(k).iter_mut().for_each(|component| *component /= value.sqrt());
+                }
+                Some(vectors)
+            }
+            _ => None,
+        };
+        Self { basis, combinations }
+    }
+
+    /// What is integrated with, at each direction: rows one after the other.
+    pub(crate) fn functions(&self, directions: &[DVec3]) -> Vec<f64> {
+        let mut y = vec![0.0; self.basis.len()];
+        let mut values = Vec::with_capacity(y.len() * directions.len());
+        for &direction in directions {
+            self.basis.values(direction, &mut y);
+            match &self.combinations {
+                Some(rows) => values.extend(rows.rows().map(|row| dot(row, &y))),
+                None => values.extend_from_slice(&y),
+            }
+        }
+        values
+    }
+
+    /// Integrals, as many rows of them as there are functions, to coefficients.
+    pub(crate) fn coefficients(&self, integrals: Vec<f64>) -> Vec<f64> {
+        let Some(rows) = &self.combinations else { return integrals };
+        let columns = rows.transposed();
+        integrals.chunks_exact(self.basis.len()).flat_map(|of| columns.rows().map(move |row| dot(row, of))).collect()
+    }
+}
+
 /// The matrix B of a BRDF: a row per function of the exit basis, a column per function of the incident order, by a rule
 /// over the hemisphere for both directions. Without either inverse.
 ///
@@ -94,32 +143,43 @@ pub fn brdf_matrix(
     incident_order: usize,
     rule: &DirectionRule,
 ) -> Result<Matrix, MatrixError> {
+    let incident = ExitBasis::of_order(incident_order);
+    integrals(brdf, &Projector::new(exit, false), &Projector::new(&incident, false), rule)
+}
+
+/// The integrals of B(v, s) s_z with the functions of two projectors.
+pub(crate) fn integrals(
+    brdf: &Brdf,
+    exit: &Projector<'_>,
+    incident: &Projector<'_>,
+    rule: &DirectionRule,
+) -> Result<Matrix, MatrixError> {
     let table = exit_per_direction(brdf, exit, rule.directions(), rule);
-    let columns = function_count(incident_order);
-    let mut sums = Matrix::zeros([exit.len(), columns])?;
-    let mut y = vec![0.0; columns];
-    for ((&s, weight), exits) in rule.directions().iter().zip(rule.weights()).zip(table.chunks_exact(exit.len())) {
-        harmonics(incident_order, s, &mut y);
-        for (i, value) in exits.iter().enumerate() {
-            sums.row_mut(i).iter_mut().zip(&y).for_each(|(sum, y)| *sum += weight * value * y);
+    let (rows, columns) = (exit.basis.len(), incident.basis.len());
+    let mut sums = Matrix::zeros([rows, columns])?;
+    let functions = incident.functions(rule.directions());
+    for ((weight, exits), values) in
+        rule.weights().iter().zip(table.chunks_exact(rows)).zip(functions.chunks_exact(columns))
+    {
+        for (row, exit) in exits.iter().enumerate() {
+            sums.row_mut(row).iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * exit * value);
         }
     }
     Ok(sums)
 }
 
-/// For each light direction s the integrals over views of y_i(v) B(v, s) s_z: exit radiance per unit of radiance that
-/// arrives from s within a steradian. The inner integral of section 3.1's formula.
+/// For each light direction s the integrals over views of the projector's functions times B(v, s) s_z: exit radiance per
+/// unit of radiance that arrives from s within a steradian. The inner integral of section 3.1's formula.
 pub(crate) fn exit_per_direction(
     brdf: &Brdf,
-    exit: &ExitBasis,
+    exit: &Projector<'_>,
     lights: &[DVec3],
     views: &DirectionRule,
 ) -> Vec<f64> {
-    let rows = exit.len();
-    let mut weighted = vec![0.0; rows * views.len()];
-    for ((&view, weight), into) in views.directions().iter().zip(views.weights()).zip(weighted.chunks_exact_mut(rows)) {
-        exit.values(view, into);
-        into.iter_mut().for_each(|value| *value *= weight);
+    let rows = exit.basis.len();
+    let mut weighted = exit.functions(views.directions());
+    for (values, weight) in weighted.chunks_exact_mut(rows).zip(views.weights()) {
+        values.iter_mut().for_each(|value| *value *= weight);
     }
     let mut table = vec![0.0; rows * lights.len()];
     table.par_chunks_exact_mut(rows).zip(lights).for_each(|(into, &s)| {

@@ -7,6 +7,6 @@ mod fresnel;
 mod matrix;
 mod models;
 
-pub(crate) use matrix::exit_per_direction;
 pub use matrix::{BRDF_DEGREE, ExitBasis, brdf_matrix};
+pub(crate) use matrix::{Projector, exit_per_direction, integrals};
 pub use models::{Brdf, BrdfError};

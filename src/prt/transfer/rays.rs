@@ -26,7 +26,7 @@ pub struct TransferCounts {
     pub traced: u64,
     /// Those that are blocked.
     pub blocked: u64,
-    /// Blocked rays that run below the geometric horizon: into all triangles that meet at the vertex.
+    /// Blocked rays that run below the geometric horizon: into all triangles that the vertex lies on.
     pub below_horizon: u64,
     /// Blocked rays that end at the back of a triangle, which is black. Counted only where hits are kept.
     pub from_behind: u64,
@@ -34,7 +34,7 @@ pub struct TransferCounts {
     pub dark: Vec<u32>,
     /// Dark vertices more than half of whose rays first meet the back of a triangle: they lie inside of something.
     pub buried: Vec<u32>,
-    /// Vertices where triangles meet so that no origin of rays is in front of all of them.
+    /// Vertices on triangles that face each other so that no origin of rays is in front of all of them.
     pub unclear: Vec<u32>,
 }
 
@@ -95,10 +95,11 @@ impl TracedRays {
             counts: TransferCounts { rays: (vertices.len() * rule.len()) as u64, ..TransferCounts::default() },
             rule,
         };
-        let origins = origins(vertices);
+        let occluders = Occluders::new(vertices);
+        let origins = origins(vertices, &occluders);
         traced.counts.unclear = (0..).zip(&origins).filter(|(_, origin)| !origin.is_clear).map(|(at, _)| at).collect();
         let shooter = Shooter::new(vertices, &traced.rule, &origins);
-        traced.shadows(&shooter, caster)?;
+        traced.shadows(&shooter, &occluders, caster)?;
         traced.hits(&shooter, caster)?;
         Ok(traced)
     }
@@ -138,14 +139,18 @@ impl TracedRays {
         words.iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
     }
 
-    fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
-        let occluders = Occluders::new(shooter.vertices);
+    fn shadows(
+        &mut self,
+        shooter: &Shooter<'_>,
+        occluders: &Occluders,
+        caster: &mut dyn Caster,
+    ) -> Result<(), TransferError> {
         let parts: Vec<SkyPart> = self.rule.directions().iter().map(|&local| SkyPart::of(local)).collect();
         for (first, blocked) in (0..).step_by(BLOCK).zip(self.blocked.chunks_mut(BLOCK * self.words)) {
             let asked: Vec<Asked> = blocked
                 .par_chunks_mut(self.words)
                 .enumerate()
-                .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, &occluders, &parts, waiting, bits))
+                .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, occluders, &parts, waiting, bits))
                 .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|asked| &asked.rays).copied().collect();
             let mut answers = caster.occluded(&rays)?.into_iter();
@@ -304,4 +309,52 @@ fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, at: DVec3) -> [f32; 2] {
     let parts = [part(b, c), part(c, a), part(a, b)];
     let sum: f64 = parts.iter().sum();
     if sum > 0.0 { [(parts[1] / sum) as f32, (parts[2] / sum) as f32] } else { [0.0; 2] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::CounterRng;
+    use crate::geom::teapot::teapot;
+    use crate::geom::{Mesh, Sides};
+    use crate::prt::transfer::Tangents;
+    use crate::scene::built::stand_ins;
+    use crate::tracer::HostTracer;
+
+    /// Triangles of any size and place, some of them large, thin, or on a grid.
+    fn clutter(seed: u64) -> Mesh {
+        let random = CounterRng::new(seed);
+        let size = [0.05, 0.5, 3.0][seed as usize % 3];
+        let corner = |triangle: u64, corner: u64| {
+            [0, 1, 2].map(|k| {
+                let place = random.unit(triangle, 0, k) + size * (random.unit(triangle, 1 + corner, k) - 0.5);
+                (if triangle % 3 == 0 { (8.0 * place).round() / 8.0 } else { place }) as f32
+            })
+        };
+        let positions: Vec<[f32; 3]> = (0..40).flat_map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect();
+        let faces = (0..40).map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
+        let normals = positions.iter().map(|at| if at[0] == 0.0 { [1.0, 0.0, 0.0] } else { *at }).collect();
+        Mesh::new(positions, faces.collect()).and_then(|mesh| mesh.with_normals(normals)).expect("a mesh")
+    }
+
+    #[test]
+    fn directions_that_are_not_traced_are_free() {
+        let meshes = (0..30).map(clutter).chain([teapot(2).expect("a teapot"), stand_ins::head()]);
+        for (number, mesh) in meshes.enumerate() {
+            let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
+            let mut caster = HostTracer::new(&mesh, Sides::Both);
+            let rule = DirectionRule::hemisphere(if number < 30 { 31 } else { 13 });
+            let traced = TracedRays::trace(&vertices, rule, &mut caster, false).expect("traced");
+            assert!(traced.counts.traced < traced.counts.rays);
+            let origins = origins(&vertices, &Occluders::new(&vertices));
+            let shooter = Shooter::new(&vertices, traced.rule(), &origins);
+            for vertex in 0..vertices.len() {
+                let (directions, rays) = shooter.rays(vertex, 0..traced.rule().len());
+                for (direction, blocked) in directions.into_iter().zip(caster.occluded_all(&rays, 1.0).0) {
+                    let found = traced.is_blocked(vertex, direction as usize);
+                    assert_eq!(found, blocked, "mesh {number}, vertex {vertex}, direction {direction}");
+                }
+            }
+        }
+    }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use super::error::TransferError;
 use crate::linalg::{Matrix, MatrixError, dot};
-use crate::prt::brdf::{Brdf, ExitBasis, brdf_matrix, exit_per_direction};
-use crate::sphere::{DirectionRule, Hemisphere, function_count, harmonics};
+use crate::prt::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
+use crate::sphere::{DirectionRule, function_count, harmonics};
 
 /// How incident radiance reaches the BRDF of a glossy material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,25 +63,27 @@ impl Response {
         views: &DirectionRule,
     ) -> Result<Self, TransferError> {
         brdf.check()?;
+        let projector = Projector::new(exit, exit_inverse);
         let columns = match incident {
-            Incident::Directions => exit_per_direction(brdf, exit, rule.directions(), views),
+            Incident::Directions => exit_per_direction(brdf, &projector, rule.directions(), views),
             Incident::Harmonics { order, inverse } => {
-                let b = brdf_matrix(brdf, exit, order, views)?;
-                let b = if inverse { b.product(Hemisphere::new(order).inverse())? } else { b };
-                applied(&b, order, rule)
+                let inner = ExitBasis::of_order(order);
+                let inner = Projector::new(&inner, inverse);
+                let b = integrals(brdf, &projector, &inner, views)?;
+                let functions = inner.functions(rule.directions());
+                let at = |values| b.rows().map(move |row| dot(row, values));
+                functions.chunks_exact(b.column_count()).flat_map(at).collect()
             }
         };
-        Ok(Self { columns: fitted(columns, exit, exit_inverse), basis: exit.clone(), directions: rule.len() })
+        Ok(Self { columns: projector.coefficients(columns), basis: exit.clone(), directions: rule.len() })
     }
 
     /// No material at all: the answer is the incident radiance itself, projected onto a basis by integrals over the
     /// hemisphere, or with `inverse` by least squares.
     pub(super) fn incident(basis: &ExitBasis, inverse: bool, rule: &DirectionRule) -> Self {
-        let mut columns = vec![0.0; basis.len() * rule.len()];
-        for (&s, into) in rule.directions().iter().zip(columns.chunks_exact_mut(basis.len())) {
-            basis.values(s, into);
-        }
-        Self { columns: fitted(columns, basis, inverse), basis: basis.clone(), directions: rule.len() }
+        let projector = Projector::new(basis, inverse);
+        let columns = projector.coefficients(projector.functions(rule.directions()));
+        Self { columns, basis: basis.clone(), directions: rule.len() }
     }
 
     /// What exit radiance is expressed in.
@@ -117,27 +119,5 @@ impl Response {
             }
         }
         Ok(sums)
-    }
-}
-
-/// A matrix times the harmonics at each direction.
-fn applied(matrix: &Matrix, order: usize, rule: &DirectionRule) -> Vec<f64> {
-    let mut y = vec![0.0; function_count(order)];
-    let mut columns = Vec::with_capacity(matrix.row_count() * rule.len());
-    for &s in rule.directions() {
-        harmonics(order, s, &mut y);
-        columns.extend(matrix.rows().map(|row| dot(row, &y)));
-    }
-    columns
-}
-
-/// With `inverse`, A^-1 times each column.
-fn fitted(columns: Vec<f64>, basis: &ExitBasis, inverse: bool) -> Vec<f64> {
-    match basis {
-        ExitBasis::Harmonics(hemisphere) if inverse => {
-            let of = |column| hemisphere.inverse().rows().map(move |row| dot(row, column));
-            columns.chunks_exact(basis.len()).flat_map(of).collect()
-        }
-        _ => columns,
     }
 }

@@ -184,6 +184,23 @@ impl Occluders {
         skyline
     }
 
+    /// The triangles that may lie within a share of their size, or of the place's coordinates, of a place.
+    pub(crate) fn around(&self, place: DVec3, share: f64, mut visit: impl FnMut([DVec3; 3])) {
+        let mut waiting = vec![0];
+        while let Some(index) = waiting.pop() {
+            let node = self.nodes[index as usize];
+            let reach = share * (2.0 * node.half.length() + place.abs().element_sum());
+            if !((place - node.middle).abs() - node.half).cmple(DVec3::splat(reach)).all() {
+                continue;
+            }
+            if node.count == 0 {
+                waiting.extend([node.next, index + 1]);
+            } else {
+                self.triangles[node.next as usize..(node.next + node.count) as usize].iter().copied().for_each(&mut visit);
+            }
+        }
+    }
+
     /// Marks what a triangle in local coordinates may cover.
     fn triangle(&self, [a, b, c]: [DVec3; 3], skyline: &mut Skyline) {
         let top = a.z.max(b.z).max(c.z);

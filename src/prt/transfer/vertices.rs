@@ -159,8 +159,9 @@ fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
         let normal = (b - a).cross(c - a);
         indices.iter().for_each(|&vertex| *sums.entry(place(mesh, vertex)).or_default() += normal);
     }
-    let given = |vertex: usize| mesh.normals().and_then(|normals| unit(wide(normals[vertex])));
-    let around = |vertex: usize| sums.get(&place(mesh, vertex as u32)).copied().and_then(unit);
+    // -0 and +0 are one normal.
+    let given = |vertex: usize| mesh.normals().and_then(|normals| unit(wide(normals[vertex]) + DVec3::ZERO));
+    let around = |vertex: usize| sums.get(&place(mesh, vertex as u32)).copied().and_then(|sum| unit(sum + DVec3::ZERO));
     let normal = |(vertex, used)| match used {
         false => Ok(DVec3::ZERO),
         true => given(vertex).or_else(|| around(vertex)).ok_or(TransferError::NoNormal { vertex }),
