@@ -17,7 +17,7 @@ const SHARE: f64 = 1e-5;
 
 /// Where the rays of a vertex start, and the triangles that it lies on.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Origin {
+pub(crate) struct RayOrigin {
     /// In the precision of rays.
     pub(crate) at: [f32; 3],
     /// Unit normals of the triangles.
@@ -26,7 +26,7 @@ pub(crate) struct Origin {
     pub(crate) is_clear: bool,
 }
 
-impl Origin {
+impl RayOrigin {
     /// Whether a direction runs below the geometric horizon: behind every triangle that the vertex lies on.
     pub(crate) fn is_below_horizon(&self, direction: DVec3) -> bool {
         self.planes.iter().all(|plane| plane.dot(direction) < 0.0)
@@ -34,12 +34,12 @@ impl Origin {
 }
 
 /// The origins of all vertices.
-pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<Origin> {
+pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrigin> {
     vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
 }
 
 /// Moves the vertex in turn along the normal of each triangle that it is not yet clear of.
-fn origin(place: DVec3, occluders: &Occluders) -> Origin {
+fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     occluders.around(place, SHARE, |corners| planes.extend(plane(corners, place)));
     // In an order of their own, whatever that of the triangles.
@@ -62,7 +62,7 @@ fn origin(place: DVec3, occluders: &Occluders) -> Origin {
         }
     }
     let is_clear = clear(at);
-    Origin { at: narrow(at), planes: planes.into_iter().map(|(normal, _)| normal).collect(), is_clear }
+    RayOrigin { at: narrow(at), planes: planes.into_iter().map(|(normal, _)| normal).collect(), is_clear }
 }
 
 /// The normal of a triangle that a place lies on, and how far off it a ray must start; `None` if it lies elsewhere.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::error::TransferError;
-use super::origins::{Origin, origins};
+use super::origins::{RayOrigin, origins};
 use super::skyline::{Occluders, SkyPart};
 use super::vertices::Vertices;
 use crate::geom::vector::{narrow, unit, wide};
@@ -224,13 +224,13 @@ struct Asked {
 struct Shooter<'a> {
     vertices: &'a Vertices,
     rule: DirectionRule,
-    origins: &'a [Origin],
+    origins: &'a [RayOrigin],
     /// Length of rays: a power of two, so that it changes no bit of their directions; t = 1 lies outside of the mesh.
     reach: f64,
 }
 
 impl<'a> Shooter<'a> {
-    fn new(vertices: &'a Vertices, rule: &DirectionRule, origins: &'a [Origin]) -> Self {
+    fn new(vertices: &'a Vertices, rule: &DirectionRule, origins: &'a [RayOrigin]) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &position in vertices.positions() {
             (low, high) = (low.min(wide(position)), high.max(wide(position)));

@@ -1,6 +1,6 @@
 //! Which directions a vertex certainly sees the sky in, so that no ray need be traced there.
 //!
-//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts of equal solid angle. A hierarchy of boxes over
+//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts, rings narrow at the horizon. A hierarchy of boxes over
 //! the triangles marks the parts that a triangle may reach into: by the sphere around it, by its height over the
 //! vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the front. What is not
 //! marked is free in exact arithmetic; the margins are far larger than what rounding does to the origin and direction
@@ -10,16 +10,18 @@ use glam::DVec3;
 
 use super::frame::LocalFrame;
 use super::vertices::Vertices;
-use crate::elementary::atan2;
+use crate::elementary::{atan2, on_circle};
 
-/// Parts by z.
-const RINGS: usize = 16;
+/// Parts by z: ring k begins at z = (k / RINGS)^2.
+const RINGS: usize = 24;
 /// Parts by azimuth; a word of bits holds a ring.
 const COLUMNS: usize = 64;
 /// Triangles of a leaf.
 const LEAF: usize = 4;
 /// A box seen under a smaller angle than this (its sine) is marked as a whole.
-const SMALL: f64 = 0.07;
+const SMALL: f64 = 0.08;
+/// A box seen under a larger angle than this (its sine) is opened without asking whether all that it covers is marked.
+const WIDE: f64 = 0.25;
 /// A sphere seen under a larger angle than this (its sine) is near.
 const NEAR: f64 = 0.9;
 /// What angles are widened by, in radians: rays differ from their f64 directions by 1e-7.
@@ -39,16 +41,30 @@ pub(crate) struct SkyPart {
 impl SkyPart {
     /// The part that a local direction with z >= 0 lies in.
     pub(crate) fn of(local: DVec3) -> Self {
-        let ring = (local.z * RINGS as f64).clamp(0.0, RINGS as f64 - 1.0);
-        Self { ring: ring as u8, column: (turns(local) * COLUMNS as f64) as u8 % COLUMNS as u8 }
+        Self { ring: ring(local.z) as u8, column: (turns(local) * COLUMNS as f64) as u8 % COLUMNS as u8 }
     }
 
     fn middle(self) -> DVec3 {
-        let z = (f64::from(self.ring) + 0.5) / RINGS as f64;
-        let [x, y] = crate::elementary::on_circle((f64::from(self.column) + 0.5) / COLUMNS as f64);
-        let radius = (1.0 - z * z).sqrt();
-        DVec3::new(radius * x, radius * y, z)
+        let ring = usize::from(self.ring);
+        at(f64::midpoint(lower_end(ring), lower_end(ring + 1)), (f64::from(self.column) + 0.5) / COLUMNS as f64)
     }
+}
+
+/// The ring of a z; what lies beyond either end belongs to the last there.
+fn ring(z: f64) -> usize {
+    ((z.max(0.0).sqrt() * RINGS as f64) as usize).min(RINGS - 1)
+}
+
+/// The z at which a ring begins.
+fn lower_end(ring: usize) -> f64 {
+    let root = ring as f64 / RINGS as f64;
+    root * root
+}
+
+fn at(z: f64, turns: f64) -> DVec3 {
+    let [x, y] = on_circle(turns);
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * x, radius * y, z)
 }
 
 impl Skyline {
@@ -88,7 +104,6 @@ impl Region {
         if high < 0.0 {
             return None;
         }
-        let ring = |z: f64| ((z * RINGS as f64).max(0.0) as usize).min(RINGS - 1);
         let rings = [ring(low - MARGIN), ring(high + MARGIN)];
         let ratio = sine / across;
         if !(ratio < 1.0) {
@@ -130,9 +145,10 @@ struct BoxNode {
 pub(crate) struct Occluders {
     nodes: Vec<BoxNode>,
     triangles: Vec<[DVec3; 3]>,
-    /// Middle and angular radius of every part.
-    parts: Vec<(SkyPart, DVec3)>,
-    part_radius: f64,
+    /// The middles of all parts, ring by ring.
+    middles: Vec<DVec3>,
+    /// By ring.
+    part_radii: [f64; RINGS],
 }
 
 impl Occluders {
@@ -142,8 +158,8 @@ impl Occluders {
         let mut nodes = Vec::with_capacity(triangles.len());
         build(&mut nodes, &mut triangles, 0);
         let part = |i: usize| SkyPart { ring: (i / COLUMNS) as u8, column: (i % COLUMNS) as u8 };
-        let parts = (0..RINGS * COLUMNS).map(part).map(|part| (part, part.middle())).collect();
-        Self { nodes, triangles, parts, part_radius: part_radius() }
+        let middles = (0..RINGS * COLUMNS).map(|i| part(i).middle()).collect();
+        Self { nodes, triangles, middles, part_radii: std::array::from_fn(part_radius) }
     }
 
     /// The skyline of a point, in the local coordinates of a frame.
@@ -161,7 +177,7 @@ impl Occluders {
             }
             let (distance, radius) = (middle.length(), node.half.length());
             let sine = radius / distance;
-            if sine < NEAR {
+            if sine < WIDE {
                 let highest = top / (distance - radius);
                 match Region::of(middle, distance, sine, highest) {
                     None => continue,
@@ -230,31 +246,22 @@ impl Occluders {
             return;
         }
         let plane = if across.dot(a) > 0.0 { -across } else { across } / length;
-        for &(part, towards) in &self.parts {
-            let ring = usize::from(part.ring);
-            let in_region = (region.rings[0]..=region.rings[1]).contains(&ring) && region.columns >> part.column & 1 != 0;
-            if in_region && plane.dot(towards) < self.part_radius {
-                skyline.0[ring] |= 1 << part.column;
+        for ring in region.rings[0]..=region.rings[1] {
+            let missing = region.columns & !skyline.0[ring];
+            for column in (0..COLUMNS).filter(|column| missing >> column & 1 != 0) {
+                if plane.dot(self.middles[ring * COLUMNS + column]) < self.part_radii[ring] {
+                    skyline.0[ring] |= 1 << column;
+                }
             }
         }
     }
 }
 
-/// The largest distance of a direction from the middle of its part, with the margin.
-fn part_radius() -> f64 {
-    let corner = |z: f64, turns: f64| {
-        let [x, y] = crate::elementary::on_circle(turns);
-        let radius = (1.0 - z * z).sqrt();
-        DVec3::new(radius * x, radius * y, z)
-    };
-    let mut largest: f64 = 0.0;
-    for ring in 0..RINGS {
-        let middle = SkyPart { ring: ring as u8, column: 0 }.middle();
-        for z in [ring, ring + 1] {
-            largest = largest.max(corner(z as f64 / RINGS as f64, 0.0).distance(middle));
-        }
-    }
-    largest + MARGIN
+/// The largest distance of a direction from the middle of its part, in a ring, with the margin.
+fn part_radius(ring: usize) -> f64 {
+    let middle = SkyPart { ring: ring as u8, column: 0 }.middle();
+    let ends = [lower_end(ring), lower_end(ring + 1)];
+    ends.map(|z| at(z, 0.0).distance(middle)).into_iter().fold(0.0, f64::max) + MARGIN
 }
 
 /// Appends the boxes over `triangles`, which stand from `first` on, and brings the triangles into the order of leaves.
