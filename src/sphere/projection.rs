@@ -55,7 +55,7 @@ impl HemisphereProjection {
             _ => rule.project(order, value),
         };
         match self {
-            Self::LeastSquares => return Hemisphere::new(order).inverse().times(&b),
+            Self::LeastSquares => return Hemisphere::new(order).least_squares(&b),
             Self::ZeroHemisphere => return b,
             Self::ScaledOddReflection => b = divided_by_z(order, &b),
             Self::OddReflection | Self::EvenReflection => {}

@@ -121,23 +121,26 @@ fn first_of_band(l: usize) -> usize {
     (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
 }
 
+/// Products of two functions of a band are the same at opposite points, so rings above the equator count twice.
 fn rotation_rule(order: usize) -> RotationRule {
-    let rule = DirectionRule::sphere(2 * order - 2);
-    let count = function_count(order);
-    let mut weighted = vec![0.0; rule.len() * count];
-    for ((&at, weight), into) in rule.directions().iter().zip(rule.weights()).zip(weighted.chunks_exact_mut(count)) {
-        harmonics(order, at, into);
-        into.iter_mut().for_each(|y| *y *= weight);
+    let whole = DirectionRule::sphere(2 * order - 2);
+    let mut rule = RotationRule { directions: Vec::new(), weighted: Vec::new() };
+    let mut y = vec![0.0; function_count(order)];
+    for (&at, weight) in whole.directions().iter().zip(whole.weights()).filter(|(at, _)| at.z >= 0.0) {
+        let weight = if at.z > 0.0 { 2.0 * weight } else { *weight };
+        harmonics(order, at, &mut y);
+        rule.directions.push(at);
+        rule.weighted.extend(y.iter().map(|y| weight * y));
     }
-    RotationRule { directions: rule.directions().to_vec(), weighted }
+    rule
 }
 
 fn check(rotation: &DMat3) -> Result<(), RotationError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));
         let expected = if columns[0] == columns[1] { 1.0 } else { 0.0 };
-        // Written so that NaN fails.
-        if !((found - expected).abs() <= MAX_SKEW) {
+        let off = (found - expected).abs();
+        if off.is_nan() || off > MAX_SKEW {
             return Err(RotationError::NotOrthonormal { columns, found });
         }
     }

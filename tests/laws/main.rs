@@ -28,6 +28,7 @@ mod radiosity;
 mod ranges;
 mod ray_tree;
 mod scene_files;
+mod sphere;
 mod subsurface;
 mod tables;
 mod timing;

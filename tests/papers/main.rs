@@ -1,5 +1,6 @@
 //! What the papers print, and what follows from it.
 
+mod cpca_appendix;
 mod radiosity;
 mod ray_cache;
 mod ray_engine;

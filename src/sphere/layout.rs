@@ -1,0 +1,239 @@
+//! How a picture shows the whole sphere: lat-long, angular probe, cube cross.
+//!
+//! In all three the picture's middle looks along +y, its right is +x, up is +z, as a viewer sees it who stands in a
+//! scene with z up: what y-up conventions call -Z, +X and +Y.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+
+use super::cube::{FaceAxes, face_solid_angle};
+use super::texels::TexelGrid;
+use crate::elementary::{atan2, hypot, on_circle, sin_cos};
+use crate::quadrature::{GaussPoint, gauss_legendre};
+
+/// How directions lie in a picture of the whole sphere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumIter)]
+pub enum EnvironmentLayout {
+    /// Width twice the height: rows are polar angles from +z, columns azimuths; -y is at both sides.
+    #[strum(to_string = "lat-long")]
+    LatLong,
+    /// A square: the distance from the middle is proportional to the angle from +y; -y is the rim of the inscribed
+    /// circle. Pixels beyond it count for nothing.
+    #[strum(to_string = "angular probe")]
+    AngularProbe,
+    /// Six squares, 4 x 3 or 3 x 4: a cube unfolded, seen from inside. Around the middle lie right, left, up and down;
+    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest counts for nothing.
+    #[strum(to_string = "cube cross")]
+    CubeCross,
+}
+
+impl EnvironmentLayout {
+    /// The layout of pictures of a shape, if there is one: shapes tell them apart.
+    pub fn of(width: u32, height: u32) -> Option<Self> {
+        let [w, h] = [u64::from(width), u64::from(height)];
+        let cross = (3 * w == 4 * h && h % 3 == 0) || (4 * w == 3 * h && w % 3 == 0);
+        match () {
+            () if w * h == 0 => None,
+            () if w == 2 * h => Some(Self::LatLong),
+            () if w == h => Some(Self::AngularProbe),
+            () if cross => Some(Self::CubeCross),
+            () => None,
+        }
+    }
+}
+
+/// The texels of a picture of a layout, whose shape fits.
+pub(super) struct LayoutGrid {
+    layout: EnvironmentLayout,
+    width: usize,
+    height: usize,
+    /// For the edges of a probe's pixels.
+    edge_rule: Vec<GaussPoint>,
+}
+
+impl LayoutGrid {
+    pub(super) fn new(layout: EnvironmentLayout, width: usize, height: usize) -> Self {
+        Self { layout, width, height, edge_rule: gauss_legendre(if width < 32 { 16 } else { 6 }) }
+    }
+
+    /// Whether a pixel shows a direction at all.
+    pub(super) fn shows(&self, column: usize, row: usize) -> bool {
+        self.solid_angle(column, row) > 0.0
+    }
+
+    /// The edges of a probe's pixel, in the square from -1 to 1 with y up: left, bottom, right, top.
+    fn probe_pixel(&self, [column, row]: [usize; 2]) -> [f64; 4] {
+        let edge = |at: usize| 2.0 * at as f64 / self.width as f64 - 1.0;
+        [edge(column), -edge(row + 1), edge(column + 1), -edge(row)]
+    }
+
+    /// The face of a cross that a pixel belongs to and its place in it.
+    fn cross_texel(&self, column: usize, row: usize) -> Option<(FaceAxes, usize, usize)> {
+        let wide = self.width > self.height;
+        let side = self.width / if wide { 4 } else { 3 };
+        let [right, up] = [DVec3::X, DVec3::Z];
+        let face = |center, right, down| Some(FaceAxes { center, right, down });
+        let axes = match (column / side, row / side) {
+            (1, 0) => face(up, right, DVec3::Y),
+            (0, 1) => face(-right, DVec3::Y, -up),
+            (1, 1) => face(DVec3::Y, right, -up),
+            (2, 1) => face(right, -DVec3::Y, -up),
+            (1, 2) => face(-up, right, -DVec3::Y),
+            (3, 1) if wide => face(-DVec3::Y, -right, -up),
+            (1, 3) if !wide => face(-DVec3::Y, right, up),
+            _ => None,
+        };
+        axes.map(|axes| (axes, column % side, row % side))
+    }
+
+    fn cross_side(&self) -> usize {
+        self.width.max(self.height) / 4
+    }
+}
+
+impl TexelGrid for LayoutGrid {
+    fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    fn solid_angle(&self, column: usize, row: usize) -> f64 {
+        match self.layout {
+            EnvironmentLayout::LatLong => {
+                // cos a - cos b = 2 sin((a + b) / 2) sin((b - a) / 2).
+                let half_turns = |at: f64| on_circle(at / (2.0 * self.height as f64))[1];
+                TAU / self.width as f64 * 2.0 * half_turns(row as f64 + 0.5) * half_turns(0.5)
+            }
+            EnvironmentLayout::AngularProbe => probe_solid_angle(self.probe_pixel([column, row]), &self.edge_rule),
+            EnvironmentLayout::CubeCross => self
+                .cross_texel(column, row)
+                .map_or(0.0, |(_, column, row)| face_solid_angle(self.cross_side(), column, row)),
+        }
+    }
+
+    fn at(&self, texel: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
+        let [column, row] = texel.map(|at| at as f64);
+        match self.layout {
+            EnvironmentLayout::LatLong => {
+                let [cos_polar, sin_polar] = on_circle((row + v) / (2.0 * self.height as f64));
+                // From +y towards +x.
+                let [cos, sin] = on_circle((column + u) / self.width as f64 - 0.5);
+                (DVec3::new(sin * sin_polar, cos * sin_polar, cos_polar), sin_polar)
+            }
+            EnvironmentLayout::AngularProbe => {
+                let [left, bottom, right, top] = self.probe_pixel(texel);
+                probe_direction(left + u * (right - left), top + v * (bottom - top))
+            }
+            EnvironmentLayout::CubeCross => {
+                let side = self.cross_side() as f64;
+                match self.cross_texel(texel[0], texel[1]) {
+                    Some((axes, column, row)) => axes.at([(column as f64 + u) / side, (row as f64 + v) / side]),
+                    None => (DVec3::Y, 0.0),
+                }
+            }
+        }
+    }
+}
+
+/// The direction at a point of an angular probe, and the density of solid angle there: pi sin(pi r) / r.
+fn probe_direction(x: f64, y: f64) -> (DVec3, f64) {
+    let r = hypot(x, y);
+    if r >= 1.0 {
+        return (-DVec3::Y, 0.0);
+    }
+    let (sin, cos) = sin_cos(PI * r);
+    let across = if r > 0.0 { sin / r } else { PI };
+    (DVec3::new(across * x, cos, across * y), PI * across)
+}
+
+/// The solid angle of a pixel within the unit circle of an angular probe.
+///
+/// It is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disc, counter-clockwise. Along a straight
+/// edge that is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth everywhere; along the rim it is 2 dphi.
+fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) -> f64 {
+    let density = |r: f64| {
+        let (sin, _) = sin_cos(PI / 2.0 * r);
+        if r > 1e-8 { 2.0 * (sin / r) * (sin / r) } else { PI * PI / 2.0 }
+    };
+    // Edges counter-clockwise, each cut to the disc.
+    let edges = [
+        cut(bottom, left, right).map(|[a, b]| [[a, bottom], [b, bottom]]),
+        cut(right, bottom, top).map(|[a, b]| [[right, a], [right, b]]),
+        cut(top, left, right).map(|[a, b]| [[b, top], [a, top]]),
+        cut(left, bottom, top).map(|[a, b]| [[left, b], [left, a]]),
+    ];
+    let within: Vec<[[f64; 2]; 2]> = edges.into_iter().flatten().collect();
+    let mut sum = 0.0;
+    for (at, [[x0, y0], [x1, y1]]) in within.iter().enumerate() {
+        // x dy - y dx is constant along a straight line.
+        let around = x0 * y1 - y0 * x1;
+        let along = rule.iter().map(|&(t, weight)| weight * density(hypot(x0 + t * (x1 - x0), y0 + t * (y1 - y0))));
+        sum += around * along.sum::<f64>();
+        let [x2, y2] = within[(at + 1) % within.len()][0];
+        // To where the next edge begins along the rim; no way at all to a corner within the disc.
+        sum += 2.0 * atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2);
+    }
+    sum.max(0.0)
+}
+
+/// The part from a to b of the line at distance `offset` from the middle that lies in the unit circle.
+fn cut(offset: f64, a: f64, b: f64) -> Option<[f64; 2]> {
+    let square = (1.0 - offset) * (1.0 + offset);
+    let half = (square >= 0.0).then(|| square.sqrt())?;
+    (a <= half && b >= -half).then(|| [a.max(-half), b.min(half)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use strum::IntoEnumIterator;
+
+    fn shapes(layout: EnvironmentLayout) -> Vec<[usize; 2]> {
+        match layout {
+            EnvironmentLayout::LatLong => vec![[2, 1], [64, 32], [200, 100]],
+            EnvironmentLayout::AngularProbe => vec![[1, 1], [2, 2], [3, 3], [7, 7], [32, 32], [101, 101]],
+            EnvironmentLayout::CubeCross => vec![[4, 3], [3, 4], [64, 48], [75, 100]],
+        }
+    }
+
+    #[test]
+    fn solid_angles_add_up_to_the_sphere() {
+        for layout in EnvironmentLayout::iter() {
+            for [width, height] in shapes(layout) {
+                let grid = LayoutGrid::new(layout, width, height);
+                let row = |row| (0..width).map(|column| grid.solid_angle(column, row)).sum::<f64>();
+                let sum: f64 = (0..height).map(row).sum();
+                assert!((sum - 4.0 * PI).abs() < 4e-14, "{layout} {width}x{height}: {sum}");
+                assert_eq!(EnvironmentLayout::of(width as u32, height as u32), Some(layout));
+            }
+        }
+    }
+
+    #[test]
+    fn each_texel_has_the_integral_of_its_density() {
+        let rule = gauss_legendre(12);
+        for (layout, [width, height], scale) in [
+            (EnvironmentLayout::LatLong, [16, 8], TAU / 16.0 * PI / 8.0),
+            (EnvironmentLayout::AngularProbe, [16, 16], 1.0 / 64.0),
+            (EnvironmentLayout::CubeCross, [16, 12], 0.25),
+        ] {
+            let grid = LayoutGrid::new(layout, width, height);
+            for texel in [[7, 5], [5, 6]] {
+                let sum: f64 = rule
+                    .iter()
+                    .flat_map(|v| rule.iter().map(move |u| (u, v)))
+                    .map(|(u, v)| u.1 * v.1 * grid.at(texel, u.0, v.0).1)
+                    .sum();
+                let expected = grid.solid_angle(texel[0], texel[1]);
+                assert!((sum * scale - expected).abs() < 1e-14, "{layout}: {} {expected}", sum * scale);
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_that_fit_nothing_have_no_layout() {
+        for [width, height] in [[0, 0], [3, 2], [5, 4], [8, 7], [1, 2]] {
+            assert_eq!(EnvironmentLayout::of(width, height), None, "{width}x{height}");
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Distant light as coefficients of harmonics, one set per color channel.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::extremes::Extremes;
+use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
+use super::rotation::HarmonicRotation;
+use super::window::Window;
+use crate::elementary::sin_cos;
+
+/// A light that cannot be made.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum LightError {
+    /// No direction.
+    #[error("expected a direction of finite length above 0, found {found}")]
+    Direction { found: DVec3 },
+    /// A disk's radius.
+    #[error("expected an angular radius above 0 and up to pi radians, found {found}")]
+    Radius { found: f64 },
+    /// A color.
+    #[error("expected finite red, green and blue, found {found:?}")]
+    Color { found: [f64; 3] },
+    /// A sky without its sun.
+    #[error("expected a sun above the horizon, z > 0, found {found}")]
+    Sunset { found: DVec3 },
+    /// The number of coefficients.
+    #[error("expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {found:?}")]
+    Coefficients { found: [usize; 3] },
+}
+
+/// Radiance from infinitely far as coefficients of an order: red, green and blue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HarmonicLight {
+    channels: [Vec<f64>; 3],
+}
+
+impl HarmonicLight {
+    /// Of coefficients by channel.
+    ///
+    /// # Errors
+    /// [`LightError::Coefficients`] unless all channels have the n^2 of an order.
+    pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, LightError> {
+        let found = channels.each_ref().map(Vec::len);
+        let fits = (1..=MAX_ORDER).any(|order| found == [order * order; 3]);
+        if fits { Ok(Self { channels }) } else { Err(LightError::Coefficients { found }) }
+    }
+
+    /// Of coefficients that have the number of an order.
+    pub(super) const fn projected(channels: [Vec<f64>; 3]) -> Self {
+        Self { channels }
+    }
+
+    /// A function times a color.
+    pub(super) fn colored(function: &[f64], color: [f64; 3]) -> Result<Self, LightError> {
+        let found = color;
+        if !color.iter().all(|channel| channel.is_finite()) {
+            return Err(LightError::Color { found });
+        }
+        Ok(Self { channels: color.map(|channel| function.iter().map(|value| channel * value).collect()) })
+    }
+
+    /// The same radiance from everywhere.
+    ///
+    /// # Errors
+    /// [`LightError::Color`] if a channel is not finite.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn constant(order: usize, radiance: [f64; 3]) -> Result<Self, LightError> {
+        let mut function = vec![0.0; function_count(order)];
+        function[0] = (4.0 * PI).sqrt();
+        Self::colored(&function, radiance)
+    }
+
+    /// The same radiance from a disk around a direction of any length, `radius` radians wide from its center; black
+    /// elsewhere. In closed form.
+    ///
+    /// # Errors
+    /// [`LightError`] if the direction has no length, the radius is not above 0 and up to pi, or a channel is not finite.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, LightError> {
+        if !(radius > 0.0 && radius <= PI) {
+            return Err(LightError::Radius { found: radius });
+        }
+        let mut function = vec![0.0; function_count(order)];
+        harmonics(order, unit(direction)?, &mut function);
+        for (l, integral) in cap_integrals(order, radius).into_iter().enumerate() {
+            function[l * l..(l + 1) * (l + 1)].iter_mut().for_each(|y| *y *= 2.0 * PI * integral);
+        }
+        Self::colored(&function, radiance)
+    }
+
+    /// A red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y, in a dim white
+    /// surrounding: the kind of light of Figure 7, whose own is not published.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn red_and_blue(order: usize) -> Self {
+        let disk = |x, color| Self::disk(order, DVec3::new(x, 0.6, 0.0), PI / 6.0, color);
+        let parts = [disk(0.8, [6.0, 0.3, 0.3]), disk(-0.8, [0.3, 0.3, 6.0]), Self::constant(order, [0.15; 3])];
+        parts.into_iter().flatten().reduce(|sum, part| sum.plus(&part)).expect("three lights with finite figures")
+    }
+
+    /// The order.
+    pub fn order(&self) -> usize {
+        order_of(&self.channels[0])
+    }
+
+    /// The coefficients of red, green and blue.
+    pub const fn channels(&self) -> &[Vec<f64>; 3] {
+        &self.channels
+    }
+
+    /// The radiance from a direction of length 1: of the coefficients, so it rings.
+    pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
+        let mut y = [0.0; MAX_ORDER * MAX_ORDER];
+        let y = &mut y[..self.channels[0].len()];
+        harmonics(self.order(), direction, y);
+        self.channels.each_ref().map(|channel| channel.iter().zip(y.iter()).map(|(c, y)| c * y).sum())
+    }
+
+    /// Both lights together, to the order of the lower one.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let sum = |channel: usize| {
+            let both = self.channels[channel].iter().zip(&other.channels[channel]);
+            both.map(|(a, b)| a + b).collect()
+        };
+        Self { channels: [0, 1, 2].map(sum) }
+    }
+
+    /// The light turned around the scene.
+    ///
+    /// # Panics
+    /// If the rotation is of another order.
+    #[must_use]
+    pub fn rotated(&self, rotation: &HarmonicRotation) -> Self {
+        let turned = |channel: &Vec<f64>| {
+            let mut into = vec![0.0; channel.len()];
+            rotation.apply(channel, &mut into);
+            into
+        };
+        Self { channels: self.channels.each_ref().map(turned) }
+    }
+
+    /// The light with a window of a width, in bands.
+    ///
+    /// # Panics
+    /// If the width is not positive.
+    #[must_use]
+    pub fn windowed(mut self, window: Window, width: f64) -> Self {
+        self.channels.iter_mut().for_each(|channel| window.apply(width, channel));
+        self
+    }
+
+    /// The least and the largest radiance of each channel.
+    pub fn extremes(&self) -> [Extremes; 3] {
+        self.channels.each_ref().map(|channel| Extremes::of(channel))
+    }
+}
+
+/// A direction of length 1.
+pub(super) fn unit(direction: DVec3) -> Result<DVec3, LightError> {
+    let length = direction.length();
+    if length > 0.0 && length.is_finite() {
+        Ok(direction / length)
+    } else {
+        Err(LightError::Direction { found: direction })
+    }
+}
+
+/// The integrals of P_0 to P_(n-1) from cos(radius) to 1.
+///
+/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): no difference of near values, however small the
+/// disk.
+fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
+    let (sin, x) = sin_cos(radius);
+    let (half, _) = sin_cos(radius / 2.0);
+    let ([mut before, mut now], [mut slope_before, mut slope]) = ([1.0, x], [0.0, 1.0]);
+    let mut integrals = vec![2.0 * half * half];
+    for l in 1..order {
+        let (n, odd) = (l as f64, (2 * l + 1) as f64);
+        integrals.push(sin * sin * slope / (n * (n + 1.0)));
+        [slope_before, slope] = [slope, slope_before + odd * now];
+        [before, now] = [now, (odd * x * now - n * before) / (n + 1.0)];
+    }
+    integrals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_whole_sphere_is_a_disk_and_two_caps_are_the_whole() {
+        let near = |a: &HarmonicLight, b: &HarmonicLight| {
+            let pairs = a.channels.iter().flatten().zip(b.channels.iter().flatten());
+            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+        };
+        let color = [1.0, 0.5, 2.0];
+        let white = HarmonicLight::constant(10, color).expect("a light");
+        let v = DVec3::new(0.2, -3.0, 1.0);
+        let disk = |direction, radius| HarmonicLight::disk(10, direction, radius, color).expect("a light");
+        assert!(near(&disk(v, PI), &white) < 1e-14);
+        assert!(near(&disk(v, 1.0).plus(&disk(-v, PI - 1.0)), &white) < 1e-14);
+        // A disk of radius 1e-6 is pi 1e-12 (1 - l (l + 1) 1e-12 / 8) times the harmonics at its center.
+        let mut y = [0.0; 100];
+        harmonics(10, v.normalize(), &mut y);
+        let tiny = disk(v, 1e-6);
+        for (found, y) in tiny.channels()[0].iter().zip(y) {
+            assert!((found / (PI * 1e-12) - y).abs() < 1e-10, "{found:e} {y}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_light_is_refused() {
+        let disk = |direction, radius, color| HarmonicLight::disk(3, direction, radius, color).expect_err("refused");
+        assert!(matches!(disk(DVec3::ZERO, 1.0, [1.0; 3]), LightError::Direction { .. }));
+        assert!(matches!(disk(DVec3::NAN, 1.0, [1.0; 3]), LightError::Direction { .. }));
+        for radius in [0.0, 3.2, f64::NAN] {
+            assert!(matches!(disk(DVec3::Z, radius, [1.0; 3]), LightError::Radius { .. }));
+        }
+        assert!(matches!(disk(DVec3::Z, 1.0, [f64::NAN; 3]), LightError::Color { .. }));
+        let ragged = HarmonicLight::new([vec![0.0; 4], vec![0.0; 4], vec![0.0; 9]]);
+        assert_eq!(ragged, Err(LightError::Coefficients { found: [4, 4, 9] }));
+    }
+
+    #[test]
+    fn the_light_of_figure_7_is_red_on_one_side_and_blue_on_the_other() {
+        let light = HarmonicLight::red_and_blue(5);
+        let [right, left] = [1.0, -1.0].map(|x| light.radiance(DVec3::new(0.8 * x, 0.6, 0.0)));
+        assert!(right[0] > 2.0 * right[2] && left[2] > 2.0 * left[0], "{right:?} {left:?}");
+    }
+}

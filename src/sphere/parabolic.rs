@@ -1,0 +1,94 @@
+//! Parabolic maps (Heidrich and Seidel 1999): the hemisphere around z in the unit circle of a square of texels.
+
+use glam::DVec3;
+
+use crate::elementary::atan2;
+
+/// The texels of a parabolic map around +z. With s = x / (1 + z) and t = y / (1 + z), texture coordinates are
+/// ((s + 1) / 2, (t + 1) / 2): columns run along x, rows along y.
+///
+/// The circle s^2 + t^2 = 1 is the horizon. Texels beyond it are filtered with those within, so they are no border:
+/// their directions lie below the horizon, and functions continue there. The corners look at z = -1/3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ParabolicMap {
+    side: usize,
+}
+
+impl ParabolicMap {
+    /// Of so many texels along an edge; the paper has 32.
+    ///
+    /// # Panics
+    /// If there are none.
+    pub const fn new(side: usize) -> Self {
+        assert!(side > 0, "a texel along an edge");
+        Self { side }
+    }
+
+    /// Texels along an edge.
+    pub const fn side(self) -> usize {
+        self.side
+    }
+
+    /// The direction of a texel's center, of length 1.
+    pub fn direction(self, column: usize, row: usize) -> DVec3 {
+        let [s, t] = [column, row].map(|at| (2 * at + 1) as f64 / self.side as f64 - 1.0);
+        let square = s * s + t * t;
+        DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)
+    }
+
+    /// The texture coordinates of a direction of length 1: within [0, 1] above the horizon; at -z infinite or no
+    /// number.
+    pub fn coordinates(self, direction: DVec3) -> [f64; 2] {
+        [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
+    }
+
+    /// The solid angle of a texel: the integral of 4 / (1 + s^2 + t^2)^2.
+    pub fn solid_angle(self, column: usize, row: usize) -> f64 {
+        let edge = |at: usize| 2.0 * at as f64 / self.side as f64 - 1.0;
+        let [s0, s1, t0, t1] = [edge(column), edge(column + 1), edge(row), edge(row + 1)];
+        (corner(s1, t1) - corner(s0, t1)) - (corner(s1, t0) - corner(s0, t0))
+    }
+}
+
+/// The solid angle of the rectangle from (0, 0) to (s, t).
+fn corner(s: f64, t: f64) -> f64 {
+    let [a, b] = [(1.0 + s * s).sqrt(), (1.0 + t * t).sqrt()];
+    2.0 * (s / a * atan2(t, a) + t / b * atan2(s, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quadrature::integral;
+
+    #[test]
+    fn directions_and_coordinates_are_inverse() {
+        let map = ParabolicMap::new(32);
+        for (column, row) in [(0, 0), (16, 3), (31, 31)] {
+            let direction = map.direction(column, row);
+            assert!((direction.length() - 1.0).abs() < 4e-16);
+            let expected = [column, row].map(|at| (at as f64 + 0.5) / 32.0);
+            let found = map.coordinates(direction);
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?} {expected:?}");
+        }
+        assert_eq!(map.coordinates(DVec3::X), [1.0, 0.5], "columns run along x");
+        assert_eq!(map.coordinates(DVec3::Y), [0.5, 1.0], "rows along y");
+        assert_eq!(map.coordinates(DVec3::Z), [0.5, 0.5]);
+        assert!((ParabolicMap::new(4096).direction(0, 0).z + 1.0 / 3.0).abs() < 1e-3, "the corner");
+    }
+
+    #[test]
+    fn solid_angles_are_the_integral_of_the_density() {
+        let map = ParabolicMap::new(32);
+        for (column, row) in [(0, 0), (16, 16), (31, 7)] {
+            let edge = |at: usize| at as f64 / 16.0 - 1.0;
+            let inner = |t: f64| {
+                let density = |s: f64| 4.0 / ((1.0 + s * s + t * t) * (1.0 + s * s + t * t));
+                integral(edge(column), edge(column + 1), density)
+            };
+            let expected = integral(edge(row), edge(row + 1), inner);
+            let found = map.solid_angle(column, row);
+            assert!((found - expected).abs() < 1e-15, "{column} {row}: {found} {expected}");
+        }
+    }
+}

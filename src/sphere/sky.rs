@@ -1,0 +1,106 @@
+//! A clear sky with its sun.
+
+use glam::DVec3;
+
+use super::harmonics::MAX_ORDER;
+use super::light::{HarmonicLight, LightError, unit};
+use super::rule::DirectionRule;
+use crate::elementary::{acos, exp};
+
+/// The sun's mean angular radius in radians, 16 minutes of arc.
+pub const SUN_RADIUS: f64 = 0.004_654;
+
+/// The degree of the rule over the sky, by which 10 orders change less than 1e-5 of the first coefficient when it is
+/// doubled: the sky has a peak around the sun, of no finite degree.
+const SKY_DEGREE: usize = 255;
+
+/// The CIE standard clear sky (Kittler 1967; CIE publication 22, 1973) over z >= 0, a sun, and a ground below.
+///
+/// Relative to the zenith the sky is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), gamma the angle from the sun,
+/// f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClearSky {
+    /// Towards the sun, of any length, z > 0.
+    pub sun: DVec3,
+    /// Radiance of the sun's disk.
+    pub sun_radiance: [f64; 3],
+    /// Radiance of the zenith.
+    pub zenith: [f64; 3],
+    /// Radiance from below the horizon.
+    pub ground: [f64; 3],
+}
+
+impl ClearSky {
+    /// The radiance of the sky relative to the zenith, without the sun's disk, in a direction of length 1 above the
+    /// horizon.
+    ///
+    /// # Errors
+    /// [`LightError`] if the sun has no direction, or is not above the horizon.
+    pub fn relative(&self, direction: DVec3) -> Result<f64, LightError> {
+        Ok(relative(self.sun_direction()?, direction))
+    }
+
+    /// The coefficients of sky, sun and ground. Sun and ground are in closed form.
+    ///
+    /// # Errors
+    /// [`LightError`] if the sun has no direction or is not above the horizon, or a color is not finite.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10.
+    pub fn light(&self, order: usize) -> Result<HarmonicLight, LightError> {
+        assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
+        let sun = self.sun_direction()?;
+        let sky = DirectionRule::hemisphere(SKY_DEGREE).project(order, |v| relative(sun, v));
+        let sky = HarmonicLight::colored(&sky, self.zenith)?;
+        let sun = HarmonicLight::disk(order, sun, SUN_RADIUS, self.sun_radiance)?;
+        let ground = HarmonicLight::disk(order, -DVec3::Z, std::f64::consts::FRAC_PI_2, self.ground)?;
+        Ok(sky.plus(&sun).plus(&ground))
+    }
+
+    fn sun_direction(&self) -> Result<DVec3, LightError> {
+        let sun = unit(self.sun)?;
+        if sun.z > 0.0 { Ok(sun) } else { Err(LightError::Sunset { found: self.sun }) }
+    }
+}
+
+fn relative(sun: DVec3, direction: DVec3) -> f64 {
+    let scattering = |cosine: f64| 0.91 + 10.0 * exp(-3.0 * acos(cosine.clamp(-1.0, 1.0))) + 0.45 * cosine * cosine;
+    let thickness = |z: f64| if z > 0.0 { 1.0 - exp(-0.32 / z) } else { 1.0 };
+    scattering(sun.dot(direction)) * thickness(direction.z) / (scattering(sun.z) * thickness(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    const SKY: ClearSky =
+        ClearSky { sun: DVec3::new(1.0, 2.0, 2.0), sun_radiance: [0.0; 3], zenith: [1.0; 3], ground: [0.0; 3] };
+
+    #[test]
+    fn the_zenith_is_1_and_the_sun_is_bright() {
+        let at = |v: DVec3| SKY.relative(v.normalize()).expect("a sky");
+        assert_eq!(at(DVec3::Z), 1.0);
+        assert!(at(SKY.sun) > 4.0 && at(DVec3::new(-1.0, -2.0, 2.0)) < 1.0);
+    }
+
+    #[test]
+    fn a_finer_rule_changes_little() {
+        let sky = SKY.light(10).expect("a sky");
+        let sun = SKY.sun.normalize();
+        let finer = DirectionRule::hemisphere(2 * SKY_DEGREE + 1).project(10, |v| relative(sun, v));
+        let most = sky.channels()[0].iter().zip(&finer).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        assert!(most < 1e-5 * finer[0], "{most:e} of {}", finer[0]);
+    }
+
+    #[test]
+    fn sun_and_ground_are_added() {
+        let bright = ClearSky { sun_radiance: [1e4; 3], ground: [0.5; 3], ..SKY };
+        let [with, without] = [bright, SKY].map(|sky| sky.light(1).expect("a sky").channels()[0][0]);
+        let added = (with - without) * (4.0 * PI).sqrt();
+        let expected = 1e4 * PI * SUN_RADIUS * SUN_RADIUS + 0.5 * 2.0 * PI;
+        assert!((added / expected - 1.0).abs() < 1e-5, "{added} {expected}");
+        let night = ClearSky { sun: -DVec3::Z, ..SKY };
+        assert_eq!(night.light(3), Err(LightError::Sunset { found: -DVec3::Z }));
+    }
+}

@@ -1,0 +1,82 @@
+//! Lights by code.
+
+use std::f64::consts::PI;
+
+use crossbar::elementary;
+use crossbar::sphere::{ClearSky, DirectionRule, HarmonicLight, HarmonicRotation, MAX_ORDER, SUN_RADIUS, Window};
+use glam::{DMat3, DVec3};
+use proptest::prelude::*;
+
+use super::{direction, distance, functions};
+
+/// A disk's coefficients by a rule in the disk's own frame.
+fn disk_by_quadrature(order: usize, center: DVec3, radius: f64) -> Vec<f64> {
+    let u = center.any_orthonormal_vector();
+    let w = center.cross(u);
+    let (least_z, rule) = (elementary::sin_cos(radius).1, DirectionRule::hemisphere(2 * order));
+    // The rule's z from 0 to 1 becomes one from the disk's rim to its center.
+    rule.directions().iter().zip(rule.weights()).fold(vec![0.0; order * order], |mut sums, (v, weight)| {
+        let flat = (v.x * v.x + v.y * v.y).sqrt();
+        let z = least_z + (1.0 - least_z) * v.z;
+        let rise = ((1.0 - z) * (1.0 + z)).sqrt();
+        let at = rise * (v.x / flat * u + v.y / flat * w) + z * center;
+        let weight = weight * (1.0 - least_z);
+        sums.iter_mut().zip(functions(order, at)).for_each(|(sum, y)| *sum += weight * y);
+        sums
+    })
+}
+
+proptest! {
+    #[test]
+    fn disks_are_the_integrals_of_harmonics(center in direction(), radius in 0.01..3.1f64) {
+        let light = HarmonicLight::disk(MAX_ORDER, center, radius, [1.0, 2.0, 0.0]).expect("a light");
+        let expected = disk_by_quadrature(MAX_ORDER, center, radius);
+        prop_assert!(distance(&light.channels()[0], &expected) < 1e-12);
+        let doubled: Vec<f64> = light.channels()[0].iter().map(|c| 2.0 * c).collect();
+        prop_assert!(light.channels()[1] == doubled && light.channels()[2] == [0.0; 100]);
+    }
+
+    #[test]
+    fn a_turned_disk_is_the_disk_elsewhere(center in direction(), other in direction(), radius in 0.1..2.0f64) {
+        let axis = center.cross(other);
+        prop_assume!(axis.length() > 0.05);
+        // The half turn around the middle of both takes one to the other.
+        let middle = (center + other).normalize();
+        prop_assume!(middle.is_finite());
+        let half_turn = DMat3::from_cols(
+            2.0 * middle.x * middle - DVec3::X,
+            2.0 * middle.y * middle - DVec3::Y,
+            2.0 * middle.z * middle - DVec3::Z,
+        );
+        let rotation = HarmonicRotation::new(6, &half_turn).expect("a rotation");
+        let disk = |at| HarmonicLight::disk(6, at, radius, [1.0; 3]).expect("a light");
+        let turned = disk(center).rotated(&rotation);
+        prop_assert!(distance(&turned.channels()[0], &disk(other).channels()[0]) < 1e-12);
+    }
+}
+
+#[test]
+fn windows_take_ringing_away() {
+    let disk = HarmonicLight::disk(6, DVec3::new(1.0, 1.0, 0.5), 0.3, [1.0; 3]).expect("a light");
+    let least = |light: &HarmonicLight| light.extremes()[0].least;
+    let [lanczos, hann] = [Window::Lanczos, Window::Hann].map(|window| disk.clone().windowed(window, 6.0));
+    let [bare, lanczos_least, hann_least] = [&disk, &lanczos, &hann].map(least);
+    assert!(
+        bare < lanczos_least && lanczos_least < hann_least && hann_least < 0.0,
+        "{bare} {lanczos_least} {hann_least}"
+    );
+    for light in [&lanczos, &hann] {
+        assert_eq!(light.channels()[0][0], disk.channels()[0][0], "a window keeps the mean");
+    }
+}
+
+#[test]
+fn the_sun_lights_a_facing_plane_by_its_radiance_and_solid_angle() {
+    // Irradiance of the constant and linear bands alone: pi c_00 y_00 + 2 pi / 3 (c . y).
+    let sky = ClearSky { sun: DVec3::Z, sun_radiance: [1.0; 3], zenith: [0.0; 3], ground: [0.0; 3] };
+    let light = sky.light(2).expect("a light");
+    let solid_angle = PI * SUN_RADIUS * SUN_RADIUS;
+    let y = functions(2, DVec3::Z);
+    let found = PI * light.channels()[1][0] * y[0] + 2.0 * PI / 3.0 * light.channels()[1][2] * y[2];
+    assert!((found / solid_angle - 0.75).abs() < 1e-5, "1/4 + 1/2 of the sun: {found:e}");
+}

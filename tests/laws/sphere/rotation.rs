@@ -1,0 +1,112 @@
+//! Rotation of coefficients is rotation of the function.
+
+use crossbar::sphere::{DirectionRule, HarmonicRotation, MAX_ORDER, RotationError, evaluate, function_count};
+use glam::{DMat3, DVec3};
+use proptest::prelude::*;
+
+use super::{coefficients, direction, distance};
+
+/// The rotation of a unit quaternion with scalar part w.
+fn matrix([w, x, y, z]: [f64; 4]) -> DMat3 {
+    let v = DVec3::new(x, y, z);
+    let column = |axis: DVec3| axis + 2.0 * w * v.cross(axis) + 2.0 * v.cross(v.cross(axis));
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+fn rotation() -> impl Strategy<Value = DMat3> {
+    let parts = [-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0f64];
+    parts.prop_filter_map("far from 0", |q| {
+        let length = q.iter().map(|part| part * part).sum::<f64>().sqrt();
+        (length > 0.1).then(|| matrix(q.map(|part| part / length)))
+    })
+}
+
+fn of(order: usize, matrix: &DMat3) -> HarmonicRotation {
+    HarmonicRotation::new(order, matrix).expect("a rotation")
+}
+
+/// The matrix of band l of one rotation after another.
+fn product(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
+    let element = |k: usize| (0..size).map(|j| a[k / size * size + j] * b[j * size + k % size]).sum();
+    (0..size * size).map(element).collect()
+}
+
+fn identity(size: usize) -> Vec<f64> {
+    (0..size * size).map(|k| if k % (size + 1) == 0 { 1.0 } else { 0.0 }).collect()
+}
+
+#[test]
+fn the_identity_is_the_identity() {
+    for order in 1..=MAX_ORDER {
+        let found = of(order, &DMat3::IDENTITY);
+        for l in 0..order {
+            let off = distance(found.band(l), &identity(2 * l + 1));
+            assert!(off < 5e-15, "order {order}, band {l}: {off:e}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_rotated_function_has_its_values_elsewhere(r in rotation(), c in coefficients(MAX_ORDER), v in direction()) {
+        for order in 1..=MAX_ORDER {
+            let c = &c[..function_count(order)];
+            let mut turned = vec![0.0; c.len()];
+            of(order, &r).apply(c, &mut turned);
+            let off = (evaluate(&turned, r * v) - evaluate(c, v)).abs();
+            prop_assert!(off < 2e-13, "order {}: {:e}", order, off);
+        }
+    }
+
+    #[test]
+    fn bands_are_orthogonal(r in rotation()) {
+        let [there, back] = [of(MAX_ORDER, &r), of(MAX_ORDER, &r.transpose())];
+        for l in 0..MAX_ORDER {
+            let size = 2 * l + 1;
+            prop_assert!(distance(&product(there.band(l), back.band(l), size), &identity(size)) < 2e-14);
+            prop_assert!(distance(there.inverse().band(l), back.band(l)) < 2e-14);
+        }
+    }
+
+    #[test]
+    fn one_rotation_after_another_is_their_product(a in rotation(), b in rotation()) {
+        let [first, second, both] = [b, a, a * b].map(|r| of(MAX_ORDER, &r));
+        for l in 0..MAX_ORDER {
+            let off = distance(&product(second.band(l), first.band(l), 2 * l + 1), both.band(l));
+            prop_assert!(off < 3e-14, "band {}: {:e}", l, off);
+        }
+    }
+
+    /// The character of the rotation group: 1 + 2 cos a + ... + 2 cos(l a), where 1 + 2 cos a is the matrix's trace.
+    #[test]
+    fn traces_are_those_of_the_angle(r in rotation()) {
+        let cosine = (r.col(0).x + r.col(1).y + r.col(2).z - 1.0) / 2.0;
+        let (found, mut trace) = (of(MAX_ORDER, &r), 0.0);
+        // cos(l a) by Chebyshev's recurrence.
+        let (mut before, mut now) = (cosine, 1.0);
+        for l in 0..MAX_ORDER {
+            trace += if l == 0 { 1.0 } else { 2.0 * now };
+            let sum: f64 = found.band(l).iter().step_by(2 * l + 2).sum();
+            prop_assert!((sum - trace).abs() < 1e-12, "band {}: {} {}", l, sum, trace);
+            (before, now) = (now, 2.0 * cosine * now - before);
+        }
+    }
+
+    /// A rule in a turned frame is a rule.
+    #[test]
+    fn energy_and_mean_stay(r in rotation(), c in coefficients(5)) {
+        let mut turned = vec![0.0; c.len()];
+        of(5, &r).apply(&c, &mut turned);
+        let energy = |c: &[f64]| DirectionRule::sphere(8).integral(|v| evaluate(c, v) * evaluate(c, v));
+        prop_assert!((energy(&turned) - energy(&c)).abs() < 1e-12);
+        prop_assert!((turned[0] - c[0]).abs() < 1e-14);
+    }
+
+    #[test]
+    fn reflections_and_other_matrices_are_refused(r in rotation(), scale in 1.001..10.0f64) {
+        let mirror = r * DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0));
+        prop_assert_eq!(HarmonicRotation::new(4, &mirror), Err(RotationError::Reflection));
+        let refused = matches!(HarmonicRotation::new(4, &(r * scale)), Err(RotationError::NotOrthonormal { .. }));
+        prop_assert!(refused);
+    }
+}
