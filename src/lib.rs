@@ -68,6 +68,8 @@ pub mod oracle;
 #[cfg(feature = "systems")]
 pub mod picture;
 #[cfg(feature = "systems")]
+pub mod prt;
+#[cfg(feature = "systems")]
 pub mod quadrature;
 #[cfg(feature = "systems")]
 pub mod radiosity;

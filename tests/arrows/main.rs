@@ -60,6 +60,22 @@ const CROSSBAR: Law = (
             "subsurface",
             &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"],
         ),
+        (
+            "prt",
+            &[
+                "card",
+                "tracer",
+                "elementary",
+                "quadrature",
+                "picture",
+                "sphere",
+                "geom",
+                "atlas",
+                "scene",
+                "linalg",
+                "io",
+            ],
+        ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
         (
@@ -133,7 +149,7 @@ const BATCH: Law = (
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &[&str] =
-    &["card", "tracer", "case", "compare", "shader", "radiosity", "subsurface", "ray_engine", "study", "cli"];
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "subsurface", "prt", "ray_engine", "study", "cli"];
 
 /// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
 /// where the rooms have files in common, may name no room at all.

@@ -5,9 +5,7 @@ use rayon::prelude::*;
 
 use super::models::Brdf;
 use crate::linalg::{Matrix, MatrixError, dot};
-use crate::sphere::{
-    DirectionRule, Hemisphere, HemisphereError, MAX_ORDER, function_count, function_index, harmonics,
-};
+use crate::sphere::{DirectionRule, Hemisphere, HemisphereError, MAX_ORDER, function_count, function_index, harmonics};
 
 /// The degree of the direction rule that BRDF matrices are integrated with by default: 48 rings of 96 directions.
 pub const BRDF_DEGREE: usize = 95;

@@ -98,13 +98,15 @@ impl Brdf {
     /// [`BrdfError::OutOfRange`] names the first that is not.
     pub fn check(&self) -> Result<(), BrdfError> {
         let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
-        let width = |what, found: f64| check(what, "a finite number of at least 0.001", found, (0.001..1e9).contains(&found));
-        let exponent = |found: f64| check("exponent", "a finite number of at least 0", found, (0.0..1e9).contains(&found));
+        let width =
+            |what, found: f64| check(what, "a finite number of at least 0.001", found, (0.001..1e9).contains(&found));
+        let exponent =
+            |found: f64| check("exponent", "a finite number of at least 0", found, (0.0..1e9).contains(&found));
         match *self {
             Self::Lambert { albedo } => share("albedo", albedo),
-            Self::Phong { albedo, specular, exponent: e } => {
-                share("albedo", albedo).and_then(|()| share("specular reflectance", specular)).and_then(|()| exponent(e))
-            }
+            Self::Phong { albedo, specular, exponent: e } => share("albedo", albedo)
+                .and_then(|()| share("specular reflectance", specular))
+                .and_then(|()| exponent(e)),
             Self::CookTorrance { albedo, specular, roughness, normal_incidence: f0 } => {
                 share("albedo", albedo)?;
                 share("specular factor", specular)?;
@@ -157,14 +159,16 @@ impl Brdf {
             }
             Self::Ward { albedo, specular, roughness: [across, along] } => {
                 let [x, y] = [half.x / across, half.y / along];
-                let facets = exp(-(x * x + y * y) / (half.z * half.z)) / (4.0 * PI * across * along * (view.z * s.z).sqrt());
+                let facets =
+                    exp(-(x * x + y * y) / (half.z * half.z)) / (4.0 * PI * across * along * (view.z * s.z).sqrt());
                 albedo / PI + schlick(specular, half.dot(view).min(1.0)) * facets
             }
             Self::AshikhminShirley { albedo, specular, exponents: [u, v] } => {
                 let cosine = half.dot(view).min(1.0);
                 let sine = half.x * half.x + half.y * half.y;
                 let mean = if sine > 0.0 { (u * half.x * half.x + v * half.y * half.y) / sine } else { 0.0 };
-                let facets = ((u + 1.0) * (v + 1.0)).sqrt() / (8.0 * PI) * pow(half.z, mean) / (cosine * view.z.max(s.z));
+                let facets =
+                    ((u + 1.0) * (v + 1.0)).sqrt() / (8.0 * PI) * pow(half.z, mean) / (cosine * view.z.max(s.z));
                 let room = |z: f64| 1.0 - fifth_power(1.0 - z / 2.0);
                 let diffuse = 28.0 / (23.0 * PI) * albedo * (1.0 - specular) * room(view.z) * room(s.z);
                 diffuse + schlick(specular, cosine) * facets

@@ -32,7 +32,12 @@ struct WeightedResponse {
 }
 
 impl<'a> Gather<'a> {
-    pub(super) fn new(vertices: &'a Vertices, rays: &'a TracedRays, responses: &[Response], light_order: usize) -> Self {
+    pub(super) fn new(
+        vertices: &'a Vertices,
+        rays: &'a TracedRays,
+        responses: &[Response],
+        light_order: usize,
+    ) -> Self {
         let columns = function_count(light_order);
         let mut light = vec![0.0; columns * rays.rule().len()];
         for (&s, into) in rays.rule().directions().iter().zip(light.chunks_exact_mut(columns)) {
@@ -41,8 +46,11 @@ impl<'a> Gather<'a> {
         let rows = responses[0].basis().len();
         let materials = responses.iter().map(|response| {
             let weights = rays.rule().weights();
-            let weighted: Vec<f64> =
-                response.columns().zip(weights).flat_map(|(column, weight)| column.iter().map(move |c| weight * c)).collect();
+            let weighted: Vec<f64> = response
+                .columns()
+                .zip(weights)
+                .flat_map(|(column, weight)| column.iter().map(move |c| weight * c))
+                .collect();
             let mut whole = vec![0.0; rows * columns];
             for (column, light) in weighted.chunks_exact(rows).zip(light.chunks_exact(columns)) {
                 add_product(&mut whole, column, light);

@@ -150,7 +150,9 @@ impl TracedRays {
             let asked: Vec<Asked> = blocked
                 .par_chunks_mut(self.words)
                 .enumerate()
-                .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, occluders, &parts, waiting, bits))
+                .map_init(Vec::new, |waiting, (at, bits)| {
+                    shooter.shadow_rays(first + at, occluders, &parts, waiting, bits)
+                })
                 .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|asked| &asked.rays).copied().collect();
             let mut answers = caster.occluded(&rays)?.into_iter();
@@ -165,8 +167,10 @@ impl TracedRays {
         let total = self.blocked.par_iter().map(|bits| u64::from(bits.count_ones())).sum();
         self.counts.blocked = total;
         let all = self.rule.len() as u32;
-        let blocked = self.blocked.chunks(self.words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
-        self.counts.dark = (0..).zip(blocked).filter(|&(_, blocked)| blocked == all).map(|(vertex, _)| vertex).collect();
+        let blocked =
+            self.blocked.chunks(self.words).map(|bits| bits.iter().map(|word| word.count_ones()).sum::<u32>());
+        self.counts.dark =
+            (0..).zip(blocked).filter(|&(_, blocked)| blocked == all).map(|(vertex, _)| vertex).collect();
         Ok(())
     }
 
@@ -177,8 +181,10 @@ impl TracedRays {
             false => self.counts.dark.clone(),
         };
         for block in wanted.chunks(BLOCK) {
-            let asked: Vec<(Vec<u32>, Vec<Ray>)> =
-                block.par_iter().map(|&vertex| shooter.rays(vertex as usize, self.blocked_directions(vertex as usize))).collect();
+            let asked: Vec<(Vec<u32>, Vec<Ray>)> = block
+                .par_iter()
+                .map(|&vertex| shooter.rays(vertex as usize, self.blocked_directions(vertex as usize)))
+                .collect();
             let rays: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
             let mut answers = caster.cast(&rays)?.into_iter();
             let answered: Vec<Vec<Option<Hit>>> =

@@ -212,7 +212,10 @@ impl Occluders {
             if node.count == 0 {
                 waiting.extend([node.next, index + 1]);
             } else {
-                self.triangles[node.next as usize..(node.next + node.count) as usize].iter().copied().for_each(&mut visit);
+                self.triangles[node.next as usize..(node.next + node.count) as usize]
+                    .iter()
+                    .copied()
+                    .for_each(&mut visit);
             }
         }
     }
@@ -227,8 +230,7 @@ impl Occluders {
         let radius = [a, b, c].map(|corner| corner.distance(middle)).into_iter().fold(0.0, f64::max);
         let distance = middle.length();
         let sine = radius / distance;
-        let (highest, near) =
-            if sine < NEAR { (top / (distance - radius), false) } else { (f64::INFINITY, true) };
+        let (highest, near) = if sine < NEAR { (top / (distance - radius), false) } else { (f64::INFINITY, true) };
         let region = if near {
             Some(Region { rings: [0, RINGS - 1], columns: u64::MAX })
         } else {
@@ -278,7 +280,13 @@ fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
         return;
     }
     nodes.push(BoxNode { middle, half, next: 0, count: 0 });
-    let axis = if half.x >= half.y && half.x >= half.z { 0 } else if half.y >= half.z { 1 } else { 2 };
+    let axis = if half.x >= half.y && half.x >= half.z {
+        0
+    } else if half.y >= half.z {
+        1
+    } else {
+        2
+    };
     let sum = |corners: &[DVec3; 3]| corners[0][axis] + corners[1][axis] + corners[2][axis];
     triangles.select_nth_unstable_by(count / 2, |one, other| sum(one).total_cmp(&sum(other)));
     let (lower, upper) = triangles.split_at_mut(count / 2);

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crossbar::elementary::on_circle;
 use crossbar::geom::Mesh;
 use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, function_index, harmonics};
@@ -38,9 +39,9 @@ fn a_long_wall_shadows_as_the_formula_says() {
 /// A disk that looks down, as a fan.
 fn disk(soup: &mut Soup, height: f64, radius: f64) {
     let corners = 2000;
-    let at = |corner: usize| {
-        let angle = 2.0 * PI * corner as f64 / corners as f64;
-        DVec3::new(radius * angle.cos(), radius * angle.sin(), height).as_vec3().into()
+    let at = |corner: i32| {
+        let [x, y] = on_circle(f64::from(corner) / f64::from(corners));
+        DVec3::new(radius * x, radius * y, height).as_vec3().into()
     };
     for corner in 0..corners {
         soup.0.extend([[0.0, 0.0, height as f32], at(corner + 1), at(corner)]);

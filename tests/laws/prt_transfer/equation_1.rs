@@ -159,7 +159,8 @@ fn the_double_integral_is_the_projection_of_the_reference() {
     let rays = trace(&mesh, &vertices, 14);
     let (light, views) = (mixed(25), DirectionRule::hemisphere(20));
     let exit = ExitBasis::of_order(3);
-    let response = Response::glossy(&WARD, &exit, false, Incident::Directions, rays.rule(), &views).expect("a response");
+    let response =
+        Response::glossy(&WARD, &exit, false, Incident::Directions, rays.rule(), &views).expect("a response");
     let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("M_p");
     let reference = Reference { vertices: &vertices, brdfs: &[WARD], rule: rays.rule(), light: &light };
     for vertex in (0..vertices.len()).step_by(3) {

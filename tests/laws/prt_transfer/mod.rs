@@ -3,6 +3,7 @@
 mod bad_input;
 mod bounces;
 mod brdf;
+mod chance;
 mod closed_forms;
 mod equation_1;
 mod models;
@@ -23,7 +24,8 @@ struct Soup(Vec<[f32; 3]>);
 impl Soup {
     /// A parallelogram that looks along `across` x `along`.
     fn quad(&mut self, corner: DVec3, across: DVec3, along: DVec3) {
-        for place in [corner, corner + across, corner + across + along, corner, corner + across + along, corner + along] {
+        for place in [corner, corner + across, corner + across + along, corner, corner + across + along, corner + along]
+        {
             self.0.push(place.as_vec3().into());
         }
     }

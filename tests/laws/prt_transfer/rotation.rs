@@ -48,15 +48,15 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
         let view = DVec3::new(0.48, 0.36, 0.8);
         let mut differ = 0;
         for vertex in 0..before.vertex_count() {
-            let of = |direction: &usize| {
-                rays.is_blocked(vertex, *direction) != turned_rays.is_blocked(vertex, *direction)
-            };
+            let of =
+                |direction: &usize| rays.is_blocked(vertex, *direction) != turned_rays.is_blocked(vertex, *direction);
             // Corners in single precision: a ray that just misses an edge may hit it.
             let flipped: Vec<usize> = (0..rays.rule().len()).filter(of).collect();
             differ += flipped.len();
             // What a ray carries: its weight, the lobe towards the view, and the light, both below 20.
             let share: f64 = flipped.iter().map(|&direction| 400.0 * rays.rule().weights()[direction]).sum();
-            let [found, expected] = [after.radiance(vertex, view, &turned_light), before.radiance(vertex, view, &light)];
+            let [found, expected] =
+                [after.radiance(vertex, view, &turned_light), before.radiance(vertex, view, &light)];
             close(found, expected, 2e-5 + share, "radiance");
         }
         let all = rays.rule().len() * before.vertex_count();
