@@ -3,7 +3,7 @@
 //! - [`Vertices`]: unique positions, normals and tangents, with a [`LocalFrame`] each;
 //! - [`TracedRays`]: which directions are blocked, and by what;
 //! - [`Response`]: how a material answers light from each direction;
-//! - [`Transfer`]: the matrix of each vertex.
+//! - [`Transfer`]: the matrix of each vertex, with bounces and [light that scatters below](Transfer::scattered).
 
 mod error;
 mod frame;
@@ -11,6 +11,7 @@ mod gather;
 mod origins;
 mod rays;
 mod response;
+mod scattering;
 mod skyline;
 mod vertices;
 mod whole;
@@ -19,5 +20,6 @@ pub use error::TransferError;
 pub use frame::LocalFrame;
 pub use rays::{TracedRays, TransferCounts};
 pub use response::{Incident, Response};
+pub use scattering::ScatteringOptions;
 pub use vertices::{Tangents, Vertices};
 pub use whole::{Bounces, Transfer};

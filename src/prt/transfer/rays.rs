@@ -334,7 +334,7 @@ mod tests {
         let corner = |triangle: u64, corner: u64| {
             [0, 1, 2].map(|k| {
                 let place = random.unit(triangle, 0, k) + size * (random.unit(triangle, 1 + corner, k) - 0.5);
-                (if triangle % 3 == 0 { (8.0 * place).round() / 8.0 } else { place }) as f32
+                (if triangle.is_multiple_of(3) { (8.0 * place).round() / 8.0 } else { place }) as f32
             })
         };
         let positions: Vec<[f32; 3]> = (0..40).flat_map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect();

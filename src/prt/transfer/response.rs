@@ -48,6 +48,14 @@ impl Response {
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
     }
 
+    /// The irradiance that passes into a medium below the surface: cosine times the transmittance at that cosine. One
+    /// row, which is no radiance: it is made for [`Transfer::scattered`](super::Transfer::scattered), and does not
+    /// bounce.
+    pub fn entering(transmittance: impl Fn(f64) -> f64, rule: &DirectionRule) -> Self {
+        let columns = rule.directions().iter().map(|s| transmittance(s.z) * s.z).collect();
+        Self { basis: ExitBasis::Radiance, directions: rule.len(), columns }
+    }
+
     /// Glossy, in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or one of its relatives. `exit_inverse` says
     /// whether A_r^-1 is applied; without, rows are the zero-hemisphere projection of exit radiance. `views` is the rule
     /// that B is integrated with ([`BRDF_DEGREE`](crate::prt::brdf::BRDF_DEGREE)).

@@ -106,7 +106,7 @@ impl Region {
         }
         let rings = [ring(low - MARGIN), ring(high + MARGIN)];
         let ratio = sine / across;
-        if !(ratio < 1.0) {
+        if ratio >= 1.0 || ratio.is_nan() {
             return Some(Self { rings, columns: u64::MAX });
         }
         // The angle of this sine is at most ratio + (pi/2 - 1) ratio^3.
@@ -244,7 +244,7 @@ impl Occluders {
         // Rays from here meet the triangle only if they run towards its plane.
         let across = (b - a).cross(c - a);
         let length = across.length();
-        if !(length > 0.0) {
+        if length == 0.0 {
             return;
         }
         let plane = if across.dot(a) > 0.0 { -across } else { across } / length;

@@ -140,6 +140,11 @@ impl Transfer {
         self.values
     }
 
+    /// The same basis and size with other numbers.
+    pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
+        Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
+    }
+
     /// The radiance that a vertex sends in a local direction under light with these coefficients: y(v) M_p l.
     ///
     /// # Panics

@@ -8,6 +8,7 @@ mod closed_forms;
 mod equation_1;
 mod models;
 mod rotation;
+mod scattering;
 
 use std::f64::consts::PI;
 
@@ -92,4 +93,33 @@ fn mixed(count: usize) -> Vec<f64> {
 
 fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected} to {tolerance:e}");
+}
+
+/// A unit ball of 8 n^2 triangles.
+fn ball(parts: u32) -> Mesh {
+    let mut soup = Soup::default();
+    for octant in 0..8_u32 {
+        let sign = |bit: u32| if octant >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let signs = DVec3::new(sign(0), sign(1), sign(2));
+        let inwards = signs.element_product() < 0.0;
+        let at = |i: u32, j: u32| {
+            let on = DVec3::new(f64::from(i), f64::from(j), f64::from(parts - i - j)) * signs;
+            on.normalize().as_vec3().to_array()
+        };
+        let mut push = |mut corners: [[f32; 3]; 3]| {
+            if inwards {
+                corners.swap(1, 2);
+            }
+            soup.0.extend(corners);
+        };
+        for i in 0..parts {
+            for j in 0..parts - i {
+                push([at(i, j), at(i + 1, j), at(i, j + 1)]);
+                if i + j + 2 <= parts {
+                    push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                }
+            }
+        }
+    }
+    soup.mesh().welded()
 }
