@@ -166,8 +166,8 @@ pub(crate) fn integrals(
     Ok(sums)
 }
 
-/// For each light direction s the integrals over views of the projector's functions times B(v, s) s_z: exit radiance per
-/// unit of radiance that arrives from s within a steradian. The inner integral of section 3.1's formula.
+/// For each light direction s the integrals over views of the projector's functions times B(v, s) s_z: exit radiance
+/// per unit of radiance that arrives from s within a steradian. The inner integral of section 3.1's formula.
 pub(crate) fn exit_per_direction(
     brdf: &Brdf,
     exit: &Projector<'_>,

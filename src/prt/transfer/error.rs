@@ -16,7 +16,8 @@ pub enum TransferError {
     NoTriangles,
     /// Neither the file nor the triangles around a vertex give a normal.
     #[error(
-        "vertex {vertex} (counted from 0) has no normal: none is given, and its triangles have no area or cancel out; remove them or give a normal"
+        "vertex {vertex} (counted from 0) has no normal: none is given, and its triangles have no area or cancel out; \
+         remove them or give a normal"
     )]
     NoNormal { vertex: usize },
     /// Tangents were to come from texture coordinates.
@@ -36,7 +37,10 @@ pub enum TransferError {
     Differ { what: &'static str, found: [usize; 2] },
     /// Exit bases of different functions.
     #[error(
-        "expected one exit basis for all materials, or one that holds the other's functions, found bases of {} and {} functions", found[0], found[1]
+        "expected one exit basis for all materials, or one that holds the other's functions, found bases of {} and {} \
+         functions",
+        found[0],
+        found[1]
     )]
     ExitBases { found: [usize; 2] },
     /// A figure out of range.

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::frame::LocalFrame;
-use super::rays::{FrontHit, TracedRays};
+use super::rays::TracedRays;
 use super::response::Response;
+use super::shooter::FrontHit;
 use super::vertices::Vertices;
 use crate::geom::vector::unit;
 use crate::prt::brdf::ExitBasis;

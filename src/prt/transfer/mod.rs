@@ -12,6 +12,7 @@ mod origins;
 mod rays;
 mod response;
 mod scattering;
+mod shooter;
 mod skyline;
 mod vertices;
 mod whole;

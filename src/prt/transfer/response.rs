@@ -57,8 +57,8 @@ impl Response {
     }
 
     /// Glossy, in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or one of its relatives. `exit_inverse` says
-    /// whether A_r^-1 is applied; without, rows are the zero-hemisphere projection of exit radiance. `views` is the rule
-    /// that B is integrated with ([`BRDF_DEGREE`](crate::prt::brdf::BRDF_DEGREE)).
+    /// whether A_r^-1 is applied; without, rows are the zero-hemisphere projection of exit radiance. `views` is the
+    /// rule that B is integrated with ([`BRDF_DEGREE`](crate::prt::brdf::BRDF_DEGREE)).
     ///
     /// # Errors
     /// [`TransferError::Brdf`] for figures out of range.

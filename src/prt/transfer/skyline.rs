@@ -1,10 +1,10 @@
 //! Which directions a vertex certainly sees the sky in, so that no ray need be traced there.
 //!
-//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts, rings narrow at the horizon. A hierarchy of boxes over
-//! the triangles marks the parts that a triangle may reach into: by the sphere around it, by its height over the
-//! vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the front. What is not
-//! marked is free in exact arithmetic; the margins are far larger than what rounding does to the origin and direction
-//! of a ray.
+//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts, rings narrow at the horizon. A hierarchy of
+//! boxes over the triangles marks the parts that a triangle may reach into: by the sphere around it, by its height over
+//! the vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the front. What is
+//! not marked is free in exact arithmetic; the margins are far larger than what rounding does to the origin and
+//! direction of a ray.
 
 use glam::DVec3;
 

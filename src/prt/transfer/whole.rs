@@ -64,7 +64,8 @@ impl Transfer {
             Bounces::Count(count) => (count, 0.0),
             Bounces::Tolerance { share, most } => (most, share * share * whole),
         };
-        let (mut total, mut last, mut added) = (direct.clone(), direct, Vec::new());
+        let mut last = if most > 0 { direct.clone() } else { Vec::new() };
+        let (mut total, mut added) = (direct, Vec::new());
         for _ in 0..most {
             last = gather.bounce(&last, responses[0].basis());
             total.par_iter_mut().zip(&last).for_each(|(total, more)| *total += more);
