@@ -40,8 +40,8 @@ pub enum EnvironmentError {
 }
 
 impl HarmonicLight {
-    /// Of a picture of the whole sphere: the coefficients of the radiance that is constant over each pixel. Its layout is
-    /// that of its shape. Pixels that show no direction are not read.
+    /// Of a picture of the whole sphere: the coefficients of the radiance that is constant over each pixel. Its layout
+    /// is that of its shape. Pixels that show no direction are not read.
     ///
     /// # Errors
     /// [`EnvironmentError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.

@@ -63,8 +63,8 @@ fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVe
     starts
 }
 
-/// Newton's method in the tangent plane, by differences; along the gradient where the surface is no peak. A step that does
-/// not climb is halved.
+/// Newton's method in the tangent plane, by differences; along the gradient where the surface is no peak. A step that
+/// does not climb is halved.
 fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f64, DVec3) {
     let (mut value, mut at) = (sign * evaluate(coefficients, start), start);
     for _ in 0..MAX_STEPS {

@@ -25,10 +25,10 @@ pub enum HemisphereError {
 
 /// The Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
 ///
-/// Functions of different m are orthogonal there too, so A falls into blocks; within a block, products of functions whose
-/// bands differ by an even number integrate to half of their integral over the sphere, 1/2 or 0. Each block is M^T M,
-/// where M holds the functions at the points of a rule that is exact for their products; inverse and spectrum come from
-/// the singular values of M, so only the square root of A's condition is lost to rounding.
+/// Functions of different m are orthogonal there too, so A falls into blocks; within a block, products of functions
+/// whose bands differ by an even number integrate to half of their integral over the sphere, 1/2 or 0. Each block is
+/// M^T M, where M holds the functions at the points of a rule that is exact for their products; inverse and spectrum
+/// come from the singular values of M, so only the square root of A's condition is lost to rounding.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
     order: usize,
@@ -129,8 +129,8 @@ impl Hemisphere {
 
     /// The coefficients A^-1 b nearest to a function f, of which b are the integrals of f y_k over the hemisphere.
     ///
-    /// In the basis of A's eigenvectors, so that rounding grows along those alone that hardly change the function on the
-    /// hemisphere: its values there lose the root of the condition.
+    /// In the basis of A's eigenvectors, so that rounding grows along those alone that hardly change the function on
+    /// the hemisphere: its values there lose the root of the condition.
     ///
     /// # Panics
     /// If there is not one integral per function.
@@ -159,8 +159,8 @@ impl Hemisphere {
     }
 }
 
-/// Per Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z), where the
-/// azimuth's factor of m >= 0 is 1.
+/// Per Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z), where
+/// the azimuth's factor of m >= 0 is 1.
 fn radial(order: usize) -> Vec<(f64, Vec<f64>)> {
     let points = quadrature::gauss_legendre(order).into_iter();
     let values = points.map(|(z, weight)| {

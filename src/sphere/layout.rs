@@ -23,7 +23,8 @@ pub enum EnvironmentLayout {
     #[strum(to_string = "angular probe")]
     AngularProbe,
     /// Six squares, 4 x 3 or 3 x 4: a cube unfolded, seen from inside. Around the middle lie right, left, up and down;
-    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest counts for nothing.
+    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest counts for
+    /// nothing.
     #[strum(to_string = "cube cross")]
     CubeCross,
 }
@@ -148,14 +149,15 @@ fn probe_direction(x: f64, y: f64) -> (DVec3, f64) {
 
 /// The solid angle of a pixel within the unit circle of an angular probe.
 ///
-/// It is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disc, counter-clockwise. Along a straight
-/// edge that is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth everywhere; along the rim it is 2 dphi.
+/// It is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disk, counter-clockwise. Along a straight
+/// edge that is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth everywhere, and 2 dphi along the
+/// rim.
 fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) -> f64 {
     let density = |r: f64| {
         let (sin, _) = sin_cos(PI / 2.0 * r);
         if r > 1e-8 { 2.0 * (sin / r) * (sin / r) } else { PI * PI / 2.0 }
     };
-    // Edges counter-clockwise, each cut to the disc.
+    // Edges counter-clockwise, each cut to the disk.
     let edges = [
         cut(bottom, left, right).map(|[a, b]| [[a, bottom], [b, bottom]]),
         cut(right, bottom, top).map(|[a, b]| [[right, a], [right, b]]),
@@ -170,7 +172,7 @@ fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) 
         let along = rule.iter().map(|&(t, weight)| weight * density(hypot(x0 + t * (x1 - x0), y0 + t * (y1 - y0))));
         sum += around * along.sum::<f64>();
         let [x2, y2] = within[(at + 1) % within.len()][0];
-        // To where the next edge begins along the rim; no way at all to a corner within the disc.
+        // To where the next edge begins along the rim; no way at all to a corner within the disk.
         sum += 2.0 * atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2);
     }
     sum.max(0.0)

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::extremes::Extremes;
 use super::harmonics::{MAX_ORDER, function_count, harmonics, order_of};
 use super::rotation::HarmonicRotation;
-use super::window::Window;
+use super::window::BandWindow;
 use crate::elementary::sin_cos;
 
 /// A light that cannot be made.
@@ -81,7 +81,8 @@ impl HarmonicLight {
     /// elsewhere. In closed form.
     ///
     /// # Errors
-    /// [`LightError`] if the direction has no length, the radius is not above 0 and up to pi, or a channel is not finite.
+    /// [`LightError`] if the direction has no length, the radius is not above 0 and up to pi, or a channel is not
+    /// finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -155,7 +156,7 @@ impl HarmonicLight {
     /// # Panics
     /// If the width is not positive.
     #[must_use]
-    pub fn windowed(mut self, window: Window, width: f64) -> Self {
+    pub fn windowed(mut self, window: BandWindow, width: f64) -> Self {
         self.channels.iter_mut().for_each(|channel| window.apply(width, channel));
         self
     }
@@ -178,8 +179,8 @@ pub(super) fn unit(direction: DVec3) -> Result<DVec3, LightError> {
 
 /// The integrals of P_0 to P_(n-1) from cos(radius) to 1.
 ///
-/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): no difference of near values, however small the
-/// disk.
+/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): no difference of near values, however small
+/// the disk.
 fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
     let (sin, x) = sin_cos(radius);
     let (half, _) = sin_cos(radius / 2.0);

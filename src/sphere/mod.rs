@@ -1,14 +1,14 @@
 //! Functions on the sphere, in f64.
 //!
-//! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`]; [`Window`]
-//!   and [`Extremes`] against ringing and to see it;
+//! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`];
+//!   [`BandWindow`] and [`Extremes`] against ringing and to see it;
 //! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
 //! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
 //! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;
 //! - [`HarmonicLight`], [`ClearSky`]: distant light, from pictures and by code.
 //!
-//! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x times
-//! sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
+//! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
+//! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
 
 mod cube;
 mod environment;
@@ -36,8 +36,8 @@ pub use hemisphere::{Hemisphere, HemisphereError};
 pub use layout::EnvironmentLayout;
 pub use light::{HarmonicLight, LightError};
 pub use parabolic::ParabolicMap;
-pub use projection::{HemisphereProjection, ProjectionError};
+pub use projection::{HemisphereProjection, ProjectionErrors};
 pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
-pub use window::Window;
+pub use window::BandWindow;

@@ -18,14 +18,14 @@ pub enum HemisphereProjection {
     OddReflection,
     /// f(x, y, -z) = f(x, y, z): 2b where l + m is even, else 0.
     EvenReflection,
-    /// z f is reflected as in [`Self::OddReflection`], which leaves no step at the horizon, and its projection divided by
-    /// z: functions of order n - 1 with even l + m.
+    /// z f is reflected as in [`Self::OddReflection`], which leaves no step at the horizon, and its projection divided
+    /// by z: functions of order n - 1 with even l + m.
     ScaledOddReflection,
 }
 
 /// Squared error over the hemisphere, relative to a squared norm of 1 over the whole sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProjectionError {
+pub struct ProjectionErrors {
     /// Of the worst function of the order: the largest eigenvalue of Q.
     pub worst: f64,
     /// On average over all functions of the order: the mean eigenvalue of Q.
@@ -66,7 +66,8 @@ impl HemisphereProjection {
         b
     }
 
-    /// The errors of projections onto `order` of all functions that are combinations of the harmonics of `signal_order`.
+    /// The errors of projections onto `order` of all functions that are combinations of the harmonics of
+    /// `signal_order`.
     ///
     /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I).
     ///
@@ -75,7 +76,7 @@ impl HemisphereProjection {
     ///
     /// # Panics
     /// If an order is not 1 to 10.
-    pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionError, FactorError> {
+    pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionErrors, FactorError> {
         let rule = DirectionRule::hemisphere(signal_order + order - 1);
         let larger = signal_order.max(order);
         let [rows, columns] = [function_count(larger), function_count(signal_order)];
@@ -94,12 +95,12 @@ impl HemisphereProjection {
         let weighted = differences.product(Hemisphere::new(larger).gram()).expect(small);
         let q = weighted.product(&differences.transposed()).expect(small);
         let eigen = SymmetricEigen::new(&q)?;
-        Ok(ProjectionError { worst: eigen.values[0], average: q.diagonal().iter().sum::<f64>() / columns as f64 })
+        Ok(ProjectionErrors { worst: eigen.values[0], average: q.diagonal().iter().sum::<f64>() / columns as f64 })
     }
 }
 
-/// Coefficients of g / z, where g is the part of odd l + m of the function with these coefficients: it is 0 at z = 0, so
-/// the quotient is a polynomial again, one degree lower.
+/// Coefficients of g / z, where g is the part of odd l + m of the function with these coefficients: it is 0 at z = 0,
+/// so the quotient is a polynomial again, one degree lower.
 fn divided_by_z(order: usize, g: &[f64]) -> Vec<f64> {
     let mut quotient = vec![0.0; g.len()];
     for index in (0..g.len()).rev().filter(|&index| HemisphereProjection::ScaledOddReflection.uses(order, index)) {

@@ -13,8 +13,8 @@ pub const MAX_DEGREE: usize = 1023;
 /// Directions and weights over the sphere, or over the hemisphere z >= 0, which integrate polynomials in x, y, z of a
 /// degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
 ///
-/// Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions for degree d, rings
-/// from the least z up. Every second ring is turned by half a step.
+/// Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions for degree d,
+/// rings from the least z up. Every second ring is turned by half a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionRule {
     directions: Vec<DVec3>,

@@ -1,7 +1,7 @@
 //! Singular values by rotations of columns (one-sided Jacobi; Hestenes 1958).
 //!
-//! Of the small matrices of the hemisphere it finds the least singular value to all digits that the condition leaves, and
-//! singular vectors orthogonal to rounding; `linalg::Svd`, by bidiagonalisation, leaves residuals of 1e-11 there.
+//! Of the small matrices of the hemisphere it finds the least singular value to all digits that the condition leaves,
+//! and singular vectors orthogonal to rounding; `linalg::Svd`, by bidiagonalisation, leaves residuals of 1e-11 there.
 
 use crate::linalg::dot;
 

@@ -16,8 +16,8 @@ const SKY_DEGREE: usize = 255;
 
 /// The CIE standard clear sky (Kittler 1967; CIE publication 22, 1973) over z >= 0, a sun, and a ground below.
 ///
-/// Relative to the zenith the sky is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), gamma the angle from the sun,
-/// f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
+/// Relative to the zenith the sky is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), gamma the angle from the
+/// sun, f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearSky {
     /// Towards the sun, of any length, z > 0.

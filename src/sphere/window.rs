@@ -8,14 +8,14 @@ use crate::elementary::sin_cos;
 /// How the factor of a band falls with l.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
-pub enum Window {
+pub enum BandWindow {
     /// (1 + cos(pi l / w)) / 2.
     Hann,
     /// sin(pi l / w) / (pi l / w).
     Lanczos,
 }
 
-impl Window {
+impl BandWindow {
     /// The factor of band l: 1 for l = 0, 0 from the width w on. A window as wide as the order is usual; a narrower one
     /// rings less and blurs more.
     ///
@@ -52,12 +52,12 @@ mod tests {
 
     #[test]
     fn windows_fall_from_1_to_0() {
-        for window in [Window::Hann, Window::Lanczos] {
+        for window in [BandWindow::Hann, BandWindow::Lanczos] {
             let factors: Vec<f64> = (0..7).map(|l| window.factor(l, 5.0)).collect();
             assert!(factors[0] == 1.0 && factors[5..] == [0.0, 0.0], "{factors:?}");
             assert!(factors[..6].is_sorted_by(|a, b| a > b), "{factors:?}");
         }
-        assert!((Window::Hann.factor(2, 4.0) - 0.5).abs() < 1e-16);
-        assert!((Window::Lanczos.factor(2, 4.0) - 2.0 / PI).abs() < 1e-16);
+        assert!((BandWindow::Hann.factor(2, 4.0) - 0.5).abs() < 1e-16);
+        assert!((BandWindow::Lanczos.factor(2, 4.0) - 2.0 / PI).abs() < 1e-16);
     }
 }

@@ -2,7 +2,7 @@
 
 use crossbar::linalg::SymmetricEigen;
 use crossbar::sphere::{
-    Hemisphere, HemisphereProjection as Projection, ProjectionError, function_count, function_index,
+    Hemisphere, HemisphereProjection as Projection, ProjectionErrors, function_count, function_index,
 };
 
 /// Whether a number, written in scientific notation with as many digits as were printed, is what was printed.
@@ -15,7 +15,7 @@ fn near(found: f64, expected: f64, relative: f64) -> bool {
     (found - expected).abs() <= relative * expected.abs()
 }
 
-fn error(projection: Projection, order: usize) -> ProjectionError {
+fn error(projection: Projection, order: usize) -> ProjectionErrors {
     projection.error(5, order).expect("eigenvalues")
 }
 
@@ -63,7 +63,7 @@ fn linear_in_z_is_the_cheapest_function_to_drop() {
 
 #[test]
 fn zero_hemisphere_is_wrong_by_35_and_20_percent() {
-    let ProjectionError { worst, average } = error(Projection::ZeroHemisphere, 5);
+    let ProjectionErrors { worst, average } = error(Projection::ZeroHemisphere, 5);
     assert_eq!((format!("{worst:.3}"), format!("{average:.4}")), ("0.125".to_owned(), "0.0402".to_owned()));
     assert!(near(worst, 1.0 / 8.0, 1e-13) && near(average, 2635.0 / 65_536.0, 1e-13), "{worst} {average}");
     assert_eq!([worst, average].map(|error| format!("{:.0}", 100.0 * error.sqrt())), ["35", "20"], "percent RMS");
@@ -86,7 +86,7 @@ fn reflections_have_the_printed_errors() {
         (Projection::EvenReflection, 5, ["0.193", "0.030"], 0.1929539503, 4983.0 / 163_840.0),
     ];
     for (projection, order, printed, exact_worst, exact_average) in cases {
-        let ProjectionError { worst, average } = error(projection, order);
+        let ProjectionErrors { worst, average } = error(projection, order);
         let digits = printed.map(|printed| printed.len() - 2);
         let [worst_digits, average_digits] = digits;
         let found = [format!("{worst:.worst_digits$}"), format!("{average:.average_digits$}")];

@@ -6,6 +6,7 @@ use crossbar::elementary::sin_cos;
 use crossbar::picture::{Picture, PictureError, exr, hdr, png};
 use crossbar::sphere::{CubeMap, EnvironmentError, EnvironmentLayout, Extremes, HarmonicLight, evaluate};
 use glam::DVec3;
+use proptest::prelude::*;
 
 use super::distance;
 
@@ -170,6 +171,29 @@ fn pixels_that_show_nothing_are_not_read() {
         let mut pixels = clean.linear().expect("color");
         pixels[hidden] = [f32::NAN; 3];
         assert_eq!(light(4, &Picture::rgb(width, height, &pixels)), light(4, &clean), "{layout}");
+    }
+}
+
+proptest! {
+    /// Any picture is a light of finite coefficients, or an error that says why not.
+    #[test]
+    fn any_picture_is_a_light_or_refused(
+        width in 0..17u32,
+        height in 0..17u32,
+        samples in prop::collection::vec(prop_oneof![8 => -10.0..1e4f32, 1 => any::<f32>()], 16),
+        order in 1..11usize,
+    ) {
+        let pixel = |at: u32| [0, 1, 2].map(|channel| samples[(at as usize * 5 + channel) % samples.len()]);
+        let picture = Picture::rgb(width, height, &(0..width * height).map(pixel).collect::<Vec<_>>());
+        match HarmonicLight::from_picture(order, &picture) {
+            Ok(light) => prop_assert!(light.channels().iter().flatten().all(|c| c.is_finite())),
+            Err(EnvironmentError::Shape { .. }) => prop_assert_eq!(EnvironmentLayout::of(width, height), None),
+            Err(EnvironmentError::NotFinite { column, row, found, .. }) => {
+                prop_assert!(pixel(row as u32 * width + column as u32).iter().any(|c| c.to_bits() == found.to_bits()));
+                prop_assert!(!found.is_finite());
+            }
+            Err(other) => prop_assert!(false, "{}", other),
+        }
     }
 }
 
