@@ -60,7 +60,22 @@ const CROSSBAR: Law = (
             "subsurface",
             &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"],
         ),
-        ("prt", &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"]),
+        (
+            "prt",
+            &[
+                "card",
+                "tracer",
+                "elementary",
+                "quadrature",
+                "picture",
+                "sphere",
+                "geom",
+                "atlas",
+                "scene",
+                "linalg",
+                "io",
+            ],
+        ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
         (

@@ -25,6 +25,7 @@ mod pages;
 mod pictures;
 mod ply;
 mod prt_cpca;
+mod prt_transfer;
 mod radiosity;
 mod ranges;
 mod ray_tree;

@@ -6,12 +6,14 @@
 //!
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene;
-//! - [`stand_ins`]: meshes with the face counts of models that a paper shows.
+//! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
+//! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates.
 
 mod chance;
 mod cornell_box;
 mod desktop;
 mod furniture;
+mod geodesic;
 mod office;
 mod office_floor;
 mod palette;
@@ -20,6 +22,7 @@ pub mod rooms;
 mod solids;
 pub mod stand_ins;
 mod teapot_room;
+pub mod transfer_models;
 mod white_box;
 
 use super::Scene;

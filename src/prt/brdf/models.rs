@@ -1,0 +1,206 @@
+//! BRDF models, one channel, in local coordinates: z is the normal, x the tangent.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::fresnel::{dielectric, fifth_power, schlick};
+use crate::elementary::{exp, pow};
+use crate::scene::Surface;
+
+/// How a surface reflects. All reflectances lie in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Brdf {
+    /// The same radiance in all directions.
+    Lambert {
+        /// Reflectance.
+        albedo: f64,
+    },
+    /// A diffuse part and a lobe around the mirror direction, as MTL files describe and [`Surface::Glossy`] defines it.
+    Phong {
+        /// Reflectance of the diffuse part.
+        albedo: f64,
+        /// Reflectance of the lobe at normal incidence.
+        specular: f64,
+        /// At least 0.
+        exponent: f64,
+    },
+    /// Cook and Torrance 1982, isotropic: Beckmann's distribution, shadowing by V-grooves, Fresnel's formula.
+    CookTorrance {
+        /// Reflectance of the diffuse part.
+        albedo: f64,
+        /// Factor of the microfacets.
+        specular: f64,
+        /// Root mean square slope of the microfacets, above 0.
+        roughness: f64,
+        /// Fresnel reflectance of the microfacets at normal incidence, below 1.
+        normal_incidence: f64,
+    },
+    /// Ward 1992, anisotropic, with Schlick's Fresnel term.
+    Ward {
+        /// Reflectance of the diffuse part.
+        albedo: f64,
+        /// Fresnel reflectance of the microfacets at normal incidence.
+        specular: f64,
+        /// Standard deviations of the slope along the tangent and across it, above 0.
+        roughness: [f64; 2],
+    },
+    /// Ashikhmin and Shirley 2000, anisotropic, with Schlick's Fresnel term and a diffuse part that makes room for it.
+    AshikhminShirley {
+        /// Reflectance of the diffuse part.
+        albedo: f64,
+        /// Fresnel reflectance of the microfacets at normal incidence.
+        specular: f64,
+        /// Phong-like exponents along the tangent and across it, at least 0.
+        exponents: [f64; 2],
+    },
+}
+
+/// Why figures make no BRDF.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum BrdfError {
+    /// A figure out of its range.
+    #[error("expected {expected} for the {what}, found {found}")]
+    OutOfRange { what: &'static str, expected: &'static str, found: f64 },
+    /// A surface that sends light one way only.
+    #[error("expected a diffuse or glossy material, found {found}: its reflectance is no function of two directions")]
+    OneWay { found: &'static str },
+}
+
+impl Brdf {
+    /// One channel (0 red, 1 green, 2 blue) of a material's surface.
+    ///
+    /// # Errors
+    /// [`BrdfError`] for mirrors and glass, and for figures out of range.
+    ///
+    /// # Panics
+    /// If there is no such channel.
+    pub fn of_surface(surface: &Surface, channel: usize) -> Result<Self, BrdfError> {
+        let brdf = match *surface {
+            Surface::Diffuse { albedo } => Self::Lambert { albedo: f64::from(albedo[channel]) },
+            Surface::Glossy { albedo, specular, exponent } => Self::Phong {
+                albedo: f64::from(albedo[channel]),
+                specular: f64::from(specular[channel]),
+                exponent: f64::from(exponent),
+            },
+            Surface::Mirror { .. } => return Err(BrdfError::OneWay { found: "a mirror" }),
+            Surface::Glass { .. } => return Err(BrdfError::OneWay { found: "glass" }),
+        };
+        brdf.check().map(|()| brdf)
+    }
+
+    /// Whether all figures are in range.
+    ///
+    /// # Errors
+    /// [`BrdfError::OutOfRange`] names the first that is not.
+    pub fn check(&self) -> Result<(), BrdfError> {
+        let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
+        let width =
+            |what, found: f64| check(what, "a finite number of at least 0.001", found, (0.001..1e9).contains(&found));
+        let exponent =
+            |found: f64| check("exponent", "a finite number of at least 0", found, (0.0..1e9).contains(&found));
+        match *self {
+            Self::Lambert { albedo } => share("albedo", albedo),
+            Self::Phong { albedo, specular, exponent: e } => share("albedo", albedo)
+                .and_then(|()| share("specular reflectance", specular))
+                .and_then(|()| exponent(e)),
+            Self::CookTorrance { albedo, specular, roughness, normal_incidence: f0 } => {
+                share("albedo", albedo)?;
+                share("specular factor", specular)?;
+                width("roughness", roughness)?;
+                check("reflectance at normal incidence", "a number from 0 to below 1", f0, (0.0..1.0).contains(&f0))
+            }
+            Self::Ward { albedo, specular, roughness: [x, y] } => {
+                share("albedo", albedo)?;
+                share("specular reflectance", specular)?;
+                width("roughness", x).and_then(|()| width("roughness", y))
+            }
+            Self::AshikhminShirley { albedo, specular, exponents: [u, v] } => {
+                share("albedo", albedo)?;
+                share("specular reflectance", specular)?;
+                exponent(u).and_then(|()| exponent(v))
+            }
+        }
+    }
+
+    /// Whether a rotation around the normal changes nothing.
+    pub fn is_isotropic(&self) -> bool {
+        match self {
+            Self::Lambert { .. } | Self::Phong { .. } | Self::CookTorrance { .. } => true,
+            Self::Ward { roughness: [x, y], .. } | Self::AshikhminShirley { exponents: [x, y], .. } => x == y,
+        }
+    }
+
+    /// B(v, s), per steradian: radiance towards the view per irradiance from s. Both directions have length 1; 0 if one
+    /// does not lie above the horizon.
+    pub fn value(&self, view: DVec3, s: DVec3) -> f64 {
+        if !(view.z > 0.0 && s.z > 0.0) {
+            return 0.0;
+        }
+        // Opposite directions have no half vector.
+        let half = (view + s) / (view + s).length();
+        match *self {
+            Self::Lambert { albedo } => albedo / PI,
+            Self::Phong { albedo, specular, exponent } => {
+                let from_axis = (view.z * s.z - view.x * s.x - view.y * s.y).max(0.0);
+                albedo / PI + specular * (exponent + 2.0) / (2.0 * PI) * pow(from_axis, exponent)
+            }
+            Self::CookTorrance { albedo, specular, roughness, normal_incidence } => {
+                let cosine = half.dot(view).min(1.0);
+                let square = half.z * half.z;
+                let slope = (1.0 - square) / (square * roughness * roughness);
+                let facets = exp(-slope) / (PI * roughness * roughness * square * square);
+                let groove = (2.0 * half.z * view.z.min(s.z) / cosine).min(1.0);
+                let facets = facets * groove * dielectric(normal_incidence, cosine) / (4.0 * view.z * s.z);
+                albedo / PI + specular * facets
+            }
+            Self::Ward { albedo, specular, roughness: [across, along] } => {
+                let [x, y] = [half.x / across, half.y / along];
+                let facets =
+                    exp(-(x * x + y * y) / (half.z * half.z)) / (4.0 * PI * across * along * (view.z * s.z).sqrt());
+                albedo / PI + schlick(specular, half.dot(view).min(1.0)) * facets
+            }
+            Self::AshikhminShirley { albedo, specular, exponents: [u, v] } => {
+                let cosine = half.dot(view).min(1.0);
+                let sine = half.x * half.x + half.y * half.y;
+                let mean = if sine > 0.0 { (u * half.x * half.x + v * half.y * half.y) / sine } else { 0.0 };
+                let facets =
+                    ((u + 1.0) * (v + 1.0)).sqrt() / (8.0 * PI) * pow(half.z, mean) / (cosine * view.z.max(s.z));
+                let room = |z: f64| 1.0 - fifth_power(1.0 - z / 2.0);
+                let diffuse = 28.0 / (23.0 * PI) * albedo * (1.0 - specular) * room(view.z) * room(s.z);
+                diffuse + schlick(specular, cosine) * facets
+            }
+        }
+    }
+}
+
+fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), BrdfError> {
+    if fits { Ok(()) } else { Err(BrdfError::OutOfRange { what, expected, found }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_figures_are_named() {
+        let message = |brdf: Brdf| brdf.check().expect_err("refused").to_string();
+        let found = message(Brdf::Lambert { albedo: 1.5 });
+        assert_eq!(found, "expected a number from 0 to 1 for the albedo, found 1.5");
+        let nan = Brdf::Phong { albedo: 0.5, specular: 0.5, exponent: f64::NAN };
+        assert_eq!(message(nan), "expected a finite number of at least 0 for the exponent, found NaN");
+        let ward = Brdf::Ward { albedo: 0.0, specular: 0.5, roughness: [0.1, 0.0] };
+        assert!(message(ward).contains("roughness"));
+        for (surface, found) in [
+            (Surface::Mirror { reflectance: [1.0; 3] }, "a mirror"),
+            (Surface::Glass { index: 1.5, transmittance: [1.0; 3] }, "glass"),
+        ] {
+            assert_eq!(Brdf::of_surface(&surface, 0), Err(BrdfError::OneWay { found }));
+        }
+        let glossy = Surface::Glossy { albedo: [0.1, 0.2, 0.3], specular: [0.4; 3], exponent: 9.0 };
+        assert!(matches!(Brdf::of_surface(&glossy, 1), Ok(Brdf::Phong { exponent: 9.0, .. })));
+    }
+}

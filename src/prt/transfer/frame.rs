@@ -1,0 +1,99 @@
+//! Local frames of surface points: tangent, bitangent, normal.
+
+use glam::{DMat3, DVec3};
+
+use crate::geom::vector::unit;
+
+/// Tangents whose part across the normal is shorter than this, relative to their length, have no direction.
+const LEAST_ACROSS: f64 = 1e-6;
+
+/// The local frame of a surface point: right-handed, z along the normal, x along the tangent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalFrame {
+    axes: [DVec3; 3],
+}
+
+impl LocalFrame {
+    /// The frame of a unit normal and a tangent, made orthogonal to it (Gram-Schmidt); `None` if the tangent runs along
+    /// the normal, or has no length.
+    pub fn new(normal: DVec3, tangent: DVec3) -> Option<Self> {
+        let tangent = unit(tangent)?;
+        let across = tangent - tangent.dot(normal) * normal;
+        if across.length() < LEAST_ACROSS {
+            return None;
+        }
+        // Twice is enough: what the first subtraction left along the normal is of the order of rounding.
+        let x = unit(across - across.dot(normal) * normal)?;
+        Some(Self { axes: [x, normal.cross(x), normal] })
+    }
+
+    /// A frame of a unit normal with any tangent: across the coordinate axis that is least along the normal.
+    pub fn of_normal(normal: DVec3) -> Self {
+        let along = normal.abs();
+        let axis = if along.x <= along.y && along.x <= along.z {
+            DVec3::X
+        } else if along.y <= along.z {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        Self::new(normal, axis).unwrap_or(Self { axes: DVec3::AXES })
+    }
+
+    /// The normal.
+    pub fn normal(&self) -> DVec3 {
+        self.axes[2]
+    }
+
+    /// The tangent.
+    pub fn tangent(&self) -> DVec3 {
+        self.axes[0]
+    }
+
+    /// A global direction in local coordinates.
+    pub fn to_local(&self, direction: DVec3) -> DVec3 {
+        let [x, y, z] = self.axes;
+        DVec3::new(x.dot(direction), y.dot(direction), z.dot(direction))
+    }
+
+    /// A local direction in global coordinates.
+    pub fn to_global(&self, direction: DVec3) -> DVec3 {
+        let [x, y, z] = self.axes;
+        direction.x * x + direction.y * y + direction.z * z
+    }
+
+    /// The rotation from local to global coordinates.
+    pub fn matrix(&self) -> DMat3 {
+        let [x, y, z] = self.axes;
+        DMat3::from_cols(x, y, z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn frames_are_orthonormal_and_right_handed() {
+        let normals = [DVec3::X, -DVec3::Z, DVec3::new(0.36, 0.48, 0.8), DVec3::new(1e-9, 1.0, 0.0)];
+        for normal in normals {
+            let given = LocalFrame::new(normal, DVec3::new(0.3, -0.5, 7.0)).into_iter();
+            for frame in given.chain([LocalFrame::of_normal(normal)]) {
+                let m = frame.matrix();
+                assert!((m.transpose() * m).abs_diff_eq(DMat3::IDENTITY, 1e-15));
+                assert_abs_diff_eq!(m.determinant(), 1.0, epsilon = 1e-15);
+                let v = DVec3::new(0.1, 0.2, -0.3);
+                assert!(frame.to_local(frame.to_global(v)).abs_diff_eq(v, 1e-15));
+                assert_eq!(frame.to_local(v).z, normal.dot(v));
+            }
+        }
+    }
+
+    #[test]
+    fn a_tangent_along_the_normal_makes_no_frame() {
+        for tangent in [DVec3::ZERO, DVec3::Z, DVec3::new(1e-9, 0.0, -3.0), DVec3::NAN] {
+            assert_eq!(LocalFrame::new(DVec3::Z, tangent), None);
+        }
+    }
+}

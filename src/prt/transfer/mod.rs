@@ -1,0 +1,26 @@
+//! Radiance transfer at the vertices of a mesh.
+//!
+//! - [`Vertices`]: unique positions, normals and tangents, with a [`LocalFrame`] each;
+//! - [`TracedRays`]: which directions are blocked, and by what;
+//! - [`Response`]: how a material answers light from each direction;
+//! - [`Transfer`]: the matrix of each vertex, with bounces and [light that scatters below](Transfer::scattered).
+
+mod error;
+mod frame;
+mod gather;
+mod origins;
+mod rays;
+mod response;
+mod scattering;
+mod shooter;
+mod skyline;
+mod vertices;
+mod whole;
+
+pub use error::TransferError;
+pub use frame::LocalFrame;
+pub use rays::{TracedRays, TransferCounts};
+pub use response::{Incident, Response};
+pub use scattering::ScatteringOptions;
+pub use vertices::{Tangents, Vertices};
+pub use whole::{Bounces, Transfer};

@@ -1,0 +1,129 @@
+//! The rays of a vertex, and what their hits are.
+
+use glam::DVec3;
+
+use super::origins::RayOrigin;
+use super::skyline::{Occluders, SkyPart};
+use super::vertices::Vertices;
+use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::{Hit, Ray};
+use crate::sphere::DirectionRule;
+
+/// The largest length of a ray, 2^126: single precision ends at 2^128.
+const MAX_REACH: f64 = (1_u128 << 126) as f64;
+
+/// Where a blocked ray ends: on the front of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FrontHit {
+    /// The ray's direction, by its place in the rule.
+    pub(crate) direction: u32,
+    pub(crate) triangle: u32,
+    /// Barycentric weights of the second and third corner.
+    weights: [f32; 2],
+}
+
+impl FrontHit {
+    /// Barycentric weights of the corners; they sum to 1.
+    pub(crate) fn weights(&self) -> [f64; 3] {
+        let [b, c] = self.weights.map(f64::from);
+        [1.0 - b - c, b, c]
+    }
+}
+
+/// The rays of a vertex that must be traced.
+pub(super) struct Asked {
+    pub(super) directions: Vec<u32>,
+    pub(super) rays: Vec<Ray>,
+    pub(super) below_horizon: u64,
+}
+
+/// What makes the rays.
+pub(super) struct Shooter<'a> {
+    pub(super) vertices: &'a Vertices,
+    rule: DirectionRule,
+    origins: &'a [RayOrigin],
+    /// Length of rays: a power of two, so that it changes no bit of their directions; t = 1 lies outside of the mesh.
+    reach: f64,
+}
+
+impl<'a> Shooter<'a> {
+    pub(super) fn new(vertices: &'a Vertices, rule: &DirectionRule, origins: &'a [RayOrigin]) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &position in vertices.positions() {
+            (low, high) = (low.min(wide(position)), high.max(wide(position)));
+        }
+        let diagonal = (high - low).length();
+        let mut reach = 1.0;
+        while reach < 2.0 * diagonal && reach < MAX_REACH {
+            reach *= 2.0;
+        }
+        Self { vertices, rule: rule.clone(), origins, reach }
+    }
+
+    fn ray(&self, vertex: usize, direction: DVec3) -> Option<Ray> {
+        Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
+    }
+
+    /// The rays that must be traced; `bits` receives those that are blocked without.
+    pub(super) fn shadow_rays(
+        &self,
+        vertex: usize,
+        occluders: &Occluders,
+        parts: &[SkyPart],
+        waiting: &mut Vec<u32>,
+        bits: &mut [u64],
+    ) -> Asked {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let skyline = occluders.skyline(wide(origin.at), frame, waiting);
+        let mut asked = Asked { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
+        for (at, (&local, &part)) in self.rule.directions().iter().zip(parts).enumerate() {
+            let direction = frame.to_global(local);
+            if origin.is_below_horizon(direction) {
+                asked.below_horizon += 1;
+                bits[at / 64] |= 1 << (at % 64);
+            } else if skyline.is_marked(part)
+                && let Some(ray) = self.ray(vertex, direction)
+            {
+                asked.directions.push(at as u32);
+                asked.rays.push(ray);
+            }
+        }
+        asked
+    }
+
+    /// The rays of a vertex in some directions, without those below the horizon.
+    pub(super) fn rays(&self, vertex: usize, directions: impl Iterator<Item = usize>) -> (Vec<u32>, Vec<Ray>) {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let ray = |at: usize| {
+            let direction = frame.to_global(self.rule.directions()[at]);
+            let ray = self.ray(vertex, direction).filter(|_| !origin.is_below_horizon(direction))?;
+            Some((at as u32, ray))
+        };
+        directions.filter_map(ray).unzip()
+    }
+
+    /// The fronts that rays hit, and the number of backs.
+    pub(super) fn front_hits(&self, directions: &[u32], rays: &[Ray], hits: &[Option<Hit>]) -> (Vec<FrontHit>, u64) {
+        let (mut front, mut behind) = (Vec::new(), 0);
+        for ((&direction, ray), hit) in directions.iter().zip(rays).zip(hits) {
+            let Some(hit) = hit else { continue };
+            let [a, b, c] = self.vertices.corners(hit.triangle);
+            let Some(normal) = unit((b - a).cross(c - a)) else { continue };
+            if normal.dot(wide(ray.direction())) >= 0.0 {
+                behind += 1;
+                continue;
+            }
+            let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
+            front.push(FrontHit { direction, triangle: hit.triangle, weights: barycentric([a, b, c], normal, at) });
+        }
+        (front, behind)
+    }
+}
+
+/// The weights of the second and third corner at a point on or near a triangle, brought into the triangle.
+fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, at: DVec3) -> [f32; 2] {
+    let part = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
+    let parts = [part(b, c), part(c, a), part(a, b)];
+    let sum: f64 = parts.iter().sum();
+    if sum > 0.0 { [(parts[1] / sum) as f32, (parts[2] / sum) as f32] } else { [0.0; 2] }
+}

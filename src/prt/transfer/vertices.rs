@@ -1,0 +1,240 @@
+//! The vertices that transfer is computed at: unique positions, normals and tangents.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::error::TransferError;
+use super::frame::LocalFrame;
+use crate::geom::Mesh;
+use crate::geom::vector::{unit, wide};
+
+/// Where tangents come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Tangents {
+    /// Any direction across the normal: for isotropic materials.
+    #[default]
+    Any,
+    /// The direction in which the first texture coordinate grows, averaged over the triangles around a vertex, weighted
+    /// by area. Where the texture is mirrored, vertices are kept apart.
+    Texture,
+    /// The part of an axis that lies across the normal.
+    Along(DVec3),
+}
+
+/// A mesh whose vertices are told apart by position, normal, tangent and material, with the local frame of each. Its
+/// triangles are those of the mesh that it was made from, in the same order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vertices {
+    positions: Vec<[f32; 3]>,
+    frames: Vec<LocalFrame>,
+    materials: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    /// Vertices of the source that no triangle uses: they are left out.
+    pub unused: usize,
+    /// Vertices whose tangent had no direction across the normal, and got any.
+    pub replaced_tangents: Vec<u32>,
+}
+
+/// What tells vertices apart: bits of position and normal, the handedness of the texture, and the material.
+type VertexKey = ([u32; 3], [u64; 3], bool, u32);
+
+impl Vertices {
+    /// The vertices of a mesh of one material. Normals are those of the mesh; where it has none, the mean over the
+    /// triangles at the same position, weighted by area.
+    ///
+    /// # Errors
+    /// [`TransferError`] for a mesh without triangles, a vertex without a normal, tangents that cannot be had.
+    pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, TransferError> {
+        Self::with_materials(mesh, &vec![0; mesh.len()], tangents)
+    }
+
+    /// The same with a material per triangle.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and if there is not one material per triangle.
+    pub fn with_materials(mesh: &Mesh, materials: &[u32], tangents: Tangents) -> Result<Self, TransferError> {
+        if mesh.is_empty() {
+            return Err(TransferError::NoTriangles);
+        }
+        if materials.len() != mesh.len() {
+            return Err(TransferError::Materials { triangles: mesh.len(), found: materials.len() });
+        }
+        let normals = normals(mesh)?;
+        let texture = match tangents {
+            Tangents::Texture => Some(mesh.texcoords().ok_or(TransferError::NoTextureCoordinates)?),
+            Tangents::Any => None,
+            Tangents::Along(axis) if unit(axis).is_some() => None,
+            Tangents::Along(axis) => return Err(TransferError::Axis { found: axis.into() }),
+        };
+        let mut known: BTreeMap<VertexKey, u32> = BTreeMap::new();
+        let (mut of, mut sums, mut materials_of) = (Vec::new(), Vec::new(), Vec::new());
+        let mut triangles = Vec::with_capacity(mesh.len());
+        for (indices, &material) in mesh.triangles().iter().zip(materials) {
+            let (along, mirrored) = texture.map_or((DVec3::ZERO, false), |texture| gradient(mesh, *indices, texture));
+            triangles.push(indices.map(|source| {
+                let normal = normals[source as usize];
+                let key = (place(mesh, source), normal.to_array().map(f64::to_bits), mirrored, material);
+                let vertex = *known.entry(key).or_insert_with(|| {
+                    of.push(source);
+                    sums.push(DVec3::ZERO);
+                    materials_of.push(material);
+                    of.len() as u32 - 1
+                });
+                sums[vertex as usize] += along;
+                vertex
+            }));
+        }
+        let mut replaced_tangents = Vec::new();
+        let frames = of.iter().zip(&sums).zip(0..).map(|((&source, &sum), vertex)| {
+            let normal = normals[source as usize];
+            let wanted = match tangents {
+                Tangents::Any => return LocalFrame::of_normal(normal),
+                Tangents::Texture => sum,
+                Tangents::Along(axis) => axis,
+            };
+            LocalFrame::new(normal, wanted).unwrap_or_else(|| {
+                replaced_tangents.push(vertex);
+                LocalFrame::of_normal(normal)
+            })
+        });
+        let frames = frames.collect();
+        let positions = of.iter().map(|&source| mesh.positions()[source as usize]).collect();
+        let unused = mesh.positions().len() - used(mesh).into_iter().filter(|&used| used).count();
+        Ok(Self { positions, frames, materials: materials_of, triangles, unused, replaced_tangents })
+    }
+
+    /// The number of vertices.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Always false: there is at least one triangle.
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Position of each vertex.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// Local frame of each vertex.
+    pub fn frames(&self) -> &[LocalFrame] {
+        &self.frames
+    }
+
+    /// Material of each vertex.
+    pub fn materials(&self) -> &[u32] {
+        &self.materials
+    }
+
+    /// The vertices of each triangle, in the order of the source mesh.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners of a triangle.
+    pub(crate) fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|vertex| wide(self.positions[vertex as usize]))
+    }
+}
+
+/// Position as bits; -0 and +0 are one place.
+fn place(mesh: &Mesh, vertex: u32) -> [u32; 3] {
+    mesh.positions()[vertex as usize].map(|value| (value + 0.0).to_bits())
+}
+
+fn used(mesh: &Mesh) -> Vec<bool> {
+    let mut used = vec![false; mesh.positions().len()];
+    mesh.triangles().iter().flatten().for_each(|&vertex| used[vertex as usize] = true);
+    used
+}
+
+/// A unit normal per vertex of the source; zero for those that no triangle uses.
+fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
+    let mut sums: BTreeMap<[u32; 3], DVec3> = BTreeMap::new();
+    for (indices, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
+        let [a, b, c] = corners.map(wide);
+        let normal = (b - a).cross(c - a);
+        indices.iter().for_each(|&vertex| *sums.entry(place(mesh, vertex)).or_default() += normal);
+    }
+    // -0 and +0 are one normal.
+    let given = |vertex: usize| mesh.normals().and_then(|normals| unit(wide(normals[vertex]) + DVec3::ZERO));
+    let around = |vertex: usize| sums.get(&place(mesh, vertex as u32)).copied().and_then(|sum| unit(sum + DVec3::ZERO));
+    let normal = |(vertex, used)| match used {
+        false => Ok(DVec3::ZERO),
+        true => given(vertex).or_else(|| around(vertex)).ok_or(TransferError::NoNormal { vertex }),
+    };
+    used(mesh).into_iter().enumerate().map(normal).collect()
+}
+
+/// The direction in which the first texture coordinate grows on a triangle, as long as the triangle's area; and whether
+/// the texture is mirrored. Zero where the coordinates have no area.
+fn gradient(mesh: &Mesh, indices: [u32; 3], texture: &[[f32; 2]]) -> (DVec3, bool) {
+    let [a, b, c] = indices.map(|vertex| wide(mesh.positions()[vertex as usize]));
+    let [ta, tb, tc] = indices.map(|vertex| texture[vertex as usize].map(f64::from));
+    let [u1, v1] = [tb[0] - ta[0], tb[1] - ta[1]];
+    let [u2, v2] = [tc[0] - ta[0], tc[1] - ta[1]];
+    let area = u1 * v2 - u2 * v1;
+    let along = unit(v2 * (b - a) - v1 * (c - a)).filter(|_| area != 0.0);
+    let length = (b - a).cross(c - a).length() / 2.0;
+    (along.map_or(DVec3::ZERO, |along| along * (length * area.signum())), area < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Mesh {
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [5.0; 3]];
+        Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
+    }
+
+    #[test]
+    fn vertices_are_shared_by_position_and_normal() {
+        let vertices = Vertices::new(&square(), Tangents::Any).expect("vertices");
+        assert_eq!((vertices.len(), vertices.unused), (4, 1));
+        assert!(vertices.frames().iter().all(|frame| frame.normal() == DVec3::Z));
+        let doubled = Mesh::new(
+            vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.0; 3], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            vec![[0, 1, 2], [3, 4, 5]],
+        );
+        let doubled = Vertices::new(&doubled.expect("a mesh"), Tangents::Any).expect("vertices");
+        assert_eq!(doubled.triangles(), vertices.triangles());
+        let two = Vertices::with_materials(&square(), &[0, 1], Tangents::Any).expect("vertices");
+        assert_eq!((two.len(), two.materials()), (6, &[0, 0, 0, 1, 1, 1][..]));
+    }
+
+    #[test]
+    fn tangents_follow_the_texture_and_its_mirror() {
+        let texture = |turned: f32| vec![[0.0, 0.0], [0.0, turned], [1.0, turned], [1.0, 0.0], [0.0, 0.0]];
+        let tangent = |texture| {
+            let mesh = square().with_texcoords(texture).expect("coordinates");
+            let vertices = Vertices::new(&mesh, Tangents::Texture).expect("vertices");
+            (vertices.frames()[0].tangent(), vertices.replaced_tangents.len())
+        };
+        assert_eq!(tangent(texture(1.0)), (DVec3::Y, 0));
+        assert_eq!(tangent(texture(-1.0)), (DVec3::Y, 0));
+        assert_eq!(tangent(vec![[0.5; 2]; 5]).1, 4, "without area");
+        let mut mirrored = texture(1.0);
+        mirrored[3] = [0.0, 2.0];
+        let mesh = square().with_texcoords(mirrored).expect("coordinates");
+        assert_eq!(Vertices::new(&mesh, Tangents::Texture).expect("vertices").len(), 6);
+    }
+
+    #[test]
+    fn bad_input_is_named() {
+        let message = |mesh: &Mesh, tangents| Vertices::new(mesh, tangents).expect_err("refused").to_string();
+        assert!(message(&square(), Tangents::Texture).contains("no texture coordinates"));
+        assert!(message(&square(), Tangents::Along(DVec3::ZERO)).contains("an axis of finite length"));
+        assert!(message(&Mesh::default(), Tangents::Any).contains("at least one triangle"));
+        let flat = Mesh::new(vec![[0.0; 3], [1.0; 3], [2.0; 3]], vec![[0, 1, 2]]).expect("a mesh");
+        assert!(message(&flat, Tangents::Any).starts_with("vertex 0 (counted from 0) has no normal"));
+        let given = flat.with_normals(vec![[0.0, 0.0, 2.0]; 3]).expect("normals");
+        assert_eq!(Vertices::new(&given, Tangents::Any).expect("vertices").len(), 3);
+        assert!(Vertices::with_materials(&given, &[], Tangents::Any).is_err());
+        let along = Vertices::new(&given, Tangents::Along(DVec3::Z)).expect("vertices");
+        assert_eq!(along.replaced_tangents, [0, 1, 2]);
+    }
+}

@@ -1,0 +1,181 @@
+//! Models with as many vertices as those of the paper on compressed transfer (its Table 1), which are not at hand: one
+//! smooth, one bumpy, a head, and two polygons of which one shadows the other.
+//!
+//! All have normals and texture coordinates. The first three are closed; where the texture's two ends meet, the mesh
+//! repeats vertices, which have the same position, normal and tangent and count once.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+
+use super::geodesic::{Lobe, Sphere, bumped};
+use crate::elementary::{acos, atan2, sin_cos};
+use crate::geom::Mesh;
+use crate::geom::vector::{narrow, unit};
+
+/// Parts of an icosahedron's edge: 10 parts^2 + 2 vertices before the largest faces are divided.
+const SMOOTH_PARTS: u32 = 69;
+const BUMPY_PARTS: u32 = 70;
+const HEAD_PARTS: u32 = 70;
+
+/// A model that can be asked for by name.
+struct TransferModel {
+    name: &'static str,
+    what: &'static str,
+    build: fn() -> Mesh,
+}
+
+const MODELS: &[TransferModel] = &[
+    TransferModel { name: "transfer-bumpy", what: "49,990 vertices, closed, with many bumps", build: bumpy },
+    TransferModel { name: "transfer-head", what: "50,060 vertices, closed, a head", build: head },
+    TransferModel { name: "transfer-polygons", what: "58,624 vertices, a ground and a blocker", build: polygons },
+    TransferModel { name: "transfer-smooth", what: "48,688 vertices, closed, smooth with a neck", build: smooth },
+];
+
+/// The names of all models, in alphabetical order.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    MODELS.iter().map(|entry| entry.name)
+}
+
+/// What a model is, in one line.
+pub fn description(name: &str) -> Option<&'static str> {
+    MODELS.iter().find(|entry| entry.name == name).map(|entry| entry.what)
+}
+
+/// The model of a name.
+pub fn build(name: &str) -> Option<Mesh> {
+    MODELS.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
+}
+
+/// A smooth closed body with a neck that shadows its breast: 48,688 vertices, about 2.5 units high. Stands for the
+/// paper's bird.
+pub fn smooth() -> Mesh {
+    let lobes = [
+        Lobe { toward: [0.55, 0.0, 0.85], height: 0.9, narrow: 14.0 },
+        Lobe { toward: [1.0, 0.0, 0.75], height: 0.35, narrow: 60.0 },
+        Lobe { toward: [-1.0, 0.0, 0.1], height: 0.6, narrow: 9.0 },
+        Lobe { toward: [0.1, 0.9, 0.2], height: 0.2, narrow: 6.0 },
+        Lobe { toward: [0.1, -0.9, 0.2], height: 0.2, narrow: 6.0 },
+        Lobe { toward: [0.95, 0.0, 0.3], height: -0.15, narrow: 20.0 },
+    ];
+    let shape = |toward: DVec3| {
+        let at = toward * bumped(toward, &lobes) * DVec3::new(1.0, 0.7, 0.85);
+        // Bent, so that the head overhangs the breast.
+        at + DVec3::X * (0.12 * at.z * at.z)
+    };
+    closed(SMOOTH_PARTS, 1_076, &shape)
+}
+
+/// A closed body covered with bumps that shadow each other: 49,990 vertices, about 2.5 units high. Stands for the
+/// paper's Buddha.
+pub fn bumpy() -> Mesh {
+    let lobes = [
+        Lobe { toward: [0.0, 0.0, 1.0], height: 0.45, narrow: 9.0 },
+        Lobe { toward: [0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
+        Lobe { toward: [-0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
+        Lobe { toward: [0.0, -1.0, -0.2], height: 0.3, narrow: 5.0 },
+        Lobe { toward: [0.0, 0.3, -1.0], height: 0.35, narrow: 4.0 },
+    ];
+    let shape = |toward: DVec3| {
+        let wave = |at: f64, turns: f64| sin_cos(TAU * turns * at).0;
+        let bumps = wave(toward.x, 3.5) * wave(toward.y, 3.5) + wave(toward.y, 5.0) * wave(toward.z, 5.0);
+        toward * (bumped(toward, &lobes) + 0.06 * bumps) * DVec3::new(0.9, 0.75, 1.1)
+    };
+    closed(BUMPY_PARTS, 988, &shape)
+}
+
+/// A closed head with nose, eye sockets, ears and neck: 50,060 vertices, about 2.5 units high.
+pub fn head() -> Mesh {
+    let lobes = [
+        Lobe { toward: [0.0, -1.0, -0.1], height: 0.25, narrow: 45.0 },
+        Lobe { toward: [0.35, -1.0, 0.2], height: -0.1, narrow: 40.0 },
+        Lobe { toward: [-0.35, -1.0, 0.2], height: -0.1, narrow: 40.0 },
+        Lobe { toward: [0.0, -1.0, 0.45], height: 0.06, narrow: 30.0 },
+        Lobe { toward: [0.0, -1.0, -0.5], height: -0.06, narrow: 60.0 },
+        Lobe { toward: [0.0, -0.9, -0.75], height: 0.12, narrow: 25.0 },
+        Lobe { toward: [1.0, 0.1, 0.0], height: 0.22, narrow: 60.0 },
+        Lobe { toward: [-1.0, 0.1, 0.0], height: 0.22, narrow: 60.0 },
+        Lobe { toward: [0.0, 0.35, -1.0], height: 0.4, narrow: 7.0 },
+    ];
+    let shape = |toward: DVec3| toward * bumped(toward, &lobes) * DVec3::new(0.78, 0.95, 1.05);
+    closed(HEAD_PARTS, 1_058, &shape)
+}
+
+/// A ground of 240 x 240 vertices, 4 units wide, and above it a blocker of 32 x 32, 1 unit wide: 58,624 vertices, both
+/// looking up (Figure 6).
+pub fn polygons() -> Mesh {
+    let (mut positions, mut texture, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for (counts, width, height) in [(240_u32, 4.0, 0.0), (32, 1.0, 0.5)] {
+        let first = positions.len() as u32;
+        for row in 0..counts {
+            for column in 0..counts {
+                let [u, v] = [column, row].map(|at| f64::from(at) / f64::from(counts - 1));
+                positions.push(narrow(DVec3::new(width * (u - 0.5), width * (v - 0.5), height)));
+                texture.push([u as f32, v as f32]);
+                if row + 1 < counts && column + 1 < counts {
+                    let a = first + row * counts + column;
+                    let [b, c, d] = [a + 1, a + counts + 1, a + counts];
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+            }
+        }
+    }
+    let normals = vec![[0.0, 0.0, 1.0]; positions.len()];
+    finished(positions, triangles, normals, texture)
+}
+
+/// A geodesic sphere, the faces that are largest in a shape divided, in that shape.
+fn closed(parts: u32, divided: usize, shape: &dyn Fn(DVec3) -> DVec3) -> Mesh {
+    let mut sphere = Sphere::new(parts);
+    sphere.divide_largest(divided, shape);
+    let places: Vec<[f32; 3]> = sphere.directions.iter().map(|&toward| narrow(shape(toward))).collect();
+    let plain = Mesh::new(places.clone(), sphere.faces.clone()).expect("shapes are finite");
+    let normals: Vec<[f32; 3]> = plain.vertex_normals().into_iter().map(narrow).collect();
+    let around: Vec<[f64; 2]> = sphere.directions.iter().map(|&toward| longitude_and_latitude(toward)).collect();
+    // Vertices by sphere vertex and texture coordinate.
+    let mut known = BTreeMap::new();
+    let (mut of, mut texture) = (Vec::new(), Vec::new());
+    let triangles = sphere.faces.iter().map(|face| {
+        let along = unrolled(face.map(|corner| around[corner as usize][0]));
+        [0, 1, 2].map(|corner| {
+            let (vertex, u) = (face[corner] as usize, along[corner] as f32);
+            *known.entry((vertex, u.to_bits())).or_insert_with(|| {
+                of.push(vertex);
+                texture.push([u, around[vertex][1] as f32]);
+                of.len() as u32 - 1
+            })
+        })
+    });
+    let triangles = triangles.collect();
+    let of = |values: &[[f32; 3]]| of.iter().map(|&vertex| values[vertex]).collect();
+    finished(of(&places), triangles, of(&normals), texture)
+}
+
+/// The longitudes of a face's corners, less than half a turn apart; of the face around a pole, which has none such, the
+/// first: its texture has no area.
+fn unrolled(turns: [f64; 3]) -> [f64; 3] {
+    let least = turns.map(|at| if at + 0.5 < turns[0] { at + 1.0 } else { at });
+    let behind = least.iter().any(|&at| at > turns[0] + 0.5);
+    let least = least.map(|at| if behind && at <= turns[0] + 0.5 { at + 1.0 } else { at });
+    let [low, high] = [least.into_iter().fold(9.0, f64::min), least.into_iter().fold(0.0, f64::max)];
+    if high - low < 0.5 { least } else { [turns[0]; 3] }
+}
+
+/// Texture coordinates of a direction, both in [0, 1]. The axis is tilted so that no vertex lies on it.
+fn longitude_and_latitude(toward: DVec3) -> [f64; 2] {
+    let axis = unit(DVec3::new(0.031, 0.047, 1.0)).unwrap_or(DVec3::Z);
+    let x = unit(DVec3::X - DVec3::X.dot(axis) * axis).unwrap_or(DVec3::X);
+    let turns = atan2(axis.cross(x).dot(toward), x.dot(toward)) / TAU;
+    [if turns < 0.0 { turns + 1.0 } else { turns }, 1.0 - acos(axis.dot(toward).clamp(-1.0, 1.0)) / PI]
+}
+
+fn finished(
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Vec<[f32; 3]>,
+    texture: Vec<[f32; 2]>,
+) -> Mesh {
+    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
+    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices")
+}

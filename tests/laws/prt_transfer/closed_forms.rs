@@ -1,0 +1,99 @@
+//! Occluders whose shadow is known.
+
+use std::f64::consts::PI;
+
+use crossbar::elementary::on_circle;
+use crossbar::geom::Mesh;
+use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, Vertices};
+use crossbar::sphere::{DirectionRule, function_index, harmonics};
+use glam::DVec3;
+
+use super::{Soup, caster, close, uniform};
+
+/// A triangle at the origin that looks up, too small to matter, before all else: its first corner is vertex 0.
+fn observer() -> Soup {
+    Soup(vec![[0.0; 3], [1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0]])
+}
+
+fn diffuse(mesh: &Mesh, degree: usize, order: usize) -> (Transfer, TracedRays) {
+    let vertices = Vertices::new(mesh, Tangents::Along(DVec3::X)).expect("vertices");
+    let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(degree), &mut caster(mesh), false).expect("rays");
+    let response = Response::diffuse(1.0, rays.rule()).expect("a response");
+    (Transfer::new(&vertices, &rays, &[response], order, Bounces::Count(0)).expect("t_p"), rays)
+}
+
+#[test]
+fn a_long_wall_shadows_as_the_formula_says() {
+    for k in [0.25, 1.0, 4.0] {
+        let mut soup = observer();
+        soup.quad(DVec3::new(-1e4, 1.0, -1.0), DVec3::X * 2e4, DVec3::Z * (1.0 + k));
+        let (transfer, rays) = diffuse(&soup.flat(), 511, 1);
+        let expected = f64::midpoint(1.0, 1.0 / (1.0 + k * k).sqrt());
+        // The wall's rim passes between directions: of each of 512 azimuths, at most one cosine-weighted step in z.
+        let found = transfer.radiance(0, DVec3::Z, &uniform(1));
+        close(found, expected, 2e-3, "irradiance over pi");
+        assert!(rays.counts.buried.is_empty() && rays.counts.unclear.is_empty());
+    }
+}
+
+/// A disk that looks down, as a fan.
+fn disk(soup: &mut Soup, height: f64, radius: f64) {
+    let corners = 2000;
+    let at = |corner: i32| {
+        let [x, y] = on_circle(f64::from(corner) / f64::from(corners));
+        DVec3::new(radius * x, radius * y, height).as_vec3().into()
+    };
+    for corner in 0..corners {
+        soup.0.extend([[0.0, 0.0, height as f32], at(corner + 1), at(corner)]);
+    }
+}
+
+#[test]
+fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
+    let (degree, order) = (63, 10);
+    // Between two rings of the rule, so that a shadow is a number of whole rings.
+    let rule = DirectionRule::hemisphere(degree);
+    for ring in [3, 12, 25] {
+        let [below, above] = [ring, ring + 1].map(|ring| rule.directions()[ring * (degree + 1)].z);
+        let cosine = f64::midpoint(below, above);
+        let mut soup = observer();
+        disk(&mut soup, 1.0, (1.0 - cosine * cosine).sqrt() / cosine);
+        let (transfer, rays) = diffuse(&soup.flat(), degree, order);
+        let blocked = (0..rule.len()).filter(|&direction| rays.is_blocked(0, direction)).count();
+        assert_eq!(blocked, (31 - ring) * (degree + 1));
+        // Free are z below the rim: the integral of y z / pi there, m = 0 alone, by a rule of its own.
+        let mut expected = [0.0; 100];
+        let mut y = [0.0; 100];
+        for (z, weight) in crossbar::quadrature::integral_points(0.0, cosine) {
+            harmonics(order, DVec3::new((1.0 - z * z).sqrt(), 0.0, z), &mut y);
+            for l in 0..order {
+                let index = function_index(l, 0);
+                expected[index] += weight * 2.0 * PI * y[index] * z / PI;
+            }
+        }
+        // A ring's weight stands for the stretch around it: the rim lies where one ends, to half a step.
+        let step = (above - below) * above * 1.1;
+        for (index, expected) in expected.into_iter().enumerate() {
+            let m_is_0 = index == function_index(index.isqrt(), 0);
+            close(f64::from(transfer.of(0)[index]), expected, if m_is_0 { step } else { 1e-6 }, "a coefficient");
+        }
+        // Exactly: the rings that are left.
+        let rings: f64 = (0..=ring).map(|ring| rule.weights()[ring * 64] * 64.0 * rule.directions()[ring * 64].z).sum();
+        close(transfer.radiance(0, DVec3::Z, &uniform(100)), rings / PI, 1e-6, "radiance");
+    }
+}
+
+#[test]
+fn at_the_foot_of_a_wall_half_of_the_sky_is_seen() {
+    // The floor ends in the middle of the wall's lower edge, and shares no vertex with it.
+    let mut soup = Soup::default();
+    soup.quad(DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y);
+    soup.quad(DVec3::new(-1e4, 0.0, 0.0), DVec3::X * 2e4, DVec3::Z * 1e4);
+    let mesh = soup.flat();
+    let foot = Vertices::new(&mesh, Tangents::Along(DVec3::X)).expect("vertices");
+    let foot = foot.positions().iter().position(|at| *at == [-1.0, 0.0, 0.0]).expect("a corner");
+    // 32 azimuths, half of them towards the wall.
+    let (transfer, rays) = diffuse(&mesh, 31, 3);
+    close(transfer.radiance(foot, DVec3::Z, &uniform(9)), 0.5, 1e-7, "half of the sky");
+    assert!(rays.counts.unclear.is_empty() && rays.counts.below_horizon == 0);
+}

@@ -1,0 +1,173 @@
+//! What follows exactly from equation 1, and what section 3.1's double integral has to do with it.
+
+use crossbar::geom::Mesh;
+use crossbar::linalg::Matrix;
+use crossbar::prt::brdf::{Brdf, ExitBasis, brdf_matrix};
+use crossbar::prt::reference::Reference;
+use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, TracedRays, Transfer, Vertices};
+use crossbar::sphere::{DirectionRule, HarmonicRotation, Hemisphere};
+use glam::DVec3;
+
+use super::{close, mixed, step, trace};
+
+const ORDER_5: Incident = Incident::Harmonics { order: 5, inverse: true };
+const WARD: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.4, 0.7] };
+
+fn vertices(mesh: &Mesh) -> Vertices {
+    Vertices::new(mesh, Tangents::Along(DVec3::new(0.3, 1.0, 0.2))).expect("vertices")
+}
+
+fn glossy(brdf: &Brdf, exit: &ExitBasis, incident: Incident, rule: &DirectionRule) -> Response {
+    Response::glossy(brdf, exit, true, incident, rule, &DirectionRule::hemisphere(40)).expect("a response")
+}
+
+#[test]
+fn lambert_is_the_diffuse_path() {
+    let mesh = step();
+    let (vertices, lambert) = (vertices(&mesh), Brdf::Lambert { albedo: 0.8 });
+    let rays = trace(&mesh, &vertices, 24);
+    assert!(rays.counts.blocked > 0);
+    for bounces in [0, 3] {
+        let diffuse = Response::diffuse(0.8, rays.rule()).expect("a response");
+        let diffuse = Transfer::new(&vertices, &rays, &[diffuse], 5, Bounces::Count(bounces)).expect("t_p");
+        for exit in [ExitBasis::of_order(5), ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("24")] {
+            let response = glossy(&lambert, &exit, ORDER_5, rays.rule());
+            let glossy = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(bounces)).expect("M_p");
+            assert_eq!([glossy.row_count(), glossy.column_count()], [exit.len(), 25]);
+            let y_0 = (1.0 / (4.0 * std::f64::consts::PI)).sqrt();
+            for vertex in 0..vertices.len() {
+                for (at, &value) in glossy.of(vertex).iter().enumerate() {
+                    let expected = if at < 25 { f64::from(diffuse.of(vertex)[at]) / y_0 } else { 0.0 };
+                    // Single precision after each bounce, of numbers up to 1.
+                    close(f64::from(value), expected, 4e-7, "an element of M_p");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn zero_hemisphere_projection_does_not_keep_lambert() {
+    // 20 % of energy is lost on average (section 3.2): here the constant function loses half of itself.
+    let exit = ExitBasis::of_order(5);
+    let (rule, views) = (DirectionRule::hemisphere(20), DirectionRule::hemisphere(40));
+    let incident = Incident::Harmonics { order: 5, inverse: false };
+    let zero = Response::glossy(&Brdf::Lambert { albedo: 1.0 }, &exit, false, incident, &rule, &views);
+    let [zero, least] = [zero.expect("B"), glossy(&Brdf::Lambert { albedo: 1.0 }, &exit, ORDER_5, &rule)]
+        .map(|response| response.unoccluded(5, &rule).expect("a matrix").row(0)[0]);
+    close(least, 1.0, 1e-10, "radiance 1 for radiance 1");
+    assert!(zero < 0.6, "{zero}");
+}
+
+/// A body that is nowhere hollow.
+fn convex() -> Mesh {
+    let mut soup = super::Soup::default();
+    soup.boxed(DVec3::new(-1.0, -2.0, -0.5), DVec3::new(2.0, 1.0, 0.5));
+    soup.flat()
+}
+
+#[test]
+fn unoccluded_transfer_is_the_brdf_turned() {
+    let mesh = convex();
+    let vertices = vertices(&mesh);
+    let rays = trace(&mesh, &vertices, 8);
+    assert_eq!((rays.counts.blocked, rays.rule().len()), (0, 45), "the least rule for order 5");
+    let views = DirectionRule::hemisphere(40);
+    for exit in [ExitBasis::of_order(5), ExitBasis::without_1_0(5).expect("24 functions")] {
+        let response = glossy(&WARD, &exit, ORDER_5, rays.rule());
+        let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("M_p");
+        let b = brdf_matrix(&WARD, &exit, 5, &views).expect("B");
+        let ExitBasis::Harmonics(hemisphere) = &exit else { unreachable!("harmonics") };
+        let expected = hemisphere.inverse().product(&b).expect("a product");
+        for (vertex, frame) in vertices.frames().iter().enumerate() {
+            let rotation = HarmonicRotation::new(5, &frame.matrix()).expect("a rotation");
+            let largest = expected.rows().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for (found, row) in transfer.of(vertex).chunks(25).zip(expected.rows()) {
+                let mut turned = vec![0.0; 25];
+                rotation.apply(row, &mut turned);
+                for (&found, expected) in found.iter().zip(turned) {
+                    // One rounding to single precision.
+                    close(f64::from(found), expected, 1e-7 * largest, "an element");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_chain_of_matrices_is_the_transfer() {
+    // M_p = (A_r^-1 B A_i^-1) (R_p T_p), with interreflections in T_p.
+    let mesh = step();
+    let vertices = vertices(&mesh);
+    let rays = trace(&mesh, &vertices, 16);
+    let exit = ExitBasis::of_order(4);
+    let response = glossy(&WARD, &exit, ORDER_5, rays.rule());
+    let once = Transfer::new(&vertices, &rays, std::slice::from_ref(&response), 6, Bounces::Count(0)).expect("M_p");
+    let twice = Transfer::new(&vertices, &rays, &[response], 6, Bounces::Count(1)).expect("M_p");
+    let ExitBasis::Harmonics(hemisphere) = &exit else { unreachable!("harmonics") };
+    let b = brdf_matrix(&WARD, &exit, 5, &DirectionRule::hemisphere(40)).expect("B");
+    let chain = hemisphere.inverse().product(&b).and_then(|b| b.product(Hemisphere::new(5).inverse()));
+    let chain = chain.expect("a product");
+    for (transfer, from) in [(&once, None), (&twice, Some(&once))] {
+        let inner = (&ExitBasis::of_order(5), false);
+        let incident = Transfer::incident(&vertices, &rays, inner, 6, from).expect("R_p T_p");
+        assert_eq!([incident.row_count(), incident.column_count()], [25, 36]);
+        for vertex in 0..vertices.len() {
+            let rows = incident.of(vertex).iter().map(|&value| f64::from(value)).collect();
+            let product = chain.product(&Matrix::new([25, 36], rows).expect("a matrix")).expect("M_p");
+            // Single precision of R_p T_p, before A_i^-1: of condition 151,695.
+            for (&found, expected) in transfer.of(vertex).iter().zip(product.rows().flatten()) {
+                close(f64::from(found), *expected, 2e-2, "an element");
+            }
+        }
+    }
+}
+
+/// Transfer without shadows' rounding: the same rays for all ways of computing it.
+fn matrices(vertices: &Vertices, rays: &TracedRays, incident: Incident) -> Transfer {
+    let response = glossy(&WARD, &ExitBasis::of_order(4), incident, rays.rule());
+    Transfer::new(vertices, rays, &[response], 5, Bounces::Count(0)).expect("M_p")
+}
+
+#[test]
+fn equation_1_tends_to_the_double_integral_as_the_inner_order_grows() {
+    let mesh = step();
+    let vertices = vertices(&mesh);
+    let rays = trace(&mesh, &vertices, 40);
+    let light = mixed(25);
+    let truth = matrices(&vertices, &rays, Incident::Directions);
+    let views = DirectionRule::hemisphere(10);
+    let error = |order| {
+        let transfer = matrices(&vertices, &rays, Incident::Harmonics { order, inverse: true });
+        let squares = (0..vertices.len()).map(|vertex| {
+            views.integral(|view| {
+                let difference = transfer.radiance(vertex, view, &light) - truth.radiance(vertex, view, &light);
+                difference * difference
+            })
+        });
+        squares.sum::<f64>().sqrt()
+    };
+    let errors = [3, 4, 5, 7].map(error);
+    assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
+    assert!(errors[3] < 0.2 * errors[0], "{errors:?}");
+}
+
+#[test]
+fn the_double_integral_is_the_projection_of_the_reference() {
+    let mesh = step();
+    let vertices = vertices(&mesh);
+    let rays = trace(&mesh, &vertices, 14);
+    let (light, views) = (mixed(25), DirectionRule::hemisphere(20));
+    let exit = ExitBasis::of_order(3);
+    let response =
+        Response::glossy(&WARD, &exit, false, Incident::Directions, rays.rule(), &views).expect("a response");
+    let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("M_p");
+    let reference = Reference { vertices: &vertices, brdfs: &[WARD], rule: rays.rule(), light: &light };
+    for vertex in (0..vertices.len()).step_by(3) {
+        let expected = views.project(3, |view| reference.exit_radiance(vertex, view, 0));
+        for (row, expected) in transfer.of(vertex).chunks(25).zip(expected) {
+            let found: f64 = row.iter().zip(&light).map(|(&m, l)| f64::from(m) * l).sum();
+            close(found, expected, 1e-5, "a coefficient of exit radiance");
+        }
+    }
+}

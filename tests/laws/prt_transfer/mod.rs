@@ -1,0 +1,125 @@
+//! System 4: radiance transfer at the vertices of a mesh.
+
+mod bad_input;
+mod bounces;
+mod brdf;
+mod chance;
+mod closed_forms;
+mod equation_1;
+mod models;
+mod rotation;
+mod scattering;
+
+use std::f64::consts::PI;
+
+use crossbar::geom::{Mesh, Sides};
+use crossbar::prt::transfer::{TracedRays, Vertices};
+use crossbar::sphere::DirectionRule;
+use crossbar::tracer::HostTracer;
+use glam::DVec3;
+
+/// Triangles of which each keeps its own vertices.
+#[derive(Default)]
+struct Soup(Vec<[f32; 3]>);
+
+impl Soup {
+    /// A parallelogram that looks along `across` x `along`.
+    fn quad(&mut self, corner: DVec3, across: DVec3, along: DVec3) {
+        for place in [corner, corner + across, corner + across + along, corner, corner + across + along, corner + along]
+        {
+            self.0.push(place.as_vec3().into());
+        }
+    }
+
+    /// A box between two corners that looks outwards, or with them exchanged inwards.
+    fn boxed(&mut self, low: DVec3, high: DVec3) {
+        let d = high - low;
+        for axis in 0..3 {
+            let mut pick = [0.0; 3];
+            pick[axis] = 1.0;
+            let (along, [u, v]) = (DVec3::from(pick), [(axis + 1) % 3, (axis + 2) % 3]);
+            let side = |k: usize| DVec3::AXES[k] * d[k];
+            self.quad(low, side(v), side(u));
+            self.quad(low + along * d, side(u), side(v));
+        }
+    }
+
+    fn mesh(self) -> Mesh {
+        let faces = (0..self.0.len() as u32 / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
+        Mesh::new(self.0, faces).expect("a mesh")
+    }
+
+    /// With the normals of its triangles.
+    fn flat(self) -> Mesh {
+        let normals = self.0.chunks(3).flat_map(|corners| {
+            let [a, b, c] = [0, 1, 2].map(|k| DVec3::from(corners[k].map(f64::from)));
+            [(b - a).cross(c - a).normalize().as_vec3().to_array(); 3]
+        });
+        let normals = normals.collect();
+        self.mesh().with_normals(normals).expect("normals")
+    }
+}
+
+/// A step: a floor and a wall, two squares each, and a block that overhangs.
+fn step() -> Mesh {
+    let mut soup = Soup::default();
+    for x in [0.0, 1.0] {
+        soup.quad(DVec3::new(x, 0.0, 0.0), DVec3::X, DVec3::Y);
+        soup.quad(DVec3::new(x, 1.0, 0.0), DVec3::X, DVec3::Z);
+    }
+    soup.boxed(DVec3::new(0.3, 0.2, 0.6), DVec3::new(1.1, 0.5, 0.8));
+    soup.flat()
+}
+
+fn caster(mesh: &Mesh) -> HostTracer {
+    HostTracer::new(mesh, Sides::Both)
+}
+
+fn trace(mesh: &Mesh, vertices: &Vertices, degree: usize) -> TracedRays {
+    TracedRays::trace(vertices, DirectionRule::hemisphere(degree), &mut caster(mesh), true).expect("traced")
+}
+
+/// The coefficients of light of radiance 1 from everywhere.
+fn uniform(count: usize) -> Vec<f64> {
+    let mut light = vec![0.0; count];
+    light[0] = (4.0 * PI).sqrt();
+    light
+}
+
+/// Some light of every function.
+fn mixed(count: usize) -> Vec<f64> {
+    (0..count).map(|index| if index == 0 { 3.0 } else { ((index * 37 % 23) as f64 - 11.0) / 15.0 }).collect()
+}
+
+fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected} to {tolerance:e}");
+}
+
+/// A unit ball of 8 n^2 triangles.
+fn ball(parts: u32) -> Mesh {
+    let mut soup = Soup::default();
+    for octant in 0..8_u32 {
+        let sign = |bit: u32| if octant >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let signs = DVec3::new(sign(0), sign(1), sign(2));
+        let inwards = signs.element_product() < 0.0;
+        let at = |i: u32, j: u32| {
+            let on = DVec3::new(f64::from(i), f64::from(j), f64::from(parts - i - j)) * signs;
+            on.normalize().as_vec3().to_array()
+        };
+        let mut push = |mut corners: [[f32; 3]; 3]| {
+            if inwards {
+                corners.swap(1, 2);
+            }
+            soup.0.extend(corners);
+        };
+        for i in 0..parts {
+            for j in 0..parts - i {
+                push([at(i, j), at(i + 1, j), at(i, j + 1)]);
+                if i + j + 2 <= parts {
+                    push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                }
+            }
+        }
+    }
+    soup.mesh().welded()
+}

@@ -1,0 +1,123 @@
+//! The subsurface term, with the dipole of system 3.
+
+use std::f64::consts::PI;
+
+use crossbar::geom::Mesh;
+use crossbar::prt::brdf::ExitBasis;
+use crossbar::prt::transfer::{Bounces, Response, ScatteringOptions, Tangents, TracedRays, Transfer, Vertices};
+use crossbar::sphere::DirectionRule;
+use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance, point_to_polygon, uniform_sphere};
+use glam::DVec3;
+
+use super::{caster, close, mixed, step, uniform};
+
+fn dipole() -> Dipole {
+    Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium")
+}
+
+/// What enters each vertex; everything where there is no boundary.
+fn entering(mesh: &Mesh, order: usize, transmittance: fn(f64) -> f64) -> (Vertices, Transfer) {
+    let vertices = Vertices::new(mesh, Tangents::Any).expect("vertices");
+    let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(14), &mut caster(mesh), false).expect("traced");
+    let response = Response::entering(transmittance, rays.rule());
+    let entering = Transfer::new(&vertices, &rays, &[response], order, Bounces::Count(0)).expect("irradiance");
+    (vertices, entering)
+}
+
+fn scattered(vertices: &Vertices, entering: &Transfer, mm_per_unit: f64, solid_angle: f64) -> Transfer {
+    let (options, dipole) = (ScatteringOptions { mm_per_unit, solid_angle }, dipole());
+    Transfer::scattered(vertices, entering, |r| dipole.r_d(r), options).expect("scattered")
+}
+
+/// A square of 2 x 2 with so many cells a side, in the plane z = 0.
+fn sheet(cells: u32) -> Mesh {
+    let side = cells + 1;
+    let at = |k: u32| 2.0 * k as f32 / cells as f32 - 1.0;
+    let positions = (0..side * side).map(|k| [at(k % side), at(k / side), 0.0]).collect();
+    let cell = |k: u32| k / cells * side + k % cells;
+    let triangles = (0..cells * cells).map(cell).flat_map(|a| [[a, a + 1, a + side + 1], [a, a + side + 1, a + side]]);
+    Mesh::new(positions, triangles.collect()).expect("a mesh")
+}
+
+#[test]
+fn a_sheet_scatters_as_the_exact_polygon() {
+    let cells = 60;
+    let (vertices, entering) = entering(&sheet(cells), 1, |_| 1.0);
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    for mm in [2.0, 6.0] {
+        let scattered = scattered(&vertices, &entering, mm, 0.0);
+        for at in [[0.0, 0.0], [0.5, 0.2]] {
+            let vertex = vertices.positions().iter().position(|p| (p[0] - at[0]).abs() + (p[1] - at[1]).abs() < 1e-5);
+            let place = DVec3::new(f64::from(at[0]), f64::from(at[1]), 0.0) * mm;
+            let polygon = corners.map(|[x, y]| DVec3::new(x, y, 0.0) * mm);
+            // Irradiance pi under uniform light, so that radiance is the share that comes back.
+            let expected = point_to_polygon(&dipole(), place, &polygon);
+            let found = scattered.radiance(vertex.expect("a vertex"), DVec3::Z, &uniform(1));
+            // Midpoints of cells of 1/15 and 1/5 mm, where the mean free path is 0.45.
+            close(found, expected, if mm < 3.0 { 2e-3 } else { 1e-2 }, "the share");
+        }
+    }
+}
+
+#[test]
+fn a_sphere_under_uniform_light_is_what_is_known() {
+    let mm = 3.0;
+    let expected = uniform_sphere(&dipole(), mm);
+    let errors = [8, 16, 32].map(|parts| {
+        let (vertices, entering) = entering(&super::ball(parts), 1, |_| 1.0);
+        let scattered = scattered(&vertices, &entering, mm, 0.01);
+        let error = |vertex| (scattered.radiance(vertex, DVec3::Z, &uniform(1)) / expected - 1.0).abs();
+        (0..vertices.len()).map(error).fold(0.0, f64::max)
+    });
+    // Edges of 0.6, 0.3 and 0.15 mm, where the mean free path is 0.45: of second order.
+    assert!(errors[1] < errors[0] / 2.5 && errors[2] < errors[1] / 2.5 && errors[2] < 0.01, "{errors:?}");
+}
+
+#[test]
+fn the_hierarchy_tends_to_all_pairs() {
+    let (vertices, entering) = entering(&super::ball(8), 4, |cosine| fresnel_transmittance(1.3, cosine));
+    let light = mixed(16);
+    let of = |solid_angle| {
+        let scattered = scattered(&vertices, &entering, 4.0, solid_angle);
+        (0..vertices.len()).map(|vertex| scattered.radiance(vertex, DVec3::Z, &light)).collect::<Vec<f64>>()
+    };
+    let truth = of(0.0);
+    let largest = truth.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let errors = [1.0, 0.1, 0.01].map(|solid_angle| {
+        let differences = of(solid_angle).into_iter().zip(&truth).map(|(found, truth)| (found - truth).abs());
+        differences.fold(0.0, f64::max) / largest
+    });
+    assert!(errors[0] > errors[1] && errors[1] > errors[2], "{errors:?}");
+    assert!(errors[2] < 1e-3 && errors[0] > 0.0, "{errors:?}");
+}
+
+#[test]
+fn it_goes_into_the_constant_function_alone() {
+    let mesh = step();
+    let (vertices, entering) = entering(&mesh, 3, |_| 1.0);
+    let part = scattered(&vertices, &entering, 1.0, 0.05);
+    let rays = super::trace(&mesh, &vertices, 14);
+    let brdf = crossbar::prt::brdf::Brdf::Lambert { albedo: 0.5 };
+    let incident = crossbar::prt::transfer::Incident::Harmonics { order: 4, inverse: true };
+    let views = DirectionRule::hemisphere(20);
+    let gloss =
+        Response::glossy(&brdf, &ExitBasis::of_order(3), true, incident, rays.rule(), &views).expect("a response");
+    let gloss = Transfer::new(&vertices, &rays, &[gloss], 3, Bounces::Count(0)).expect("a transfer");
+    let mut both = gloss.clone();
+    both.add(&part).expect("the same vertices");
+    for vertex in 0..vertices.len() {
+        assert_eq!(both.of(vertex)[9..], gloss.of(vertex)[9..]);
+        for (column, scattered) in part.of(vertex).iter().enumerate() {
+            let added = f64::from(both.of(vertex)[column]) - f64::from(gloss.of(vertex)[column]);
+            close(added, f64::from(*scattered) * (4.0 * PI).sqrt(), 1e-6, "y_0");
+        }
+    }
+    let refused = |mm_per_unit, solid_angle| {
+        let options = ScatteringOptions { mm_per_unit, solid_angle };
+        Transfer::scattered(&vertices, &entering, |_| 1.0, options).expect_err("refused").to_string()
+    };
+    assert!(refused(0.0, 0.1).contains("mm per unit") && refused(1.0, f64::NAN).contains("solid angle"));
+    let options = ScatteringOptions { mm_per_unit: 1.0, solid_angle: 0.1 };
+    let error = Transfer::scattered(&vertices, &gloss, |_| 1.0, options).expect_err("9 rows").to_string();
+    assert!(error.contains("rows, found 1 and 9"), "{error}");
+}
